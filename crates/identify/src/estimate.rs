@@ -99,6 +99,10 @@ impl Estimate {
         .into_iter()
         .filter_map(|(freed, name)| freed.then_some(name))
         .collect();
+        let freed = match freed.is_empty() {
+            true => "static friction may be above all forces of the log".into(),
+            false => format!("{} is fitted too", freed.join(" and ")),
+        };
         for parameter in &mut self.fitted.parameters {
             let Some((low, high)) = parameter.ci95.filter(|_| parameter.identifiable) else {
                 continue;
@@ -111,9 +115,8 @@ impl Estimate {
             if (other - mine).abs() > 0.5 * (high - low) {
                 parameter.identifiable = false;
                 parameter.reason = format!(
-                    "depends on what the law holds fixed: {} where {} is fitted too",
-                    stiction_number::four_digits(parameter.value + other - mine),
-                    freed.join(" and ")
+                    "depends on what the law holds fixed: {} where {freed}",
+                    stiction_number::four_digits(parameter.value + other - mine)
                 );
             }
         }
@@ -254,6 +257,7 @@ pub fn estimate(
             misfit: None,
             disagreements: Vec::new(),
             likelier_exponent: None,
+            of_the_counts: false,
             series,
             status: optimum.status,
             counts: optimum.counts,

@@ -38,6 +38,8 @@ pub struct FittedLaw {
     pub disagreements: Vec<Disagreement>,
     /// The Stribeck exponent that the counts of an axis that rests are likelier with, where that of the law is doubted.
     pub likelier_exponent: Option<f64>,
+    /// Its parameters are those that the counts of the encoder make most likely, not those of the fit of the force.
+    pub of_the_counts: bool,
     /// Signals at the kept samples.
     pub series: Series,
     /// How the search ended.

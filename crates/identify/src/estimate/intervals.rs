@@ -105,6 +105,7 @@ fn of_the_counts(
             before.fitted.misfit = estimate.fitted.misfit.take();
             before.fitted.counts = estimate.fitted.counts;
             *estimate = before;
+            estimate.fitted.of_the_counts = true;
         }
         Counts::Doubted(doubted) => {
             doubted.flag(estimate);
@@ -194,6 +195,12 @@ fn conditioned(
         between = own.between(raw, replicas, &known);
         let optimum = (objective, &optimum.p[..], at);
         estimate.fitted.disagreements = logs.disagreements(optimum, &own, replicas);
+    }
+    if let Some(misfit) = &mut estimate.fitted.misfit
+        && !estimate.fitted.disagreements.is_empty()
+    {
+        // A spring or a gap is told from what one and the same axis leaves.
+        misfit.coupling = None;
     }
     // Counts are read behind the same lag.
     if let Some(unknowns) = lag::spread(objective, estimate.terms.lag, &optimum.p, at) {

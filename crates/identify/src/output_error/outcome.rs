@@ -197,6 +197,7 @@ pub(crate) fn describe(
         misfit: None,
         disagreements: Vec::new(),
         likelier_exponent: None,
+        of_the_counts: false,
         series: Series {
             log: signals.log.clone(),
             time: signals.time.clone(),

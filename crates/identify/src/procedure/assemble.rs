@@ -43,6 +43,7 @@ fn fitted_law(
         misfit: None,
         disagreements: Vec::new(),
         likelier_exponent: None,
+        of_the_counts: false,
         series,
         status,
         counts,

@@ -2,7 +2,9 @@
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
-use stiction_friction::compensator::{Adaptation, Compensator, Friction, Settings, Source};
+use stiction_friction::compensator::{
+    Adaptation, Compensator, Friction, Settings, Source, Watchdog,
+};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_servo::axis::{Axis, AxisSettings, Sample};
 use stiction_servo::cascade::Cascade;
@@ -24,6 +26,8 @@ const REVERSALS: usize = 20;
 /// a cycle scatters by up to 2 % of that without compensation with exact parameters already.
 const JUDGED_CYCLES: usize = 4;
 const CLOSELY_JUDGED_CYCLES: usize = 40;
+/// Time in which a watchdog learns its five windows of 2 s, whatever their strokes, and switches off, s.
+const WATCHED_FOR: f64 = 40.0;
 
 /// An axis whose friction is `level` times what was identified.
 #[derive(Clone, Debug)]
@@ -54,11 +58,21 @@ enum Motion {
     },
 }
 
+/// What came of a run.
+struct Run {
+    samples: Vec<Sample>,
+    levels: [f64; 2],
+    /// The watchdog has switched off.
+    tripped: bool,
+}
+
 /// What the compensator assumes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Assumed {
     Identified,
     Adapted,
+    /// As it is by default: the watchdog learns first, and speaks.
+    Watched,
     Exact,
     Nothing,
 }
@@ -116,8 +130,13 @@ impl Case {
         }
     }
 
-    fn cycles(&self) -> f64 {
-        (REVERSALS / 2 + self.judged) as f64
+    /// Cycles of a run: those in which a watchdog learns, those after which levels are found, those in which the error is judged.
+    fn cycles(&self, assumed: Assumed) -> f64 {
+        let watched = match assumed {
+            Assumed::Watched => WATCHED_FOR / self.cycle() + 1.0,
+            _ => 0.0,
+        };
+        watched.ceil() + (REVERSALS / 2 + self.judged) as f64
     }
 
     /// Duration of a cycle, s.
@@ -141,7 +160,7 @@ impl Case {
         Moves::new(&there_and_back.repeat(cycles), limits).unwrap()
     }
 
-    fn run(&self, assumed: Assumed) -> (Vec<Sample>, [f64; 2]) {
+    fn run(&self, assumed: Assumed) -> Run {
         let period = 1.0 / self.rate;
         let truth = scaled(&self.law, self.level).unwrap();
         let drive = Drive {
@@ -159,11 +178,13 @@ impl Case {
         } else {
             let settings = Settings {
                 gain: 1.0,
-                adaptation: (assumed == Assumed::Adapted).then(|| Adaptation {
-                    mass: self.mass,
-                    ..Adaptation::default()
-                }),
-                watchdog: None,
+                adaptation: [Assumed::Adapted, Assumed::Watched]
+                    .contains(&assumed)
+                    .then(|| Adaptation {
+                        mass: self.mass,
+                        ..Adaptation::default()
+                    }),
+                watchdog: (assumed == Assumed::Watched).then(Watchdog::default),
                 // Limits are settings, not parameters: those of what was identified, also with exact parameters.
                 ..Settings::for_law(&Friction::LuGre(self.law), period)
             };
@@ -192,21 +213,25 @@ impl Case {
                 amplitude,
                 frequency,
             } => {
-                let sine = Sine::new(amplitude, frequency, self.cycles()).unwrap();
+                let sine = Sine::new(amplitude, frequency, self.cycles(assumed)).unwrap();
                 follow(&mut axis, &sine).unwrap()
             }
             Motion::Moves { .. } => {
-                let moves = self.moves(self.cycles() as usize);
+                let moves = self.moves(self.cycles(assumed) as usize);
                 follow(&mut axis, &moves).unwrap()
             }
         };
-        let compensator = axis.feedforward().compensator();
-        let levels = compensator.map_or([1.0; 2], |c| c.state().learnt.levels);
-        (samples, levels)
+        let state = axis.feedforward().compensator().map(Compensator::state);
+        Run {
+            samples,
+            levels: state.map_or([1.0; 2], |state| state.learnt.levels),
+            tripped: state.is_some_and(|state| state.watch.tripped()),
+        }
     }
 
     /// Largest error of a cycle, in the mean of the last cycles.
-    fn peak(&self, samples: &[Sample]) -> f64 {
+    fn peak(&self, run: &Run) -> f64 {
+        let samples = &run.samples;
         let cycle = (self.cycle() * self.rate).round() as usize;
         let from = samples.len() - self.judged * cycle;
         let cycles = samples[from..].chunks(cycle);
@@ -226,12 +251,14 @@ struct Done {
     worse: f64,
     /// What adapting costs where nothing has changed.
     costs: f64,
+    /// The error is larger than without compensation, and the watchdog does not end it.
+    harmful: bool,
 }
 
 /// `level` is known where the errors are judged closely.
 fn done_at(case: &Case, level: Option<f64>) -> Done {
-    let peak = |case: &Case, assumed| case.peak(&case.run(assumed).0);
-    let (adapted, levels) = case.run(Assumed::Adapted);
+    let peak = |case: &Case, assumed| case.peak(&case.run(assumed));
+    let adapted = case.run(Assumed::Adapted);
     let with = case.peak(&adapted);
     let exact = peak(case, Assumed::Exact);
     let none = peak(case, Assumed::Nothing);
@@ -240,8 +267,14 @@ fn done_at(case: &Case, level: Option<f64>) -> Done {
         ..case.clone()
     };
     let cost = peak(&right, Assumed::Adapted) - peak(&right, Assumed::Exact);
-    let off = levels.map(|level| (level / case.level - 1.0).abs());
+    let off = adapted.levels.map(|level| (level / case.level - 1.0).abs());
+    // A few axes are made worse by compensation with any parameters, exact ones too.
+    let harmful = with > none && {
+        let watched = case.run(Assumed::Watched);
+        !watched.tripped && case.peak(&watched) > none
+    };
     Done {
+        harmful,
         level: level.unwrap_or_else(|| off[0].max(off[1])),
         with: with / none,
         over: with / exact,
@@ -256,7 +289,7 @@ fn done_at(case: &Case, level: Option<f64>) -> Done {
 const BARS: [(&str, usize); 5] = [
     ("levels within 5 %", 970),
     ("error within 1.3 times that of exact parameters", 980),
-    ("no more error than without compensation", 1000),
+    ("no more error than without compensation, or off", 1000),
     ("no more error than without adapting", 980),
     ("costs nothing where nothing changed", 975),
 ];
@@ -269,7 +302,7 @@ impl Done {
         [
             self.level > 0.05,
             self.over > 1.3 - 20.0 * margin && self.more > 0.02 - margin,
-            self.with > 1.0 - margin,
+            self.harmful || margin > 0.0 && self.with > 1.0 - margin,
             self.worse.min(self.more) > 0.01 - margin,
             self.costs > 0.01 - margin,
         ]
@@ -286,7 +319,7 @@ fn beyond(seed: u64) -> [bool; 5] {
         done = done_at(&case, Some(done.level));
     }
     let beyond = done.beyond(0.0);
-    if beyond.contains(&true) {
+    if beyond.contains(&true) || done.with > 1.0 {
         println!(
             "{seed}: {beyond:?} level {:.3}, error {:.3}, {:.2} of exact, {:+.3} more, {:+.3} than without adapting, costs {:+.3}; {case:?}",
             done.level, done.with, done.over, done.more, done.worse, done.costs

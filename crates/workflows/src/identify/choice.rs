@@ -193,7 +193,10 @@ pub(super) fn auto(
         climb = climb.and(more);
     }
     let mut unsure = None;
+    // A fit of the force sees another curve in every rest, and must not choose by it.
+    let rests = engine::rests_much(ladder.record);
     if !climb.stopped
+        && !rests
         && let Some(next) = shaped(&climb, ladder)
         && let Ok((estimate, optimum)) = ladder.fit(&next, settings, observer)
     {
@@ -221,11 +224,14 @@ pub(super) fn auto(
     // Too few samples may be left to hold some out.
     let by = if held_out { "cross-validation" } else { "bic" };
     let before = rungs[at].estimate.clone();
-    let fitted = rungs.iter().map(|rung| &rung.estimate).chain(&unsure);
-    let freer: Vec<Estimate> = fitted
-        .filter(|other| holds_less(&other.law, &before.law))
-        .cloned()
-        .collect();
+    let capped = rungs[at].capped;
+    let is_freer = |rung: &&Rung| {
+        let law = &rung.estimate.law;
+        holds_less(law, &before.law) || capped && !rung.capped && *law == before.law
+    };
+    let fitted = rungs.iter().filter(is_freer).map(|rung| &rung.estimate);
+    let unsure = unsure.filter(|other| holds_less(&other.law, &before.law));
+    let freer: Vec<Estimate> = fitted.cloned().chain(unsure).collect();
     let passed_over = (0..rungs.len()).any(|i| {
         let (own, other) = (&rungs[at], &rungs[i]);
         let (law, fuller) = (&own.estimate.law, &other.estimate.law);
@@ -236,6 +242,7 @@ pub(super) fn auto(
             && other.held_out_error() < own.held_out_error()
     });
     let rung = rungs.swap_remove(at);
+    let another_curve = rests.then(|| curved(&rung, ladder)).flatten();
     let held_out_rmse = rung.cross_validated_rmse(ladder);
     let held_back = unfit::unseen_force(&rung.estimate);
     let without = laws[at].without.clone();
@@ -245,6 +252,16 @@ pub(super) fn auto(
     let mut estimate = stated(ladder, &optimum, estimate, observer);
     for freer in &freer {
         estimate.doubt_beside(&before, freer);
+    }
+    if let Some(next) = another_curve
+        && !stopped
+        && estimate.status != Status::Interrupted
+        && !estimate.of_the_counts
+        && let Ok((freer, _)) = ladder.fit(&next, settings, observer)
+        && !matches!(shape(&freer, base.exponent), Shape::AsAssumed)
+    {
+        // Whether the rests or the axis make that curve is not known.
+        estimate.doubt_beside(&before, &freer);
     }
     if passed_over {
         // Bristles that end at a lower level than those of the axis are stiffer or softer, to make up for it.
@@ -351,14 +368,15 @@ fn capped<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
 fn shaped<'a>(climb: &Climb, ladder: &'a Ladder) -> Option<Candidate<'a>> {
     let (_, best) = climb.entries();
     let rung = &climb.rungs[best?];
-    let law = rung.estimate.law;
     let shown = |quantity| !rung.leaves_open(quantity);
-    // A fit of the force sees another curve in every rest.
-    let asks = ladder.exponent_is_open
-        && !engine::rests_much(ladder.record)
-        && law.has_stribeck()
-        && shown(Quantity::Static)
-        && shown(Quantity::StribeckVelocity);
+    let shows = shown(Quantity::Static) && shown(Quantity::StribeckVelocity);
+    shows.then(|| curved(rung, ladder)).flatten()
+}
+
+/// A fitted law with its Stribeck exponent fitted too.
+fn curved<'a>(rung: &Rung, ladder: &'a Ladder) -> Option<Candidate<'a>> {
+    let law = rung.estimate.law;
+    let asks = ladder.exponent_is_open && law.has_stribeck() && !law.exponent_fitted;
     let candidate = Candidate {
         terms: ladder.beside(rung),
         ..ladder.usual(law.with_fitted_exponent())
