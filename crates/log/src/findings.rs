@@ -18,6 +18,7 @@
 //! | `zero-filled` | position, force or load 0 in many samples whose neighbours are far from it | as missing cells |
 //! | `short-column` | a column ends before the others | all cut to the shortest; refused if that costs over 1 % |
 //! | `saturation` | force constant at its extreme for 5 samples or more and not a staircase; or at a given limit | samples excluded |
+//! | `force-spike` | single samples beyond all others by more than three times their range | interpolated linearly and excluded |
 //! | `coarse-force` | force in steps of more than a fiftieth of its range | kept |
 //! | `held-position` | the position changes at every n-th row only, n up to 64 | rows between left out |
 //! | `stuck-encoder` | position frozen while the velocity, the reference or the jump after it shows motion | samples excluded |
@@ -38,6 +39,7 @@ mod force;
 mod motion;
 mod ratio;
 pub(crate) mod rest;
+mod spike;
 mod stray;
 mod stuck;
 mod velocity;
@@ -59,6 +61,7 @@ pub(crate) fn inspect(log: &mut Log, mapping: &Mapping) {
     encoder::steps(log, mapping);
     stray::strays(log);
     stuck::stuck(log);
+    spike::spikes(log);
     force::saturation(log, mapping);
     force::steps(log);
     force::sign(log);

@@ -64,12 +64,13 @@ impl Clean {
 }
 
 /// What is put into a clean log, and the code that must tell.
-const FAULTS: [&str; 9] = [
+const FAULTS: [&str; 10] = [
     "gap",
     "duplicate-time",
     "time-missing",
     "missing-cells",
     "saturation",
+    "force-spike",
     "stuck-encoder",
     "velocity-mismatch",
     "force-sign",
@@ -95,6 +96,14 @@ fn spoil(table: &mut Table, fault: &str, at: usize, size: usize, seed: usize) {
                 .iter_mut()
                 .for_each(|f| *f = f.clamp(-0.5 * top, 0.5 * top));
             table.columns[3].values = force;
+        }
+        "force-spike" => {
+            let top = table.columns[3]
+                .values
+                .iter()
+                .fold(0.0_f64, |m, f| m.max(f.abs()));
+            let sign = [-1.0, 1.0][seed % 2];
+            table.columns[3].values[at] = 20.0 * sign * top;
         }
         "stuck-encoder" => {
             // Long enough that the axis cannot have been at rest.
