@@ -52,7 +52,7 @@ pub(super) fn spikes(log: &mut Log) {
     let message = format!(
         "force is beyond all others by more than {BEYOND} times their range in {}, first {} {} at {}: errors of the measurement \
          or its transmission; interpolated and excluded",
-        count(samples, "single sample"),
+        count(samples, "sample"),
         short(largest),
         log.force_unit,
         place(log, first)
