@@ -376,6 +376,18 @@ fn another_curve_shows_where_an_axis_rests() {
     assert!(!gaussian.codes.contains(&"law-shape"), "{gaussian}");
 }
 
+/// Where counts do not state the law of an axis that rests, what would be elsewhere with the exponent fitted is open.
+#[test]
+fn what_another_curve_moves_is_open_where_an_axis_rests() {
+    let mut machines = Machine::all(SEED).into_iter();
+    let (_, machine) = machines.find(|(name, _)| *name == "screw").unwrap();
+    let log = record(&machine, Motion::Commissioning, World::Exponent, SEED);
+    let fit = identified(&machine, &[log], &Axis::default(), &Options::default()).unwrap();
+    let coulomb = fit.parameter("coulomb").unwrap();
+    let why = "where the Stribeck exponent is fitted too";
+    assert!(coulomb.reason().contains(why), "{}", coulomb.reason());
+}
+
 /// A force that is held from its row on is half a sample ahead of its motion, which elements cannot find by themselves.
 #[test]
 fn elements_are_fitted_beside_the_delay_of_the_log() {
