@@ -20,7 +20,8 @@
 //!    reference, temperature and load every missing cell is interpolated or held: they vary slowly; so it is in an
 //!    acceleration, which no fit has to rely on. A temperature or load without a number for most of the time is left out;
 //! 9. a rate, travel, speed or force that no axis has is refused: its unit is wrong;
-//! 10. the log is inspected (see [`Finding`]).
+//! 10. the log is inspected (see [`Finding`]);
+//! 11. where the motor is known, its force follows from the current, voltage or duty of the column.
 //!
 //! No sample is resampled, filtered or moved in time.
 
@@ -28,6 +29,7 @@ mod cells;
 mod chosen;
 mod clock;
 mod credible;
+mod driven;
 mod dropout;
 mod filled;
 mod held;
@@ -36,7 +38,7 @@ mod unwrap;
 use crate::findings::{self, Finding, Severity};
 use crate::join::Joined;
 use crate::mapping::{Enable, Mapping, Motion, Role, Source, Understood, parts};
-use crate::{Error, Kind, Table};
+use crate::{Dimension, Error, Kind, Table};
 use cells::LeftOut;
 pub use chosen::NotEnabled;
 use std::borrow::Cow;
@@ -174,7 +176,11 @@ impl Log {
                 sources.push((role, source));
             }
         }
-        same_force(&sources)?;
+        let motion = mapping.motion.unwrap_or(Motion::Linear);
+        if let Some(drive) = &mapping.drive {
+            driven::check(drive, motion, mapping.force_limit)?;
+        }
+        same_force(&sources, mapping.drive.map(|_| motion.force()))?;
         let enable = Enable::of(&mapping, &table)?;
         keep_columns(&mut table, |column| {
             enable == Some(column) || sources.iter().any(|(_, source)| source.column == column)
@@ -244,7 +250,7 @@ impl Log {
         let first = time[0];
         time.iter_mut().for_each(|t| *t -= first);
         let mut log = Self {
-            motion: mapping.motion.unwrap_or(Motion::Linear),
+            motion,
             rate_hz: rate(&time),
             segments: std::iter::once(0..time.len()).collect(),
             start: clock.start + first,
@@ -275,6 +281,10 @@ impl Log {
         log.findings.extend(unlikely);
         let mapping = log.mapping.clone();
         findings::inspect(&mut log, &mapping);
+        let force = sources.iter().find(|(role, _)| *role == Role::Force);
+        if let (Some(drive), Some((_, force))) = (&mapping.drive, force) {
+            driven::drive(&mut log, drive, force.dimension)?;
+        }
         log.excluded
             .sort_by_key(|e| (e.samples.start, e.samples.end));
         Ok(log)
@@ -451,16 +461,17 @@ fn rate(time: &[f64]) -> f64 {
     format!("{rate:.8e}").parse().unwrap_or(rate)
 }
 
-/// What acts from outside adds to the force, and so is in its unit.
-fn same_force(sources: &[(Role, Source)]) -> Result<(), Error> {
+/// What acts from outside adds to the force, and so is in its unit: that of the column, or the one that a motor makes of it.
+fn same_force(sources: &[(Role, Source)], made: Option<Dimension>) -> Result<(), Error> {
     let of = |role| sources.iter().find(|(own, _)| *own == role);
     let (Some((_, force)), Some((_, external))) = (of(Role::Force), of(Role::External)) else {
         return Ok(());
     };
-    if force.dimension == external.dimension {
+    let wanted = made.unwrap_or(force.dimension);
+    if wanted == external.dimension {
         return Ok(());
     }
-    let (own, wanted) = (external.dimension.si_text(), force.dimension.si_text());
+    let (own, wanted) = (external.dimension.si_text(), wanted.si_text());
     let found = format!("external is in {own} and the force in {wanted}");
     let allowed = format!(
         "both in one unit, such as external = {{ column = \"...\", scale = \"0.1 {wanted}/{own}\" }}"

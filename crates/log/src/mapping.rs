@@ -37,6 +37,7 @@ mod choose;
 mod complete;
 mod convert;
 mod describe;
+mod drive;
 pub(crate) mod enable;
 mod flags;
 mod limits;
@@ -51,6 +52,8 @@ use crate::{Error, Kind, Table};
 pub use channel::{Channel, Motion, Role, Selector};
 pub(crate) use complete::time_source;
 pub(crate) use convert::{LARGEST_VALUE, Source};
+pub(crate) use drive::Gain;
+pub use drive::{BACK_EMFS, Drive, FORCE_CONSTANTS, RESISTANCES, SUPPLIES};
 pub use enable::Enable;
 pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAPS};
 pub use parts::Parts;
@@ -99,6 +102,8 @@ pub struct Mapping {
     pub acceleration: Option<Channel>,
     /// Column of force, torque, or the current or voltage proportional to it.
     pub force: Option<Channel>,
+    /// The motor, where the column holds its current, voltage or duty; `None` takes the column as it is.
+    pub drive: Option<Drive>,
     /// Column of the reference (commanded) position.
     pub reference: Option<Channel>,
     /// Temperature column.

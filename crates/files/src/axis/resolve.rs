@@ -1,6 +1,7 @@
 //! From the axis file as typed to SI values that the libraries take.
 
 mod columns;
+mod drive;
 mod limits;
 mod log;
 mod resolver;
@@ -76,6 +77,7 @@ impl Resolver {
         self.mapping(root, &mut axis.mapping)?;
         let folder = axis.file.parent().unwrap_or(Path::new(""));
         axis.joined = columns::columns(root, &mut axis.mapping, folder)?;
+        axis.mapping.drive = drive::drive(root)?;
         self.log(root, axis, &axis.file.clone())?;
         text_options(root, &mut axis.text)?;
         axis.conditioning = self.conditioning(root)?;

@@ -157,6 +157,7 @@ pub fn template(
         travel,
         limit,
         speed_gain,
+        scale: constant,
         ..
     } = words;
     let resolution = match &found.resolution {
@@ -178,6 +179,11 @@ pub fn template(
          {wrap}\n\
          {resolution}\n\
          # force_limit = \"{limit}\"   # where the force saturates\n\n\
+         # Where the force column is the voltage or the duty of a motor:\n\
+         # [drive]\n\
+         # force_constant = \"{constant}\"\n\
+         # resistance = \"1.2 ohm\"\n\
+         # supply = \"24 V\"           # of a duty\n\n\
          [conditioning]\n\
          # source_cutoff = \"100 Hz\" # \"auto\" (default), \"off\" or a frequency\n\
          # common_cutoff = \"50 Hz\"\n\

@@ -8,6 +8,7 @@ mod common;
 mod compare;
 mod compare_logs;
 mod contours;
+mod driven;
 mod export;
 mod geared;
 mod library;
