@@ -193,16 +193,14 @@ impl Log {
         let mut left_out = dropout::clear(&mut columns, &table, &sources, &clock, &mut findings);
         keep_columns(&mut table, |_| false);
         let mut time = clock.time;
-        if let Some(wrap) = mapping.wrap {
-            let unit = mapping
-                .motion
-                .unwrap_or(Motion::Linear)
-                .position()
-                .si_text();
-            if let Some(position) = columns.get_mut(Role::Position) {
-                unwrap::resolved(position, wrap.period, mapping.resolution, &unit)?;
-                findings.push(unwrap::unwrap(position, wrap.period, &unit));
-            }
+        if let Some(wrap) = mapping.wrap
+            && let Some(position) = columns.get_mut(Role::Position)
+        {
+            let source = sources.iter().find(|(role, _)| *role == Role::Position);
+            let period = unwrap::period(wrap, source.map(|(_, source)| source))?;
+            let unit = motion.position().si_text();
+            unwrap::resolved(position, period, mapping.resolution, &unit)?;
+            findings.push(unwrap::unwrap(position, period, &unit));
         }
         let held = columns
             .get_mut(Role::Position)
@@ -288,6 +286,15 @@ impl Log {
         log.excluded
             .sort_by_key(|e| (e.samples.start, e.samples.end));
         Ok(log)
+    }
+
+    /// Counts of the counter that overflows where the position jumps by this much, m or rad; `None` where the position is not
+    /// logged in counts, or the jump is none of a counter of 8 to 48 bits.
+    pub fn counter(&self, jump: f64) -> Option<u64> {
+        let channel = self.mapping.position.as_ref()?;
+        let counts = channel.unit.as_ref()?.dimension() == Dimension::COUNTS;
+        let count = channel.scale.as_ref().filter(|_| counts)?.si();
+        unwrap::bits(jump, count).map(|bits| 1 << bits)
     }
 
     /// Which samples may be fitted to: those that nothing excludes but a rest at an end, which for a procedure that

@@ -55,24 +55,24 @@ pub(crate) use convert::{LARGEST_VALUE, Source};
 pub(crate) use drive::Gain;
 pub use drive::{BACK_EMFS, Drive, FORCE_CONSTANTS, RESISTANCES, SUPPLIES};
 pub use enable::Enable;
-pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAPS};
+pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAP_COUNTS, WRAPS};
 pub use parts::Parts;
 pub(crate) use select::select;
 pub use understood::{Assumed, Understood};
 
 /// A position that wraps after some travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wrap {
+pub enum Wrap {
     /// Travel after which the position repeats, m or rad; 1e-9 to 1e9.
-    pub period: f64,
+    Travel(f64),
+    /// Counts after which the counter repeats, such as 65536 of 16 bits, signed or not; 2 to 2^53. For a position column in counts.
+    Counts(f64),
 }
 
 impl Wrap {
     /// A position that runs from `-limit` to `+limit` (m or rad, above 0).
     pub fn at(limit: f64) -> Self {
-        Self {
-            period: 2.0 * limit,
-        }
+        Wrap::Travel(2.0 * limit)
     }
 }
 
@@ -191,10 +191,15 @@ impl Mapping {
 
     fn check_numbers(&self) -> Result<(), Error> {
         // Wide enough for any machine, narrow enough that no sum overflows.
-        let wrap = self.wrap.map(|w| w.period);
+        let [travel, counts] = match self.wrap {
+            Some(Wrap::Travel(travel)) => [Some(travel), None],
+            Some(Wrap::Counts(counts)) => [None, Some(counts)],
+            None => [None; 2],
+        };
         let bounded = [
             ("rate", "rate", self.rate_hz, RATES, "Hz"),
-            ("wrap period", "log.wrap", wrap, WRAPS, "m or rad"),
+            ("wrap period", "log.wrap", travel, WRAPS, "m or rad"),
+            ("wrap period", "log.wrap", counts, WRAP_COUNTS, "counts"),
             (
                 "resolution",
                 "log.resolution",

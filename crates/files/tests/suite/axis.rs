@@ -7,7 +7,7 @@ use stiction_files::axis::{Found, ListedLog, Use, template};
 use stiction_files::{Axis, Error};
 use stiction_identify::{Cutoff, Hold, Source};
 use stiction_log::{
-    Channel, Column, Log, Mapping, Motion, Parts, Role, Selector, Table, Unit, Value,
+    Channel, Column, Log, Mapping, Motion, Parts, Role, Selector, Table, Unit, Value, Wrap,
 };
 use stiction_search::Method;
 use stiction_search::genetic::{self, Annealing, Crossover, Rates, Ratio, Selection};
@@ -87,7 +87,12 @@ fn every_key_is_understood() {
     assert_eq!(axis.mapping.rate_hz, Some(2000.0));
     assert_eq!(axis.mapping.crop, Some((0.5, 60.0)));
     assert_eq!(axis.mapping.rests, Some(stiction_log::Rests::Cut));
-    assert!(near(axis.mapping.wrap.unwrap().period, 2.0 * PI));
+    let Some(Wrap::Travel(travel)) = axis.mapping.wrap else {
+        panic!("{:?}", axis.mapping.wrap)
+    };
+    assert!(near(travel, 2.0 * PI));
+    let counts = parse("[log]\nwrap = \"65536 counts\"\n").unwrap();
+    assert_eq!(counts.mapping.wrap, Some(Wrap::Counts(65536.0)));
     assert!(near(axis.mapping.resolution.unwrap(), 1e-4));
     assert!(near(axis.mapping.force_limit.unwrap(), 4.0));
     let force = axis.mapping.force.as_ref().unwrap();

@@ -131,10 +131,18 @@ pub(super) fn jumps(log: &mut Log) {
     }
     let unit = log.motion.position().si_text();
     let size = (position[first + 1] - position[first]).abs();
+    let wraps = match log.counter(size) {
+        Some(counts) => format!(
+            "that is a counter of {} bits: write wrap = \"{counts} counts\" under [log] in axis.toml",
+            counts.ilog2()
+        ),
+        None => {
+            "if the position wraps there, give that travel as wrap under [log] in axis.toml".into()
+        }
+    };
     let message = format!(
-        "position jumps {} by more than half its range, first by {} {unit} after {}; if the \
-         position wraps there, give that travel as wrap under [log] in axis.toml; the record is \
-         split at the jumps",
+        "position jumps {} by more than half its range, first by {} {unit} after {}; {wraps}; the \
+         record is split at the jumps",
         count(jumps.len(), "time"),
         short(size),
         place(log, first)

@@ -6,6 +6,8 @@ use std::ops::RangeInclusive;
 pub const RATES: RangeInclusive<f64> = 1e-3..=1e9;
 /// Travels after which a position may repeat, m or rad.
 pub const WRAPS: RangeInclusive<f64> = 1e-9..=1e9;
+/// Counts after which a counter may repeat.
+pub const WRAP_COUNTS: RangeInclusive<f64> = 2.0..=9_007_199_254_740_992.0;
 /// Encoder steps that may be given, m or rad.
 pub const RESOLUTIONS: RangeInclusive<f64> = 1e-15..=1e9;
 /// Force limits that may be given, in the SI unit of the force.

@@ -299,7 +299,7 @@ fn any_mapping() -> impl Strategy<Value = Mapping> {
         .prop_map(
             |(motion, rate_hz, channels, period, crop, resolution, force_limit)| {
                 let [time, position, velocity, force, reference] = channels;
-                let wrap = period.map(|period| Wrap { period });
+                let wrap = period.map(Wrap::Travel);
                 Mapping {
                     motion,
                     rate_hz,

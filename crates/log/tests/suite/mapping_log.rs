@@ -3,7 +3,7 @@
 use crate::mapping_common;
 use crate::mapping_common::{Axis, axis, codes, column, message, noise, table, told, warnings};
 use std::f64::consts::PI;
-use stiction_log::{Channel, Kind, Log, Mapping, Table, Unit, Wrap};
+use stiction_log::{Channel, Kind, Log, Mapping, Table, Unit, Value, Wrap};
 
 fn read(table: &Table) -> Log {
     let log = Log::from_table(table, &Mapping::default()).unwrap_or_else(|e| panic!("{e}"));
@@ -272,6 +272,47 @@ fn a_wrapping_position_is_put_together() {
         message(&log, "position-wrap"),
         "position never wraps: no step is longer than half the wrap of 40 m; nothing was unwrapped"
     );
+}
+
+/// A counter of 16 bits, signed or not, starts again while the axis goes on.
+#[test]
+fn a_counter_that_overflows_is_put_together() {
+    for first in [-32768_i64, 0] {
+        let mut axis = axis(4000);
+        // 1 um a count: the stroke of 0.1 m overflows 16 bits.
+        let counts = |x: f64| (x / 1e-6).round();
+        let whole: Vec<f64> = axis.position.iter().map(|x| counts(*x)).collect();
+        for x in &mut axis.position {
+            *x = (counts(*x) as i64 - first).rem_euclid(65536) as f64 + first as f64;
+        }
+        let mut table = axis.table();
+        table.columns[1].unit = Some("counts".into());
+        let position = Channel {
+            scale: Some("1 um/count".parse::<Value>().unwrap()),
+            ..Channel::named("position")
+        };
+        let mapping = |wrap| Mapping {
+            position: Some(position.clone()),
+            wrap,
+            ..Mapping::default()
+        };
+        let split = Log::from_table(&table, &mapping(None)).unwrap();
+        let told = message(&split, "position-jump");
+        assert!(told.contains("write wrap = \"65536 counts\""), "{told}");
+        let log = Log::from_table(&table, &mapping(Some(Wrap::Counts(65536.0)))).unwrap();
+        let shift = log.position.as_ref().unwrap()[0] - 1e-6 * whole[0];
+        for (a, b) in log.position.as_ref().unwrap().iter().zip(&whole) {
+            assert!((a - 1e-6 * b - shift).abs() < 1e-9, "{first}");
+        }
+    }
+    // Of a position in metres no counts are known.
+    let mapping = Mapping {
+        wrap: Some(Wrap::Counts(65536.0)),
+        ..Mapping::default()
+    };
+    let error = Log::from_table(&axis(4000).table(), &mapping).unwrap_err();
+    assert_eq!(error.setting(), Some("log.wrap"));
+    assert!(error.to_string().contains("the position is in"), "{error}");
 }
 
 /// Counts that are lost in motion, for good or for one sample; a slip out of a rest is no fault.
@@ -585,7 +626,7 @@ fn many_faults_take_linear_time() {
         }
     }
     let begin = std::time::Instant::now();
-    let wrap = Some(Wrap { period: 1.0 });
+    let wrap = Some(Wrap::Travel(1.0));
     let log = Log::from_table(
         &axis.table(),
         &Mapping {
@@ -749,7 +790,7 @@ fn a_wrap_is_longer_than_the_steps_of_the_encoder() {
         .for_each(|x| *x = (*x / 1e-6).round() * 1e-6);
     let with = |period: f64, resolution: Option<f64>| {
         let mapping = Mapping {
-            wrap: Some(Wrap { period }),
+            wrap: Some(Wrap::Travel(period)),
             resolution,
             ..Mapping::default()
         };

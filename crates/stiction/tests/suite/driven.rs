@@ -48,7 +48,7 @@ fn a_voltage_and_a_duty_tell_what_the_force_tells() {
     let (machine, log, volts) = logged();
     let force = identified(
         &machine,
-        &[log.clone()],
+        std::slice::from_ref(&log),
         &Axis::default(),
         &Options::default(),
     );

@@ -72,7 +72,10 @@ fn found(log: &Log) -> Found {
     Found {
         assumed: assumed(log).map(|(role, _)| role).collect(),
         resolution: log.quantum.map(|step| length(log, step)),
-        wrap: wrap(log).map(|travel| length(log, travel)),
+        wrap: wrap(log).map(|travel| match log.counter(travel) {
+            Some(counts) => format!("{counts} counts"),
+            None => length(log, travel),
+        }),
         columns: Vec::new(),
     }
 }

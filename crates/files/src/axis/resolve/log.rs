@@ -6,7 +6,7 @@ use crate::axis::values::Axis;
 use crate::config::{Given, Table};
 use crate::error::Error;
 use std::path::Path;
-use stiction_log::mapping::{FORCE_LIMITS, RESOLUTIONS, WRAPS};
+use stiction_log::mapping::{FORCE_LIMITS, RESOLUTIONS, WRAP_COUNTS, WRAPS};
 use stiction_log::{Dimension, Mapping, Rests, Wrap};
 
 /// Most logs that an axis file may list.
@@ -53,8 +53,8 @@ impl Resolver {
                 .map(|given| self.within(&given, dimensions, range))
                 .transpose()
         };
-        let wrap = within(log.get("wrap"), &LENGTHS, &WRAPS)?;
-        mapping.wrap = wrap.map(|period| Wrap { period });
+        let wrap = log.get("wrap").map(|given| self.wrap(&given));
+        mapping.wrap = wrap.transpose()?;
         mapping.resolution = within(log.get("resolution"), &LENGTHS, &RESOLUTIONS)?;
         mapping.force_limit = within(log.get("force_limit"), &FORCES, &FORCE_LIMITS)?;
         if let Some(given) = log.get("crop") {
@@ -66,6 +66,21 @@ impl Resolver {
             Some(_) => Some(Rests::Keep),
         };
         Ok(())
+    }
+
+    /// A travel, or the counts of a counter.
+    fn wrap(&self, given: &Given<'_>) -> Result<Wrap, Error> {
+        let (counts, dimension) =
+            given.positive(&[Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS])?;
+        if dimension != Dimension::COUNTS {
+            return Ok(Wrap::Travel(self.within(given, &LENGTHS, &WRAPS)?));
+        }
+        match WRAP_COUNTS.contains(&counts) && counts.fract() == 0.0 {
+            true => Ok(Wrap::Counts(counts)),
+            false => {
+                Err(given.refused("a whole number of counts, such as \"65536 counts\" of 16 bits"))
+            }
+        }
     }
 
     fn one_log(
