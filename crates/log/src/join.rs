@@ -5,7 +5,7 @@
 //! Where it is sampled at half the rate or less, only rows nearest to its samples are kept, since nothing is known of it in
 //! between; temperatures and loads change slowly, and are not thinned so.
 
-use crate::findings::{Finding, Severity, count, median, short};
+use crate::findings::{Finding, Severity, count, full, median, short};
 use crate::mapping::{Channel, Mapping, Role, Source, select, time_source};
 use crate::{Column, Error, Kind, Selector, Table};
 use stiction_codes::Code;
@@ -81,7 +81,10 @@ impl Joined {
         let time: Vec<f64> = stamps.iter().map(|t| own.si(*t) - origin).collect();
         let in_other = |e: Error| {
             let found = format!("{name}: {}", e.found);
-            Error::new(e.kind, found, e.allowed.clone()).of_setting(role.key("file"))
+            // The time of that file stands in the table of its column; that under [columns] is of the log.
+            let own = format!("in the table of {role} under [columns]: time =");
+            let allowed = e.allowed.replace("under [columns]: time =", &own);
+            Error::new(e.kind, found, allowed).of_setting(role.key("file"))
         };
         let course = Course::read(other, &channel, from, origin).map_err(in_other)?;
         let step = step(&time).unwrap_or(0.0);
@@ -135,14 +138,14 @@ impl Joined {
         let found = format!(
             "{name} and this log share no time: it runs from {} to {} s, counted from the first sample of the log, which runs from \
              {} to {} s",
-            short(c),
-            short(d),
-            short(a),
-            short(b)
+            full(c),
+            full(d),
+            full(a),
+            full(b)
         );
         let allowed = format!(
             "files of one clock, or what is to be added to the time stamps of the other one, such as offset = \"{} s\"",
-            short(a - c + from.offset)
+            full(a - c + from.offset)
         );
         Err(Error::new(Kind::Time, found, allowed).of_setting(from.role.key("file")))
     }

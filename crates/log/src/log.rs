@@ -86,6 +86,8 @@ pub struct Log {
     pub force_unit: String,
     /// Reference (commanded) position, m or rad.
     pub reference: Option<Vec<f64>>,
+    /// Samples whose reference was missing and is on a straight line between its neighbours, in order.
+    pub without_reference: Vec<Range<usize>>,
     /// Temperature, K.
     pub temperature: Option<Vec<f64>>,
     /// Normal load in `load_unit`.
@@ -259,6 +261,7 @@ impl Log {
             force: columns.take(Role::Force),
             force_unit: unit(Role::Force),
             reference: columns.take(Role::Reference),
+            without_reference: mended.without_reference,
             temperature: columns.take(Role::Temperature),
             load: columns.take(Role::Load),
             load_unit: unit(Role::Load),

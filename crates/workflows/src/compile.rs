@@ -57,7 +57,10 @@ pub(crate) fn program(dir: &Path, program: &str, sources: &[&str]) -> Result<(),
         return Ok(());
     }
     let said = String::from_utf8_lossy(&done.stderr);
-    let first = said.lines().find(|line| line.contains("error"));
+    let of_the_source =
+        |line: &&str| line.contains("error:") || line.contains("undefined reference");
+    let mut told = said.lines().filter(|line| !line.starts_with("collect2"));
+    let first = told.find(of_the_source);
     Err(match first.or_else(|| said.lines().next()) {
         Some(line) => format!("gcc does not compile it: {}", line.trim()),
         None => "gcc does not compile it".into(),

@@ -393,6 +393,8 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
     }
     let mut warnings = doubts(file, beside.as_ref(), &taken);
     if options.adapt {
+        // What a smaller gain guards against, levels that are wrong, is found; what it leaves would stay.
+        settings.gain = options.gain.unwrap_or(1.0);
         let mass = known_mass(file);
         settings.adaptation = Some(Adaptation {
             mass: mass.unwrap_or(0.0),

@@ -8,7 +8,7 @@ mod units;
 use super::covariance;
 use super::form::{ModelFile, ModelParameter};
 use super::refusal::Fault;
-use stiction_log::{Motion, Unit};
+use stiction_log::{Dimension, Motion, Unit};
 use stiction_parameters::{LawKind, Name, Quantity, Side};
 pub(super) use units::same_unit;
 
@@ -85,6 +85,15 @@ pub(super) fn faults(model: &ModelFile, whole: bool) -> Vec<Fault> {
     all
 }
 
+/// What drives an axis.
+const DRIVES: [Dimension; 5] = [
+    Dimension::FORCE,
+    Dimension::TORQUE,
+    Dimension::CURRENT,
+    Dimension::VOLTAGE,
+    Dimension::ONE,
+];
+
 /// Refuses an unknown unit, which would go into every text about the model: identification writes that of a force, or
 /// of what drives the axis (`A`, `V`, `1`).
 fn force_unit(model: &ModelFile, motion: Motion) -> Option<Fault> {
@@ -92,7 +101,8 @@ fn force_unit(model: &ModelFile, motion: Motion) -> Option<Fault> {
     let plain = |c: char| c.is_alphanumeric() || " */^-·".contains(c);
     let good = unit.trim() == unit
         && unit.chars().all(plain)
-        && Unit::parse(unit).is_ok_and(|unit| unit.factor() == 1.0);
+        && Unit::parse(unit)
+            .is_ok_and(|unit| unit.factor() == 1.0 && DRIVES.contains(&unit.dimension()));
     (!good).then(|| {
         let short: String = unit.chars().take(60).collect();
         let force = crate::symbols::force_unit(motion);

@@ -35,6 +35,9 @@ const HOPELESS: f64 = 2.0;
 const DELAYS_APART: f64 = 0.5;
 /// Part of that distance by which the best delay, by a parabola, may lie beside them.
 const BESIDE: f64 = 0.35;
+/// How far the delay may be from the one that is taken, samples, 95 % of what lies evenly within half of that distance: which of the
+/// delays between is not known, since the likelihood has it up to a quarter of a sample early (decision 0060).
+const DELAY_REACH: f64 = 0.5 * DELAYS_APART * 1.96 / 1.732;
 /// Most delays that are tried.
 const MOST_DELAYS: usize = 6;
 /// Stribeck velocities that climbs start from, parts of the top speed, and Fs/Fc there.
@@ -80,6 +83,8 @@ pub(super) struct Likely {
     pub sureness: Sureness,
     /// Delay of the force behind the motion, samples, and its 95 % reach, where it was looked for.
     pub delay: Option<[f64; 2]>,
+    /// 95 % reach of the logarithm of the micro-damping by where the delay is; nothing where that is given.
+    pub delayed: f64,
     /// The top with a Stribeck curve of another shape, where that is about as likely, or likelier.
     pub other: Option<[f64; UNKNOWNS]>,
     /// The Stribeck exponent that is likelier than that of the law, where there is one.
@@ -126,6 +131,7 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
             at: first.top.at,
             free: search.free,
             delay: None,
+            delayed: 0.0,
             hopeless: true,
             other: None,
             exponent: None,
@@ -176,7 +182,13 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         at: top.at,
         sureness: sureness(&top, &free)?,
         free,
-        delay: delay.map(|d| [late + HELD_DELAY, d.reach + d.beside.abs()]),
+        delay: delay.map(|d| {
+            [
+                late + HELD_DELAY,
+                libm::hypot(d.reach + d.beside.abs(), DELAY_REACH),
+            ]
+        }),
+        delayed: delay.map_or(0.0, |d| DELAY_REACH * d.slope.abs()),
         hopeless: false,
         other,
         exponent: likelier.then_some(EXPONENTIAL),
@@ -228,6 +240,8 @@ struct Fine {
     beside: f64,
     /// 95 % reach.
     reach: f64,
+    /// By how much the logarithm of the micro-damping, which a delay moves most, changes with a sample of it.
+    slope: f64,
 }
 
 struct Search<'a, 'o> {
@@ -356,12 +370,14 @@ impl Search<'_, '_> {
                 [None, _] => below,
                 [_, None] => above,
                 [Some(below), Some(above)] => {
+                    let [earlier, later] = [below, above].map(|i| tried[i].top.at[DAMPING]);
                     let [below, above] =
                         [below, above].map(|i| value(&tried[best]) - value(&tried[i]));
                     let curvature = (below + above) / (DELAYS_APART * DELAYS_APART);
                     let fine = Fine {
                         beside: 0.5 * DELAYS_APART * (below - above) / (below + above),
                         reach: 1.96 / (curvature * PARTS as f64).sqrt(),
+                        slope: (later - earlier) / (2.0 * DELAYS_APART),
                     };
                     return Some((tried.swap_remove(best), Some(fine)));
                 }

@@ -153,10 +153,15 @@ fn own(name: Name, found: &Likely) -> Option<Own> {
     let sureness = &found.sureness;
     let quantile = student::quantile(sureness.freedom(&weights));
     let seen = WIDER * quantile * deviation(&sureness.seen);
+    let delayed = match name.quantity {
+        Quantity::Sigma1 => found.delayed,
+        _ => 0.0,
+    };
+    let chance = seen.max(NORMAL_Q95 * deviation(&sureness.stated));
     Some(Own {
         value,
         // Where another curve is as likely, the interval reaches as far as it has the parameter.
-        reach: seen.max(NORMAL_Q95 * deviation(&sureness.stated)) + (other - value).abs(),
+        reach: libm::hypot(chance, delayed) + (other - value).abs(),
         weights,
     })
 }

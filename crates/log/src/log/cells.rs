@@ -44,6 +44,8 @@ pub(super) struct LeftOut {
 /// What was done about missing cells.
 pub(super) struct Mended {
     pub bridged: Vec<Excluded>,
+    /// Samples whose reference was missing, in order.
+    pub without_reference: Vec<Range<usize>>,
     pub findings: Vec<Finding>,
     pub left_out: Vec<LeftOut>,
 }
@@ -112,6 +114,7 @@ impl Columns {
         let (mut findings, mut left_out) = (Vec::new(), Vec::new());
         let mut drop = vec![false; rows];
         let mut bridged = vec![false; rows];
+        let mut unasked = vec![false; rows];
         for (role, values) in &mut self.columns {
             let runs = missing(values);
             let Some(first) = runs.first().cloned() else {
@@ -168,6 +171,9 @@ impl Columns {
                 if core {
                     bridged[run.clone()].fill(true);
                 }
+                if *role == Role::Reference {
+                    unasked[run.clone()].fill(true);
+                }
                 bridge(time, values, run);
             }
             let done = match (short, long) {
@@ -201,6 +207,7 @@ impl Columns {
         }
         if drop.contains(&true) {
             retain(&mut bridged, &drop);
+            retain(&mut unasked, &drop);
             self.keep(time, |row| !drop[row]);
         }
         let excluded = |samples| Excluded {
@@ -209,6 +216,7 @@ impl Columns {
         };
         Ok(Mended {
             bridged: runs(&bridged, |b| *b).into_iter().map(excluded).collect(),
+            without_reference: runs(&unasked, |b| *b),
             findings,
             left_out,
         })

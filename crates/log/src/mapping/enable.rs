@@ -34,6 +34,11 @@ impl Enable {
         self.equals.unwrap_or(1.0)
     }
 
+    /// The line of the axis file that keeps the rows in which this column is 1.
+    pub(super) fn whole_line(table: &Table, column: usize) -> String {
+        describe::line(table, column, NAME)
+    }
+
     /// The line of the axis file that keeps the rows in which this column holds a number.
     pub(crate) fn line(table: &Table, column: usize, equals: &str) -> String {
         describe::line_with(table, column, NAME, &format!("equals = {equals}"))

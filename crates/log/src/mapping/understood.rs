@@ -82,6 +82,19 @@ fn used(table: &Table, given: &Mapping, part: &Part) -> Understood {
     }
 }
 
+/// A flag, and how rows where it is 0 are left out where there are such.
+fn flag(table: &Table, column: usize) -> String {
+    let off = table.columns[column].values.contains(&0.0);
+    let how = match off {
+        true => format!(
+            "; if the axis is enabled where it is 1, leave out the others: {} under [columns]",
+            Enable::whole_line(table, column)
+        ),
+        false => String::new(),
+    };
+    format!("a flag: 0 and 1 alone{how}")
+}
+
 fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Understood {
     let name = &table.columns[column].name;
     let hint = names::hint(name);
@@ -93,7 +106,7 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
         _ if enables => {
             format!("named in the axis file as enable: rows where it is not {kept} are left out")
         }
-        _ if is_flag(&table.columns[column]) => "a flag: 0 and 1 alone".into(),
+        _ if is_flag(&table.columns[column]) => flag(table, column),
         (_, Some(part)) => format!(
             "could be the {} too, which is column {}",
             part.role,

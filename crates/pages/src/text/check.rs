@@ -105,6 +105,14 @@ fn tracking(change: &TrackingChange, kind: &str) -> String {
                 log.log
             );
         }
+        if log.rows_left_out > 0 {
+            let _ = writeln!(
+                out,
+                "  {} of the motion of {} left out: frozen, or without a position or reference",
+                counted(log.rows_left_out, "row"),
+                log.log
+            );
+        }
         if let Some(step) = log.step.filter(|step| *step > log.largest_peak()) {
             let _ = writeln!(
                 out,

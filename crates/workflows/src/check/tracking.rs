@@ -52,6 +52,8 @@ pub struct Tracking {
     pub rate_hz: f64,
     /// Reversals that are left out: beside a gap, or with rows that are frozen or bridged.
     pub left_out: usize,
+    /// Rows of the motion that are left out: frozen, or without a position or reference.
+    pub rows_left_out: usize,
     /// Of each peak the number of its reversal, of all that the reference has, counted from 0.
     #[serde(skip)]
     numbers: Vec<usize>,
@@ -177,6 +179,7 @@ impl Tracking {
         Ok(Self {
             log: name.into(),
             left_out: turns.len() - peaks.len(),
+            rows_left_out: moving.len() - course.len(),
             peaks,
             numbers,
             about,
@@ -323,6 +326,9 @@ fn seen(log: &Log) -> Vec<bool> {
     };
     for part in log.excluded.iter().filter(|part| spoilt(part.code)) {
         seen[part.samples.clone()].fill(false);
+    }
+    for samples in &log.without_reference {
+        seen[samples.clone()].fill(false);
     }
     seen
 }

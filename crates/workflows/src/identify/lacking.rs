@@ -17,8 +17,8 @@ const BEYOND_BRISTLES: f64 = 0.1;
 const LIKE_BRISTLES: f64 = 0.3;
 
 /// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the sign of the force, or
-/// gravity.
-pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) {
+/// gravity. Whether it is gravity.
+pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     let law = evidence.law;
     let much = law.fit.relative_error_percent;
     let held = law.stays_in_presliding() && evidence.sources.iter().any(swings_widely);
@@ -41,8 +41,10 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) {
                 Percent::error(100.0 * part).digits(2)
             );
             reasons.push(text, Next::AxisFile);
+            return true;
         }
     }
+    false
 }
 
 /// Whether a joint goes farther than any bristles reach.

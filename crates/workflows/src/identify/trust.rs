@@ -465,7 +465,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     if let Some(why) = disagree::of_two_axes(&law.disagreements) {
         reasons.push(why, Next::FirstLog);
     }
-    lacking::named(evidence, reasons);
+    let gravity = lacking::named(evidence, reasons);
     search_ended(evidence, warnings, reasons);
     explains_little(evidence, warnings, reasons);
     if !evidence.moves_both_ways {
@@ -490,6 +490,8 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     // Causes first: what they leave open, and what else shows them, comes after.
     let mut causes = Vec::new();
     left::named(law, evidence.sources, &evidence.options, &mut causes);
+    // A weight on a lever repeats with the angle: cogging would take it up in part.
+    causes.retain(|cause| !gravity || cause.code != Code::PositionRipple);
     causes.extend(disagree::named(
         &law.disagreements,
         evidence.sources,

@@ -26,7 +26,8 @@ impl Resolver {
         }
         let folder = file.parent().unwrap_or(Path::new(""));
         let most = root.tables("log", MOST_LOGS);
-        let tables = most.map_err(|_| given.refused("a table [log], or [[log]] for each log"))?;
+        let allowed = format!("a table [log], or [[log]] for each log, at most {MOST_LOGS}");
+        let tables = most.map_err(|_| given.refused(&allowed))?;
         for (i, table) in tables.iter().enumerate() {
             let listed = self.one_log(table, &axis.mapping, folder, i + 1)?;
             if axis.logs.iter().any(|other| other.file == listed.file) {
@@ -145,7 +146,7 @@ fn stretches(given: &Given<'_>, crop: Option<(f64, f64)>) -> Result<Vec<(f64, f6
         false => vec![given.clone()],
     };
     if each.is_empty() || each.len() > MOST_STRETCHES {
-        return Err(given.refused(allowed));
+        return Err(given.refused(&format!("{allowed}, at most {MOST_STRETCHES}")));
     }
     let mut out = Vec::new();
     for entry in &each {

@@ -94,17 +94,20 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
     let is = Dimensions::of(study.machine.motion);
     // The settings of a compensator to start with, where the file says nothing.
     let usual = Settings::new(1.0 / study.machine.rate, 1.0);
+    let adaptation = adaptation(table)?;
+    // Levels that follow need no margin.
+    let gain = adaptation.map_or(usual.gain, |_| 1.0);
     let scheme = ModelScheme {
         kind,
         source: source(table, matches!(study.machine.law, AxisLaw::LuGre(_)), kind)?,
-        gain: table.number("gain", 0.0, 1.0)?.unwrap_or(usual.gain),
+        gain: table.number("gain", 0.0, 1.0)?.unwrap_or(gain),
         dead_zone: table.not_negative("dead_zone", is.speed)?,
         limit: table.positive("limit", is.force)?,
         slew: table.positive("slew", Dimensions::per(is.force, Dimension::TIME))?,
         ramp: table
             .not_negative("ramp", Dimension::TIME)?
             .unwrap_or(usual.ramp),
-        adaptation: adaptation(table)?,
+        adaptation,
         watchdog: match table.flag("watchdog")? {
             Some(false) => None,
             _ => Some(watchdog(table, study.machine.rate)?),

@@ -236,6 +236,8 @@ fn moved<L: OfAxis, I: Integrator<L>>(
     let (mut process, _) =
         Process::start(&exported.place, Some(&watch)).map_err(Failed::Program)?;
     let scale = exported.rust.friction().scale();
+    // The last digit of a sum may be beyond it.
+    let most = exported.rust.settings().limit * (1.0 + f64::EPSILON * 8.0);
     let mut ended = None;
     let (mut difference, mut at, mut differs, mut tripped) = (0.0_f64, 0.0, false, false);
     let mut count = 0_u64;
@@ -245,6 +247,15 @@ fn moved<L: OfAxis, I: Integrator<L>>(
             _ if ended.is_some() => 0.0,
             Err(found) => {
                 ended = Some(found);
+                0.0
+            }
+            Ok((force, _)) if force.is_nan() || force.abs() > most => {
+                let at = four_digits(count as f64 / machine.rate - coming_in);
+                ended = Some(format!(
+                    "it gives a force of {} at {at} s, beyond its limit of {}",
+                    four_digits(force),
+                    four_digits(most)
+                ));
                 0.0
             }
             Ok((force, off)) => {
