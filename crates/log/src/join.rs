@@ -138,14 +138,14 @@ impl Joined {
         let found = format!(
             "{name} and this log share no time: it runs from {} to {} s, counted from the first sample of the log, which runs from \
              {} to {} s",
-            full(c),
-            full(d),
-            full(a),
-            full(b)
+            micro(c),
+            micro(d),
+            micro(a),
+            micro(b)
         );
         let allowed = format!(
             "files of one clock, or what is to be added to the time stamps of the other one, such as offset = \"{} s\"",
-            full(a - c + from.offset)
+            micro(a - c + from.offset)
         );
         Err(Error::new(Kind::Time, found, allowed).of_setting(from.role.key("file")))
     }
@@ -228,6 +228,11 @@ impl Joined {
         self.findings
             .push(Finding::new(Code::Joined, Severity::Note, message));
     }
+}
+
+/// A time to the microsecond, s, with all its digits before that: stamps may count from 1970.
+fn micro(seconds: f64) -> String {
+    full((1e6 * seconds).round() / 1e6)
 }
 
 impl Course {

@@ -856,6 +856,25 @@ fn a_log_before_and_one_after() {
         "{said}"
     );
     assert!(said.contains("worse at no reversal"), "{said}");
+    // Nor do rows without a reference of the error between them.
+    let mut unasked = whole.clone();
+    for row in &mut unasked[2400..2600] {
+        row[1].clear();
+    }
+    put("unasked.csv", &unasked);
+    let said = compared("unasked.csv");
+    let rows = "200 rows of the motion of unasked.csv left out";
+    assert!(said.contains(rows), "{said}");
+    let (_, out, _) = bench.run(&["check", "whole.csv", "unasked.csv", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&out).unwrap();
+    let [a, b] = ["before", "after"].map(|log| {
+        let log = &json["tracking"][0][log];
+        [&log["rms"], &log["largest"]].map(|x| x.as_f64().unwrap())
+    });
+    assert!(
+        (b[0] / a[0] - 1.0).abs() < 0.05 && b[1] <= a[1],
+        "{a:?} {b:?}"
+    );
     let mut holes = whole.clone();
     let turns = |i: usize| i % 1000 < 100;
     (holes.iter_mut().enumerate()).for_each(|(i, row)| {

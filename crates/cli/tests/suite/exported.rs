@@ -127,6 +127,30 @@ fn another_force_is_said() {
     assert!((0.74..1.5).contains(&apart), "{apart}");
 }
 
+/// C that gives no number, or more than its limit, ends the comparison: it is no compensator.
+#[test]
+fn a_force_that_no_compensator_gives_is_refused() {
+    for (force, found) in [
+        ("0.0 / 0.0", "a force of NaN"),
+        ("1e300", "a force of 1.000e300"),
+    ] {
+        let folder = desk(&lugre(), &[]);
+        let file = folder.path().join("c/x_axis_friction.c");
+        let code = std::fs::read_to_string(&file).unwrap();
+        let own = "_step_in(params, state, params->cycle_time, input);";
+        let at = code.rfind(own).unwrap() + own.len();
+        let start = code[..at].rfind("return ").unwrap();
+        let other = format!("{}return {force};{}", &code[..start], &code[at..]);
+        std::fs::write(&file, other).unwrap();
+        let (code, out, err) = run(folder.path(), &SIMULATE);
+        assert_eq!(code, 2, "{out}{err}");
+        assert!(
+            err.contains(found) && err.contains("beyond its limit of"),
+            "{err}"
+        );
+    }
+}
+
 /// C of another model: its law is not that of the study.
 #[test]
 fn another_model_is_said() {

@@ -118,7 +118,8 @@ fn a_flag_is_no_force_and_no_position() {
     let log = Log::from_table(&table(columns.clone()), &Mapping::default()).unwrap();
     insta::assert_snapshot!(told(&log));
     let why: Vec<_> = log.columns.iter().map(|c| c.reason.as_str()).collect();
-    assert_eq!(why[1], "a flag: 0 and 1 alone");
+    let off = "a flag: 0 and 1 alone; if the axis is enabled where it is 1, leave out the others: enable = \"Torque active\" under [columns]";
+    assert_eq!(why[1], off);
     // With nothing else that could be the force there is none.
     let without = columns.into_iter().filter(|c| c.name != "Torque");
     let log = Log::from_table(&table(without.collect()), &Mapping::default()).unwrap();

@@ -250,9 +250,12 @@ fn moved<L: OfAxis, I: Integrator<L>>(
                 0.0
             }
             Ok((force, _)) if force.is_nan() || force.abs() > most => {
-                let at = four_digits(count as f64 / machine.rate - coming_in);
+                let at = match count as f64 / machine.rate - coming_in {
+                    at if at < 0.0 => "before the motion begins".into(),
+                    at => format!("at {} s", four_digits(at)),
+                };
                 ended = Some(format!(
-                    "it gives a force of {} at {at} s, beyond its limit of {}",
+                    "it gives a force of {} {at}, beyond its limit of {}",
                     four_digits(force),
                     four_digits(most)
                 ));
