@@ -301,8 +301,8 @@ fn verdicts(outcome: &Outcome) -> Vec<ParameterCheck> {
             identifiable: outcome.result.trust.constants.contains(&p.name),
             reason: match p.identifiable {
                 false => p.reason.clone(),
-                // A usable law leaves out one constant that it determines: a force beside one level for both directions.
-                true if outcome.result.trust.trustworthy => {
+                // Beside one level for both directions.
+                true if p.name == "offset" && outcome.result.trust.trustworthy => {
                     "it counts half of what friction differs between the directions too".into()
                 }
                 true => "the law explains too little of the force".into(),

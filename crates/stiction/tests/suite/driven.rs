@@ -27,8 +27,12 @@ fn logged() -> (Machine, stiction_testkit::worlds::Recording, Vec<f64>) {
     (machine, log, volts)
 }
 
-fn fitted(log: &stiction_testkit::worlds::Recording, column: (&str, Vec<f64>), axis: &str) -> Fit {
-    let axis = Axis::parse(axis).unwrap();
+/// The log with this column in the place of its force.
+fn with(
+    log: &stiction_testkit::worlds::Recording,
+    (unit, values): (&str, &[f64]),
+    axis: &Axis,
+) -> Result<Log, stiction::Error> {
     let of = |name: &str, unit: &str, values: &[f64]| Column {
         name: name.into(),
         unit: Some(unit.into()),
@@ -37,9 +41,14 @@ fn fitted(log: &stiction_testkit::worlds::Recording, column: (&str, Vec<f64>), a
     let columns = vec![
         of("time", "s", &log.time),
         of("position", "m", log.position.as_ref().unwrap()),
-        of("voltage", column.0, &column.1),
+        of("force", unit, values),
     ];
-    let log = Log::from_columns("log.csv", columns, &axis).unwrap();
+    Log::from_columns("log.csv", columns, axis)
+}
+
+fn fitted(log: &stiction_testkit::worlds::Recording, column: (&str, &[f64]), axis: &str) -> Fit {
+    let axis = Axis::parse(axis).unwrap();
+    let log = with(log, column, &axis).unwrap();
     identify(&[log], &axis, &Options::default()).unwrap()
 }
 
@@ -53,11 +62,11 @@ fn a_voltage_and_a_duty_tell_what_the_force_tells() {
         &Options::default(),
     );
     let force = force.unwrap();
-    let drive = "[columns]\nforce = \"voltage\"\n[drive]\nforce_constant = \"50 N/A\"\nresistance = \"2 ohm\"\n";
-    let duty = volts.iter().map(|u| u / SUPPLY).collect();
+    let drive = "[drive]\nforce_constant = \"50 N/A\"\nresistance = \"2 ohm\"\n";
+    let duty: Vec<f64> = volts.iter().map(|u| u / SUPPLY).collect();
     let cases = [
-        fitted(&log, ("V", volts.clone()), drive),
-        fitted(&log, ("1", duty), &format!("{drive}supply = \"320 V\"\n")),
+        fitted(&log, ("V", &volts), drive),
+        fitted(&log, ("1", &duty), &format!("{drive}supply = \"320 V\"\n")),
     ];
     for fit in &cases {
         for name in [
@@ -81,8 +90,8 @@ fn a_voltage_and_a_duty_tell_what_the_force_tells() {
         }
     }
     // Taken for a force by a scale, the voltage of the motor itself is viscous friction.
-    let scaled = "[columns]\nforce = { column = \"voltage\", scale = \"25 N/V\" }\n";
-    let scaled = fitted(&log, ("V", volts), scaled);
+    let scaled = "[columns]\nforce = { column = \"force\", scale = \"25 N/V\" }\n";
+    let scaled = fitted(&log, ("V", &volts), scaled);
     let sigma2 = |fit: &Fit| fit.parameter("sigma2").unwrap().value();
     let braked = CONSTANT * CONSTANT / RESISTANCE;
     let off = sigma2(&scaled) - sigma2(&force) - braked;
@@ -94,19 +103,8 @@ fn a_drive_that_does_not_go_with_its_log_is_refused() {
     let (_, log, volts) = logged();
     let refused = |unit: &str, axis: &str| {
         let axis = Axis::parse(axis).unwrap();
-        let of = |name: &str, unit: &str, values: &[f64]| Column {
-            name: name.into(),
-            unit: Some(unit.into()),
-            values: values.to_vec(),
-        };
-        let columns = vec![
-            of("time", "s", &log.time),
-            of("position", "m", log.position.as_ref().unwrap()),
-            of("force", unit, &volts),
-        ];
-        Log::from_columns("log.csv", columns, &axis)
-            .unwrap_err()
-            .to_string()
+        let refused = with(&log, (unit, &volts), &axis);
+        refused.unwrap_err().to_string()
     };
     insta::assert_snapshot!([
         refused("V", "[drive]\nforce_constant = \"50 N/A\"\n"),
