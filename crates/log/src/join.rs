@@ -6,7 +6,7 @@
 //! between; temperatures and loads change slowly, and are not thinned so.
 
 use crate::findings::{Finding, Severity, count, full, median, short};
-use crate::mapping::{Channel, Mapping, Role, Source, select, time_source};
+use crate::mapping::{Channel, Mapping, Role, Source, select, time_source, wanted};
 use crate::{Column, Error, Kind, Selector, Table};
 use stiction_codes::Code;
 
@@ -28,6 +28,20 @@ pub struct Elsewhere {
     pub time: Option<Channel>,
     /// What is added to the time stamps of that file, s.
     pub offset: f64,
+}
+
+impl Elsewhere {
+    /// Which columns of the other file may be needed for this channel, of which only names and units are known yet: itself and
+    /// what may be its time stamps.
+    pub fn wanted(&self, channel: &Channel, heads: &Table) -> Vec<bool> {
+        let open: &[Role] = match self.time {
+            Some(_) => &[],
+            None => &[Role::Time],
+        };
+        let time = self.time.as_ref().map(|time| &time.column);
+        let selectors: Vec<_> = time.into_iter().chain([&channel.column]).collect();
+        wanted(heads, &selectors, open)
+    }
 }
 
 /// A recording with columns of other files.

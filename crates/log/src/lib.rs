@@ -64,8 +64,8 @@ pub use mapping::{
     Assumed, Channel, Detected, Drive, Enable, Mapping, Motion, Parts, Rests, Role, Selector,
     Understood, Wrap,
 };
-pub use open::{ReadOptions, read_table, read_table_with};
+pub use open::{ReadOptions, read_table, read_table_with, read_wanted};
 pub use stiction_codes::Code;
-pub use table::{Column, Scalar, Table};
+pub use table::{Column, Passed, Scalar, Table};
 pub use unit::{Dimension, Unit, Value};
 pub use watch::{Reading, watch};

@@ -46,6 +46,7 @@ mod names;
 pub(crate) mod parts;
 mod select;
 mod understood;
+mod wanted;
 
 use crate::findings::{Finding, full};
 use crate::{Error, Kind, Table};
@@ -59,6 +60,7 @@ pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAP_COUNTS, WRAPS};
 pub use parts::Parts;
 pub(crate) use select::select;
 pub use understood::{Assumed, Understood};
+pub(crate) use wanted::wanted;
 
 /// A position that wraps after some travel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -175,6 +177,12 @@ impl Mapping {
     /// [`Mapping::detect`] refuses.
     pub fn clear_columns(table: &Table) -> Self {
         choose::clear(table)
+    }
+
+    /// Which columns of a table this mapping may take, of which only names and units are known yet: those that it names, and
+    /// those that could be what it leaves open. With the samples of these alone it understands the table as with all of them.
+    pub fn wanted(&self, heads: &Table) -> Vec<bool> {
+        wanted::by_mapping(self, heads)
     }
 
     /// This mapping with everything it leaves open filled in from the table: every channel then has

@@ -27,7 +27,7 @@ pub struct ReadOptions {
 ///
 /// [`Error`] with the file, the place in it, what was found and what is allowed.
 pub fn read_table(path: &Path, options: &ReadOptions) -> Result<Table, Error> {
-    opened(path, options, None)
+    opened(path, options, None, &everything)
 }
 
 /// As [`read_table`], and hands on the bytes that were read, in order, for a hash of exactly these: a text may grow while it is
@@ -41,21 +41,58 @@ pub fn read_table_with(
     options: &ReadOptions,
     mut bytes: impl FnMut(&[u8]),
 ) -> Result<Table, Error> {
-    opened(path, options, Some(&mut bytes))
+    opened(path, options, Some(&mut bytes), &everything)
+}
+
+/// As [`read_table_with`], and keeps the samples of those columns of a text alone that `wanted` names: of every column it says
+/// whether it is, from a table that has names and units only, such as [`Mapping::wanted`](crate::Mapping::wanted) and
+/// [`Elsewhere::wanted`](crate::Elsewhere::wanted). Cells of the other columns are checked all the same, and
+/// [`Table::passed`] says what they are. A mapping understands such a table as it understands the whole one.
+///
+/// Other formats are read whole, and so are exports of TwinCAT Scope.
+///
+/// # Errors
+///
+/// As [`read_table_with`].
+pub fn read_wanted(
+    path: &Path,
+    options: &ReadOptions,
+    mut bytes: impl FnMut(&[u8]),
+    wanted: &dyn Fn(&Table) -> Vec<bool>,
+) -> Result<Table, Error> {
+    opened(path, options, Some(&mut bytes), wanted)
+}
+
+/// Which columns of a table are to be kept, of which names and units are known.
+pub(crate) type Wanted<'a> = &'a dyn Fn(&Table) -> Vec<bool>;
+
+/// Every column.
+pub(crate) fn everything(heads: &Table) -> Vec<bool> {
+    vec![true; heads.columns.len()]
 }
 
 /// Whom the bytes are handed to, if anyone.
 type Bytes<'a> = Option<&'a mut dyn FnMut(&[u8])>;
 
-fn opened<'a>(path: &'a Path, options: &ReadOptions, bytes: Bytes<'a>) -> Result<Table, Error> {
-    read(path, options, bytes).map_err(|error| error.in_file(path))
+fn opened<'a>(
+    path: &'a Path,
+    options: &ReadOptions,
+    bytes: Bytes<'a>,
+    wanted: Wanted,
+) -> Result<Table, Error> {
+    read(path, options, bytes, wanted).map_err(|error| error.in_file(path))
 }
 
 fn io(error: io::Error) -> Error {
     Error::new(Kind::Io, format!("cannot be read ({error})"), "")
 }
 
-fn read<'a>(path: &'a Path, options: &ReadOptions, seen: Bytes<'a>) -> Result<Table, Error> {
+fn read<'a>(
+    path: &'a Path,
+    options: &ReadOptions,
+    seen: Bytes<'a>,
+    wanted: Wanted,
+) -> Result<Table, Error> {
     // Looked at before it is opened: opening a pipe that nobody writes to would wait forever.
     let about = std::fs::metadata(path).map_err(io)?;
     if !about.is_file() {
@@ -87,7 +124,7 @@ fn read<'a>(path: &'a Path, options: &ReadOptions, seen: Bytes<'a>) -> Result<Ta
                 done: 0,
                 all: bytes,
             };
-            text::read_sized(read, Some(bytes), &options.text, options.limits)
+            text::read_sized(read, Some(bytes), &options.text, options.limits, wanted)
         }
         format => binary(format, file, path, bytes, options.limits).and_then(|table| {
             if let Some(seen) = seen {

@@ -1,5 +1,7 @@
 //! A recording as it is in its file: named columns of plain numbers, nothing converted.
 
+use std::collections::BTreeMap;
+
 /// One numeric column of a recording, in the unit of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Column {
@@ -20,6 +22,34 @@ pub struct Scalar {
     pub value: f64,
 }
 
+/// What is known of a column whose samples were read and not kept, since no mapping could take it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Passed {
+    /// Whether one of its numbers is 0.
+    pub zeros: bool,
+    /// Whether one of them is 1.
+    pub ones: bool,
+    /// Whether one of them is neither.
+    pub others: bool,
+}
+
+impl Passed {
+    /// Takes note of a number; a missing cell is none.
+    #[inline]
+    pub(crate) fn see(&mut self, value: f64) {
+        self.zeros |= value == 0.0;
+        self.ones |= value == 1.0;
+        self.others |= value != 0.0 && value != 1.0 && !value.is_nan();
+    }
+
+    /// Takes note of what was seen elsewhere.
+    pub(crate) fn add(&mut self, other: Self) {
+        self.zeros |= other.zeros;
+        self.ones |= other.ones;
+        self.others |= other.others;
+    }
+}
+
 /// What a reader found in a file: columns, scalars, and how it understood them.
 ///
 /// Columns may differ in length (a slower channel runs out early); the mapping decides what that
@@ -32,6 +62,9 @@ pub struct Table {
     /// or no number in any row. A column keeps the number that it has in the file, so that an axis file
     /// that names columns by number means the same ones in the next log, where another column is empty.
     pub left_out: Vec<usize>,
+    /// Columns that have no `values`, by their place in `columns`: the reader was told that nobody can take them
+    /// ([`read_wanted`](crate::read_wanted)).
+    pub passed: BTreeMap<usize, Passed>,
     /// Single numbers in the file.
     pub scalars: Vec<Scalar>,
     /// Sample time in seconds where the file states one apart from a time column.

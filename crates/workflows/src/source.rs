@@ -9,7 +9,7 @@ use stiction_files::axis::{ListedLog, Use};
 use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, JoinedEntry, NotEnabledEntry};
 use stiction_files::{Axis, Hash};
 use stiction_identify::{Samples, Terms};
-use stiction_log::{Column, Joined, Log, Mapping, ReadOptions, Table, read_table, read_table_with};
+use stiction_log::{Column, Joined, Log, Mapping, ReadOptions, Table, read_table, read_wanted};
 
 /// Beginning of an entry of `detected` about a column that was not read.
 const LEFT_OUT: &str = "left out: ";
@@ -46,10 +46,20 @@ fn options(axis: &Axis) -> ReadOptions {
     }
 }
 
-/// The columns of a file, with the SHA-256 of exactly the bytes that they were read from.
+/// The columns of a log that the axis file may take, with the SHA-256 of exactly the bytes that they were read from.
 fn hashed(path: &Path, axis: &Axis) -> Result<(Table, String), Error> {
+    hashed_of(path, axis, &|heads| axis.mapping.wanted(heads))
+}
+
+/// The same of the columns of a file that are wanted.
+fn hashed_of(
+    path: &Path,
+    axis: &Axis,
+    wanted: &dyn Fn(&Table) -> Vec<bool>,
+) -> Result<(Table, String), Error> {
     let mut hash = Hash::default();
-    let table = read_table_with(path, &options(axis), |bytes| hash.take(bytes));
+    let take = |bytes: &[u8]| hash.take(bytes);
+    let table = read_wanted(path, &options(axis), take, wanted);
     Ok((table.map_err(|e| axis.at_key(e))?, hash.finish()))
 }
 
@@ -194,7 +204,7 @@ fn joined(
         let file = column.file.as_path();
         let other = match before.take() {
             Some((path, read)) if path == file => read,
-            _ => hashed(file, axis)?,
+            _ => hashed_of(file, axis, &|heads| wanted_of(axis, file, heads))?,
         };
         let name = stiction_files::shell::text(file);
         out.join(&name, &other.0, &column.from).map_err(&refused)?;
@@ -215,6 +225,22 @@ fn joined(
         }
     }
     Ok((log, entries))
+}
+
+/// Which columns of another file may be needed for what is joined from it.
+fn wanted_of(axis: &Axis, file: &Path, heads: &Table) -> Vec<bool> {
+    let mut wanted = vec![false; heads.columns.len()];
+    for column in axis.joined.iter().filter(|column| column.file == file) {
+        let Some(channel) = axis.mapping.channel(column.from.role) else {
+            continue;
+        };
+        let own = column.from.wanted(channel, heads);
+        wanted
+            .iter_mut()
+            .zip(own)
+            .for_each(|(all, own)| *all |= own);
+    }
+    wanted
 }
 
 /// Refuses several logs where a column comes from another file, which belongs to one of them.

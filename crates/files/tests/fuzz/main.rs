@@ -15,7 +15,7 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 use stiction_files::study::Study;
 use stiction_files::{Axis, ModelFile};
-use stiction_log::{Limits, Log, Mapping, ReadOptions, read_table};
+use stiction_log::{Limits, Log, Mapping, ReadOptions, Table, read_table, read_wanted};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -142,8 +142,19 @@ impl Bench {
                     limits: Limits { memory: ALLOWED },
                     ..ReadOptions::default()
                 };
-                let table = read_table(&file, &options);
-                table.is_ok_and(|table| Log::from_table(&table, &Mapping::default()).is_ok())
+                let mapping = Mapping::default();
+                let Ok(table) = read_table(&file, &options) else {
+                    return false;
+                };
+                let Ok(log) = Log::of_table(table, &mapping) else {
+                    return false;
+                };
+                // The same log from the columns alone that it may take.
+                let wanted = |heads: &Table| mapping.wanted(heads);
+                let table = read_wanted(&file, &options, |_| {}, &wanted);
+                let again = table.and_then(|table| Log::of_table(table, &mapping));
+                assert_eq!(again.as_ref(), Ok(&log));
+                true
             }
             Form::Axis => Axis::parse(&String::from_utf8_lossy(bytes)).is_ok(),
             Form::Model => ModelFile::parse(&String::from_utf8_lossy(bytes)).is_ok(),

@@ -225,7 +225,9 @@ impl<'a> Scan<'a> {
             table,
             hints: table.columns.iter().map(|c| names::hint(&c.name)).collect(),
             units: units.map(|c| c.unit.as_ref().and_then(unit)).collect(),
-            flags: table.columns.iter().map(is_flag).collect(),
+            flags: (0..table.columns.len())
+                .map(|c| is_flag(table, c))
+                .collect(),
             used: vec![false; table.columns.len()],
             axis: None,
         };
@@ -502,7 +504,7 @@ impl<'a> Scan<'a> {
 }
 
 /// Whether a column of this dimension may be offered for a role at all.
-fn allows(role: Role, dimension: Dimension) -> bool {
+pub(super) fn allows(role: Role, dimension: Dimension) -> bool {
     let per_second = |d: Dimension| d.per(Dimension::TIME) == Some(dimension);
     match role {
         Role::Time => dimension == Dimension::TIME,

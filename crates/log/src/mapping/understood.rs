@@ -3,7 +3,7 @@
 use super::channel::Role;
 use super::complete::Part;
 use super::enable::Enable;
-use super::flags::is_flag;
+use super::flags::{has_zeros, is_flag};
 use super::names;
 use super::{Mapping, describe};
 use crate::{Table, Unit};
@@ -84,8 +84,7 @@ fn used(table: &Table, given: &Mapping, part: &Part) -> Understood {
 
 /// A flag, and how rows where it is 0 are left out where there are such.
 fn flag(table: &Table, column: usize) -> String {
-    let off = table.columns[column].values.contains(&0.0);
-    let how = match off {
+    let how = match has_zeros(table, column) {
         true => format!(
             "; if the axis is enabled where it is 1, leave out the others: {} under [columns]",
             Enable::whole_line(table, column)
@@ -106,7 +105,7 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
         _ if enables => {
             format!("named in the axis file as enable: rows where it is not {kept} are left out")
         }
-        _ if is_flag(&table.columns[column]) => flag(table, column),
+        _ if is_flag(table, column) => flag(table, column),
         (_, Some(part)) => format!(
             "could be the {} too, which is column {}",
             part.role,

@@ -6,13 +6,15 @@ use super::row::{self, Block, Role, Rule, Seen, State, Stop};
 use super::source::Source;
 use super::split;
 use crate::limits::Budget;
-use crate::{Error, Kind};
+use crate::{Error, Kind, Passed};
 use rayon::prelude::*;
 
 /// Every sample of a file, and what was seen on the way.
 pub(super) struct Body {
-    /// One for each column of the layout; empty where the column is text.
+    /// One for each column of the layout; empty where the column is text or not kept.
     pub columns: Vec<Vec<f64>>,
+    /// What was seen of columns that are not kept; one for each column.
+    pub passed: Vec<Passed>,
     pub state: State,
     /// Where the decimal mark first showed.
     pub decimal: Option<Seen>,
@@ -42,6 +44,7 @@ pub(super) fn read(source: &mut Source, layout: &Layout, budget: Budget) -> Resu
         pending: None,
         body: Body {
             columns: vec![Vec::new(); width],
+            passed: vec![Passed::default(); width],
             state: layout.state.clone(),
             decimal: layout.decimal.clone(),
             texts: layout.texts.clone(),
@@ -132,6 +135,9 @@ impl Joint<'_> {
         for (to, from) in body.columns.iter_mut().zip(&block.columns) {
             to.extend_from_slice(from);
         }
+        for (all, seen) in body.passed.iter_mut().zip(&block.passed) {
+            all.add(*seen);
+        }
         body.state = block.state;
         if let Some(seen) = block.decimal {
             body.decimal = Some(absolute(seen));
@@ -215,7 +221,7 @@ impl Joint<'_> {
         let Some(size) = self.size else {
             return Ok(());
         };
-        if bytes == 0 || self.body.columns.iter().any(|c| !c.is_empty()) {
+        if bytes == 0 || self.body.rows > 0 {
             return Ok(());
         }
         let share = size as f64 / bytes as f64 * 1.01;
@@ -237,9 +243,7 @@ impl Joint<'_> {
     }
 
     fn finish(mut self) -> Result<Body, Error> {
-        if self.body.columns.iter().all(Vec::is_empty)
-            && self.body.state.roles.iter().all(|r| *r != Role::Text)
-        {
+        if self.body.rows == 0 && self.body.state.roles.iter().all(|r| *r != Role::Text) {
             return Err(self.pending.take().unwrap_or_else(|| {
                 Error::new(
                     Kind::Format,

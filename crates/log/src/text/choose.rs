@@ -13,7 +13,8 @@ use super::scope::Scope;
 use super::source::Source;
 use super::split::{self, Ends};
 use super::twincat;
-use crate::{Error, Kind};
+use crate::open::Wanted;
+use crate::{Column, Error, Kind, Table};
 
 /// Lines of samples from which the dialect is decided.
 const SAMPLE_LINES: usize = 256;
@@ -42,6 +43,35 @@ impl Layout {
     /// A column in messages: its name, or its number from 1.
     pub(super) fn label(&self, column: usize) -> String {
         problem::label(self.titles.get(column).map_or("", |t| &t.name), column)
+    }
+}
+
+impl Layout {
+    /// Keeps the samples of those columns alone that are asked for, and of those that tell something of the others.
+    pub(super) fn keep_only(&mut self, wanted: Wanted) {
+        // Channels of a scope share time stamps, and which ones only the samples tell.
+        if self.scope.is_some() {
+            return;
+        }
+        let titles = self.titles.iter();
+        let heads = titles.map(|title| Column {
+            name: title.name.clone(),
+            unit: title.unit.clone(),
+            values: Vec::new(),
+        });
+        let heads = Table {
+            columns: heads.collect(),
+            ..Table::default()
+        };
+        let wanted = wanted(&heads);
+        let roles = self.state.roles.iter();
+        let needed = roles.enumerate().map(|(column, role)| {
+            // Times of day run on over midnight; halsampler numbers its samples.
+            let stamps = matches!(role, Role::Moment { .. } | Role::FileTime { .. });
+            let numbers = column == 0 && self.rule.overruns;
+            stamps || numbers || wanted.get(column).copied().unwrap_or(true)
+        });
+        self.rule.keep = needed.collect();
     }
 }
 
@@ -112,6 +142,7 @@ pub(super) fn layout(source: &Source, options: &TextOptions) -> Result<Layout, E
             trailing: fit.trailing,
             run_out: false,
             overruns: fit.separator == Separator::Blanks && !above.named,
+            keep: vec![true; fit.width],
         },
         state: State {
             decimal: options.decimal.or(mark.as_ref().map(|m| m.decimal)),

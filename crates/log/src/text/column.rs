@@ -5,6 +5,7 @@ use super::choose::Layout;
 use super::problem::{self, count};
 use super::row::{Role, Seen};
 use crate::{Column, Table};
+use std::collections::BTreeMap;
 
 /// Half a day and a day in seconds.
 const HALF_DAY: f64 = 43_200.0;
@@ -29,6 +30,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
         }
     }
     let mut left_out = Vec::new();
+    let mut passed = BTreeMap::new();
     for (c, (title, mut values)) in layout.titles.into_iter().zip(body.columns).enumerate() {
         let label = match title.name.as_str() {
             "" => format!("column {}", c + 1),
@@ -66,6 +68,10 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
             }
             _ => {}
         }
+        let is_left_out = left_out.last() == Some(&(c + 1));
+        if !layout.rule.keep[c] && !is_left_out {
+            passed.insert(c - left_out.len(), body.passed[c]);
+        }
         table.columns.push(Column {
             name: title.name,
             unit,
@@ -82,6 +88,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
             !left_out.contains(&number)
         });
         table.left_out = left_out;
+        table.passed = passed;
     }
     if body.comments > 0 {
         table.skipped.push(format!(

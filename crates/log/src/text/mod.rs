@@ -73,6 +73,7 @@ pub use options::{Decimal, Separator, TextOptions};
 pub(crate) use scope::{Group, Scope};
 
 use crate::limits::Budget;
+use crate::open::{Wanted, everything};
 use crate::{Error, Kind, Limits, Table};
 use source::Source;
 use std::fs::File;
@@ -86,7 +87,7 @@ use std::path::Path;
 /// [`Error`] with the row (as an editor counts lines), the column, what was found and what is
 /// allowed.
 pub fn read(source: impl Read, options: &TextOptions) -> Result<Table, Error> {
-    read_sized(source, None, options, Limits::default())
+    read_sized(source, None, options, Limits::default(), &everything)
 }
 
 /// Reads a text recording from a file; like [`read`], and the errors name the file.
@@ -98,7 +99,7 @@ pub fn read_file(path: &Path, options: &TextOptions) -> Result<Table, Error> {
     let open = || {
         let file = File::open(path).map_err(|e| problem::io(&e))?;
         let size = file.metadata().ok().map(|m| m.len());
-        read_sized(file, size, options, Limits::default())
+        read_sized(file, size, options, Limits::default(), &everything)
     };
     open().map_err(|e| e.in_file(path))
 }
@@ -109,10 +110,12 @@ pub(crate) fn read_sized(
     size: Option<u64>,
     options: &TextOptions,
     limits: Limits,
+    wanted: Wanted,
 ) -> Result<Table, Error> {
     options.check()?;
     let mut source = Source::open(reader, size)?;
     let mut layout = choose::layout(&source, options)?;
+    layout.keep_only(wanted);
     let encoding = source.encoding(layout.offset);
     layout.detected.splice(..0, encoding.map(str::to_owned));
     let budget = Budget::from(limits);

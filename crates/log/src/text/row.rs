@@ -7,7 +7,7 @@ use super::limits::MAX_ROW_BYTES;
 use super::options::Decimal;
 use super::problem;
 use super::split::{self, Ends, Field};
-use crate::Error;
+use crate::{Error, Passed};
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +44,8 @@ pub(super) struct Rule {
     pub run_out: bool,
     /// Whether a line `overrun` is the mark of halsampler for samples that are missing.
     pub overruns: bool,
+    /// Of which columns the samples are kept; the cells of others are read and checked all the same.
+    pub keep: Vec<bool>,
 }
 
 /// A line of the file and the words on it.
@@ -57,6 +59,8 @@ pub(super) struct Seen {
 #[derive(Debug)]
 pub(super) struct Block {
     pub columns: Vec<Vec<f64>>,
+    /// What was seen of columns that are not kept; one for each column.
+    pub passed: Vec<Passed>,
     pub rows: usize,
     pub lines: u64,
     pub state: State,
@@ -89,6 +93,7 @@ pub(super) fn parse(text: &[u8], rule: &Rule, state: &State, seen: Option<&str>)
     let columns = vec![Vec::new(); state.roles.len()];
     let block = Block {
         columns,
+        passed: vec![Passed::default(); state.roles.len()],
         rows: 0,
         lines: 0,
         state: state.clone(),
@@ -104,6 +109,7 @@ pub(super) fn parse(text: &[u8], rule: &Rule, state: &State, seen: Option<&str>)
         text,
         rule,
         seen,
+        before: state,
         block,
         cell: 0,
     };
@@ -116,6 +122,8 @@ struct Parser<'a> {
     rule: &'a Rule,
     /// Where the decimal mark was seen before this block, for messages.
     seen: Option<&'a str>,
+    /// What the rows before this block have shown.
+    before: &'a State,
     block: Block,
     /// The cell being read, for messages.
     cell: usize,
@@ -146,9 +154,7 @@ impl Parser<'_> {
                         next
                     }
                     Err((error, in_cell)) => {
-                        for column in &mut self.block.columns {
-                            column.truncate(self.block.rows);
-                        }
+                        self.forget_row(at);
                         let long = self.rule.ends.next_row(self.text, at) - at > MAX_ROW_BYTES;
                         let error = if long { problem::long_row() } else { error };
                         let column = (in_cell && !long).then_some(self.cell);
@@ -165,6 +171,19 @@ impl Parser<'_> {
             };
             self.block.lines += 1;
             at = next;
+        }
+    }
+
+    /// Undoes what the cells before one that cannot be read have left.
+    fn forget_row(&mut self, at: usize) {
+        for column in &mut self.block.columns {
+            column.truncate(self.block.rows);
+        }
+        if self.rule.keep.contains(&false) && self.block.rows > 0 {
+            let before = parse(&self.text[..at], self.rule, self.before, self.seen);
+            self.block.passed = before.passed;
+        } else {
+            self.block.passed.fill(Passed::default());
         }
     }
 
@@ -248,10 +267,19 @@ impl Parser<'_> {
         if self.block.state.roles[self.cell] == Role::Number
             && let Some((value, end)) = self.plain_number(at)
         {
-            self.block.columns[self.cell].push(value);
+            self.put(self.cell, value);
             return Ok(end);
         }
         self.any_cell(at)
+    }
+
+    #[inline]
+    fn put(&mut self, column: usize, value: f64) {
+        if self.rule.keep[column] {
+            self.block.columns[column].push(value);
+        } else {
+            self.block.passed[column].see(value);
+        }
     }
 
     /// The fast path: a bare number in a column of numbers.
@@ -320,7 +348,7 @@ impl Parser<'_> {
             },
         };
         if let Some(value) = value {
-            self.block.columns[column].push(value);
+            self.put(column, value);
         }
         Ok(found.end)
     }

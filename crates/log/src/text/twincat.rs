@@ -190,6 +190,7 @@ impl Header<'_> {
                 trailing: true,
                 run_out: true,
                 overruns: false,
+                keep: vec![true; roles.len()],
             },
             state: State {
                 width: roles.len(),

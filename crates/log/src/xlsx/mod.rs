@@ -94,7 +94,7 @@ fn table(archive: &mut Archive, book: &Book, id: &str, limits: Limits) -> Result
         width,
         Budget::from(limits).samples(),
     );
-    let mut table = text::read_sized(sheet, None, &options, limits)?;
+    let mut table = text::read_sized(sheet, None, &options, limits, &crate::open::everything)?;
     table
         .detected
         .retain(|said| !said.starts_with("separator") && !said.starts_with("decimal"));

@@ -16,7 +16,9 @@ use peak_alloc::PeakAlloc;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, TestRunner};
-use stiction_log::{Error, Kind, Limits, ReadOptions, Table, read_table};
+use stiction_log::{
+    Channel, Error, Kind, Limits, Log, Mapping, ReadOptions, Table, read_table, read_wanted,
+};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -159,6 +161,7 @@ fn hostile_files() {
     odd_files(scratch.path());
     bombs(&path);
     arrays(&path);
+    wide(&path);
 
     let mut random = runner(600);
     random
@@ -292,6 +295,36 @@ fn arrays(path: &Path) {
         let samples = table.columns.iter().map(|c| c.values.len()).sum::<usize>();
         assert_eq!(samples, SAMPLES);
     }
+}
+
+/// Of a text with twelve columns of which three are asked for, reading and mapping take less than twice these three, beside the
+/// blocks that are read at once, two for each thread.
+fn wide(path: &Path) {
+    const ROWS: usize = 600_000;
+    const KEPT: usize = 3 * ROWS * size_of::<f64>();
+    let mut text = std::io::BufWriter::new(std::fs::File::create(path).unwrap());
+    writeln!(text, "t [s];x [mm];F [N];a;b;c;d;e;f;g;h;i").unwrap();
+    for row in 0..ROWS {
+        let t = row as f64 / 1000.0;
+        let (x, f) = (20.0 * t.sin(), 5.0 * t.cos());
+        writeln!(text, "{t:.3};{x:.4};{f:.3};2;3;4;5;6;7;8;9;10").unwrap();
+    }
+    text.into_inner().unwrap();
+    let mapping = Mapping {
+        position: Some(Channel::named("x")),
+        force: Some(Channel::named("F")),
+        ..Mapping::default()
+    };
+    let threads = rayon::ThreadPoolBuilder::new().num_threads(2).build();
+    let before = MEMORY.current_usage();
+    MEMORY.reset_peak_usage();
+    let wanted = |heads: &Table| mapping.wanted(heads);
+    let read = || read_wanted(path, &ReadOptions::default(), |_| {}, &wanted);
+    let table = threads.unwrap().install(read).unwrap();
+    let log = Log::of_table(table, &mapping).unwrap();
+    let used = MEMORY.peak_usage().saturating_sub(before);
+    assert_eq!(log.time.len(), ROWS);
+    assert!(used <= 2 * KEPT + MEMORY_BOUND, "{used} bytes, {KEPT} kept");
 }
 
 /// Small files that claim to be huge.

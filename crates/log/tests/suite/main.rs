@@ -18,4 +18,5 @@ mod mapping_parts;
 mod mapping_units;
 mod rests;
 mod text;
+mod wanted;
 mod without_readers;

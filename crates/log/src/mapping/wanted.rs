@@ -1,0 +1,82 @@
+//! Which columns of a table may be taken, before their samples are known.
+//!
+//! It names too many rather than too few: what is chosen among several columns may depend on their samples.
+
+use super::channel::{Role, Selector};
+use super::convert::of_role;
+use super::{Mapping, choose, names};
+use crate::{Table, Unit};
+
+/// Roles that a mapping which names none of them leaves open.
+const BESIDE: [Role; 4] = [
+    Role::Acceleration,
+    Role::Reference,
+    Role::Temperature,
+    Role::Load,
+];
+
+/// What a mapping may take.
+pub(super) fn by_mapping(mapping: &Mapping, heads: &Table) -> Vec<bool> {
+    let given = |role: Role| mapping.channel(role).is_some();
+    let motion = given(Role::Position) || given(Role::Velocity);
+    let none_named = Role::ALL.iter().all(|r| *r == Role::Time || !given(*r));
+    let is_open = |role: &Role| match role {
+        Role::Position | Role::Velocity => !motion,
+        role if BESIDE.contains(role) => none_named,
+        Role::External => false,
+        role => !given(*role),
+    };
+    let open: Vec<Role> = Role::ALL.into_iter().filter(is_open).collect();
+    let named = Role::ALL.into_iter().filter_map(|r| mapping.channel(r));
+    let mut selectors: Vec<&Selector> = named.map(|channel| &channel.column).collect();
+    selectors.extend(mapping.enable.as_ref().map(|enable| &enable.column));
+    let mut out = wanted(heads, &selectors, &open);
+    if !motion {
+        // Where nothing tells the columns apart, what they count is said.
+        let nameless = heads.columns.iter().map(|column| column.name.is_empty());
+        out.iter_mut()
+            .zip(nameless)
+            .for_each(|(out, own)| *out |= own);
+    }
+    out
+}
+
+/// The columns that any of these selectors may mean, and those that could be one of these roles.
+pub(crate) fn wanted(heads: &Table, selectors: &[&Selector], open: &[Role]) -> Vec<bool> {
+    let one = |index: usize| {
+        selectors
+            .iter()
+            .any(|selector| means(heads, selector, index))
+            || open.iter().any(|role| may_be(heads, index, *role))
+    };
+    (0..heads.columns.len()).map(one).collect()
+}
+
+/// Whether a selector may mean a column: any of the ways in which names are compared, even where another one comes first.
+fn means(heads: &Table, selector: &Selector, index: usize) -> bool {
+    let column = &heads.columns[index];
+    match selector {
+        Selector::Index(number) => *number == index + 1,
+        Selector::Name(name) => {
+            let (name, own) = (name.trim(), &column.name);
+            let with_unit = |unit: &String| format!("{own} [{unit}]") == name;
+            own == name
+                || own.to_lowercase() == name.to_lowercase()
+                || column.unit.as_ref().is_some_and(with_unit)
+        }
+    }
+}
+
+/// Whether a column could be of a role by its name and unit.
+fn may_be(heads: &Table, index: usize, role: Role) -> bool {
+    let column = &heads.columns[index];
+    let unit = column.unit.as_ref().and_then(|unit| Unit::parse(unit).ok());
+    let dimension = unit.map(|unit| of_role(&unit, role).dimension());
+    if dimension.is_some_and(|dimension| !choose::allows(role, dimension)) {
+        return false;
+    }
+    let hint = names::hint(&column.name);
+    let of_axis = names::hint_of_axis(&column.name);
+    hint.is_none_or(|hint| hint.role == role)
+        && (hint.is_some() || dimension.is_some() || of_axis.is_some_and(|hint| hint.role == role))
+}
