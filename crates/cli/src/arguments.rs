@@ -65,6 +65,15 @@ fn whole(text: &str) -> Result<u64, String> {
     number.map_err(|_| format!("a whole number from 0 to {} is allowed", u64::MAX))
 }
 
+/// A number of samples, which may be written with a power of ten.
+fn samples(text: &str) -> Result<u64, String> {
+    let number = text.parse().ok().filter(|x: &f64| *x >= 1.0);
+    // What is larger than any number of samples allows all.
+    number
+        .map(|x| x as u64)
+        .ok_or_else(|| "a number from 1 is allowed, such as 5000000000 or 5e9".into())
+}
+
 /// Least memory that may be allowed, bytes: what a log of some minutes takes.
 const LEAST_MEMORY: u64 = 1_000_000;
 
@@ -343,6 +352,13 @@ pub struct Compare {
     /// What is minimised [default: six].
     #[arg(long, value_enum)]
     pub cost: Option<CompareCost>,
+    /// Samples on which candidates may be computed, such as 5e12: runs times evaluations times samples of the record; a comparison
+    /// with more is refused before it begins.
+    #[arg(long, value_name = "N", value_parser = samples, default_value = "1e12", allow_negative_numbers = true)]
+    pub max_samples: u64,
+    /// Take the runs that an earlier call for this comparison has left in the folder, where it was stopped or ended by force.
+    #[arg(long)]
+    pub resume: bool,
     /// Folder for compare.json and report.html.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
@@ -415,6 +431,12 @@ pub struct Simulate {
     /// model.
     #[arg(long, value_name = "DIR", conflicts_with = "init")]
     pub exported_c: Option<PathBuf>,
+    /// Samples that may be simulated, such as 5e9; a study that simulates more is refused before it begins.
+    #[arg(long, value_name = "N", value_parser = samples, default_value = "2e9", conflicts_with = "init", allow_negative_numbers = true)]
+    pub max_samples: u64,
+    /// Take the runs that an earlier call for this study has left in the folder, where it was stopped or ended by force.
+    #[arg(long, conflicts_with = "init")]
+    pub resume: bool,
     /// Write into a folder that holds something else.
     #[arg(long)]
     pub force: bool,

@@ -4,6 +4,7 @@ use crate::arguments::{self, Arguments, Command, Common};
 use crate::brought;
 use crate::exit::Exit;
 use crate::interrupt;
+use crate::large;
 use crate::output;
 use crate::progress::{self, Bar};
 use crate::wording;
@@ -14,9 +15,9 @@ use stiction::commands::number::full;
 use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
 use stiction::commands::shell::{quoted, quoted_path, text as path_text};
 use stiction::commands::{
-    Bundle, CompareOptions, Cost, Excitation, ExportedC, FileError, Files, Input, Kept, Known,
-    Outcome, PlanOptions, Scheme, check_folder, check_folder_of, check_inputs, compare_exported,
-    compare_file, plan_motion, write_atomic,
+    Bundle, CompareOptions, Comparison, Cost, Excitation, ExportedC, FileError, Files, Input, Kept,
+    Known, Outcome, PlanOptions, Scheme, check_folder, check_folder_of, check_inputs,
+    compare_exported, compare_file, plan_motion, write_atomic,
 };
 use stiction::result::Next;
 use stiction::{
@@ -69,6 +70,12 @@ pub fn run(arguments: &Arguments) -> Exit {
 
 /// What to type next, where that is clear.
 fn next(error: &Error, command: &Command) -> Option<String> {
+    if let Error::File(FileError::TooLarge { needed, .. }) = error {
+        return Some(large::with_more_samples(*needed));
+    }
+    if let Error::File(FileError::Runs { .. }) = error {
+        return Some(large::anew());
+    }
     if let Command::Identify(identify) = command
         && error.code() == Code::TooFewSamples
     {
@@ -442,13 +449,23 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
             arguments::CompareCost::Separable => Cost::Separable,
             arguments::CompareCost::Position => Cost::Position,
         }),
+        max_samples: compare.max_samples,
     };
     let mut bar = Bar::new(common.json || common.quiet);
-    let found = stiction::commands::compare(&options, &mut bar);
+    let comparison = Comparison::new(&options, &mut bar)?;
+    large::announce(
+        stiction::commands::text::announced_comparison(comparison.size()),
+        common,
+    );
+    let runs = large::keeping(&compare.out, compare.resume, |dir, resume| {
+        comparison.keep(dir, resume)
+    })?;
+    let found = comparison.run_keeping(&runs, &mut bar);
     bar.finish();
     let found = found?;
     let bundle = bundle::comparison(&found);
     let (out, _) = put(&bundle, &compare.out, compare_file::SCHEMA)?;
+    large::kept(runs, found.status == "done");
     if common.json {
         output::json(&found)?;
     } else if !common.quiet {
@@ -608,20 +625,25 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
         stiction::commands::study::result::SCHEMA,
         simulate.force,
     )?;
-    let study = Study::read(study)?;
+    let study = Study::read_within(study, simulate.max_samples)?;
     let inputs: Vec<PathBuf> = study.inputs().map(PathBuf::from).collect();
     check_inputs(dir, &inputs)?;
     let exported = simulate.exported_c.as_deref();
     let exported = exported.map(|dir| ExportedC::open(dir, &study));
     let exported = exported.transpose()?;
+    large::announce(stiction::commands::text::announced(&study), common);
+    let runs = large::keeping(dir, simulate.resume, |dir, resume| {
+        Ok(stiction::commands::keep(&study, dir, resume)?)
+    })?;
     let mut bar = Bar::new(common.json || common.quiet);
-    let mut outcome = stiction::simulate(&study, &mut bar);
+    let mut outcome = stiction::commands::simulate_keeping(&study, &runs, &mut bar);
     bar.finish();
     if let Some(exported) = exported.filter(|_| !interrupt::asked()) {
         compare_exported(&mut outcome, &study, &exported)?;
     }
     let schema = stiction::commands::study::result::SCHEMA;
     let (dir, written) = put(&bundle::study(&outcome), dir, schema)?;
+    large::kept(runs, outcome.file.status == "complete");
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {

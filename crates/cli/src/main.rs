@@ -5,6 +5,7 @@ mod brought;
 mod commands;
 mod exit;
 mod interrupt;
+mod large;
 mod output;
 mod panics;
 mod progress;

@@ -135,6 +135,8 @@ fn show(read: &mut Option<Read>, reading: &Reading) {
 struct Lines {
     began: Instant,
     said: Duration,
+    /// When the present stage was first told of, and what of it was done then.
+    first: Option<(Stage, Duration, f64)>,
 }
 
 impl Default for Lines {
@@ -142,6 +144,7 @@ impl Default for Lines {
         Self {
             began: Instant::now(),
             said: Duration::ZERO,
+            first: None,
         }
     }
 }
@@ -158,11 +161,27 @@ impl Lines {
 
     fn tell(&mut self, progress: &Progress) {
         let elapsed = self.began.elapsed();
+        let of = |stage: &Stage| discriminant(stage) == discriminant(&progress.stage);
+        let first = self.first.filter(|(stage, ..)| of(stage));
+        let (_, since, before) =
+            *self
+                .first
+                .insert(first.unwrap_or((progress.stage, elapsed, progress.fraction)));
         if self.due(elapsed) {
             // With standard error closed there is nowhere to say it.
-            let line = output::line(&line(progress, elapsed));
+            let ahead = ahead(progress.fraction, before, elapsed.saturating_sub(since));
+            let line = output::line(&format!("{}{ahead}", line(progress, elapsed)));
             let _ = writeln!(std::io::stderr(), "stiction: {line}");
         }
+    }
+}
+
+/// The time that is left of a stage of which that part is done, `before` of it before the time that it took.
+fn ahead(done: f64, before: f64, took: Duration) -> String {
+    let left = took.as_secs_f64() * (1.0 - done) / (done - before);
+    match Duration::try_from_secs_f64(left) {
+        Ok(left) => format!(", left {:#}", HumanDuration(left)),
+        Err(_) => String::new(),
     }
 }
 
@@ -203,12 +222,17 @@ impl Observer for Bar {
     fn progress(&mut self, progress: &Progress) -> Control {
         interrupt::something_to_keep();
         let same = |stage: &Stage| discriminant(stage) == discriminant(&progress.stage);
-        if !self.stage.as_ref().is_some_and(same) {
+        let new = !self.stage.as_ref().is_some_and(same);
+        if new {
             self.stage = Some(progress.stage);
             self.bar.reset();
             self.bar.set_prefix(name(progress.stage));
         }
         self.bar.set_position((1000.0 * progress.fraction) as u64);
+        if new {
+            // What was done before says nothing of the time that is left.
+            self.bar.reset_eta();
+        }
         if let Some(message) = message(progress) {
             self.bar.set_message(message);
         }

@@ -131,6 +131,7 @@ codes! {
     NotSimulated = "not-simulated": "a log cannot be simulated: position, reference or mass is missing, or the controller given is not stable",
     BadRecord = "bad-record": "the channels of a log do not fit together",
     BadConfig = "bad-config": "an axis, study or model file was refused",
+    TooLarge = "too-large": "a study or a comparison would simulate more than is allowed at once",
     BadCheckpoint = "bad-checkpoint": "a checkpoint is damaged or belongs to another search",
     Usage = "usage": "the command as typed cannot be carried out",
     Output = "output": "the output folder or file cannot be used",

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
+use stiction_number::short;
 
 /// A file that cannot be read, understood or written.
 #[derive(Debug, thiserror::Error)]
@@ -38,6 +39,29 @@ pub enum Error {
         allowed: String,
         /// What is wrong with it.
         code: Code,
+    },
+    /// More would be simulated than is allowed at once.
+    #[error(
+        "{what}: {found}; at most {} are simulated unless more are allowed",
+        short(*.allowed as f64)
+    )]
+    TooLarge {
+        /// The study, or what searches are compared on.
+        what: String,
+        /// Runs and samples, and what multiplies to them.
+        found: String,
+        /// So many samples would have to be allowed.
+        needed: u64,
+        /// So many are.
+        allowed: u64,
+    },
+    /// Runs that were kept are not of this work.
+    #[error("{}: {found}; go on with what they are of, or begin anew", .path.display())]
+    Runs {
+        /// The file that holds them.
+        path: PathBuf,
+        /// What was found.
+        found: String,
     },
     /// The output folder cannot be used.
     #[error("{}: {reason}", .path.display())]
@@ -80,6 +104,8 @@ impl Error {
             Error::Log(e) => e.kind.code(),
             Error::Config { .. } | Error::Several(_) => Code::BadConfig,
             Error::Misfit { code, .. } => *code,
+            Error::Runs { .. } => Code::BadCheckpoint,
+            Error::TooLarge { .. } => Code::TooLarge,
             Error::Output { .. } | Error::Taken { .. } => Code::Output,
         }
     }

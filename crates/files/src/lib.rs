@@ -39,6 +39,6 @@ pub use error::{Error, Remedy, Warning};
 pub use hash::{Hash, sha256, sha256_of};
 pub use model::ModelFile;
 pub use output::{
-    Bundle, Kept, check_folder, check_folder_of, check_inputs, check_writable, write_atomic,
-    write_folder, write_into_folder, write_keeping,
+    Bundle, Kept, Runs, Work, check_folder, check_folder_of, check_inputs, check_writable,
+    has_runs, write_atomic, write_folder, write_into_folder, write_keeping,
 };

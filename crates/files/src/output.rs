@@ -8,6 +8,7 @@ mod bundle;
 mod folder;
 mod pending;
 mod replace;
+mod runs;
 mod single;
 mod staged;
 mod taken;
@@ -15,6 +16,7 @@ mod taken;
 pub use bundle::Bundle;
 pub use folder::{write_folder, write_into_folder};
 pub(crate) use pending::settle;
+pub use runs::{Runs, Work, has_runs};
 pub use single::{Kept, check_writable, write_atomic, write_keeping};
 pub use taken::{check_folder, check_folder_of, check_inputs};
 

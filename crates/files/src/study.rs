@@ -8,6 +8,7 @@ mod model;
 mod plan;
 mod resolve;
 pub mod result;
+mod size;
 mod start;
 pub mod template;
 
@@ -18,4 +19,5 @@ pub use plan::{
     ContourPlan, Event, Machine, ModelKind, ModelScheme, Named, PathPlan, Scheme, Second, Study,
     Sweep, SweepPoint,
 };
+pub use size::{MOST_SAMPLES, Size};
 pub use start::{Started, results, start};

@@ -17,7 +17,7 @@ use crate::next;
 pub use crate::next::{axis_file, why};
 use crate::trust::{cause, compensation, constants, why_not};
 pub use check::{check, started};
-pub use comparison::comparison;
+pub use comparison::{announced_comparison, comparison};
 pub use export::exported;
 pub use plan::planned;
 pub use procedure::procedure_commands;
@@ -27,7 +27,7 @@ use std::path::Path;
 use stiction_files::result::{LawEntry, Next, ParameterEntry, ResultFile, SimulationEntry};
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::identify::Outcome;
-pub use study::{started_study, study};
+pub use study::{announced, started_study, study};
 use table::table;
 
 /// The outcome of an identification.

@@ -7,8 +7,10 @@ use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A number, or a row of them.
-pub(crate) trait Bits: Sized {
+pub trait Bits: Sized {
+    /// Adds the digits to a text.
     fn write(&self, text: &mut String);
+    /// The numbers of digits that [`Bits::write`] wrote; `None` where they are none.
     fn read(text: &str) -> Option<Self>;
 }
 
@@ -43,13 +45,50 @@ impl Bits for Vec<f64> {
     }
 }
 
-pub(crate) fn serialize<T: Bits, S: Serializer>(value: &T, to: S) -> Result<S::Ok, S::Error> {
+impl Bits for Vec<[f64; 2]> {
+    fn write(&self, text: &mut String) {
+        for x in self.as_flattened() {
+            x.write(text);
+        }
+    }
+
+    fn read(text: &str) -> Option<Self> {
+        let flat = Vec::<f64>::read(text)?;
+        let (pairs, rest) = flat.as_chunks::<2>();
+        rest.is_empty().then(|| pairs.to_vec())
+    }
+}
+
+impl Bits for Option<f64> {
+    fn write(&self, text: &mut String) {
+        if let Some(x) = self {
+            x.write(text);
+        }
+    }
+
+    fn read(text: &str) -> Option<Self> {
+        match text {
+            "" => Some(None),
+            _ => f64::read(text).map(Some),
+        }
+    }
+}
+
+/// For `#[serde(with = "bits")]`.
+///
+/// # Errors
+/// Those of the format.
+pub fn serialize<T: Bits, S: Serializer>(value: &T, to: S) -> Result<S::Ok, S::Error> {
     let mut text = String::new();
     value.write(&mut text);
     text.serialize(to)
 }
 
-pub(crate) fn deserialize<'de, T: Bits, D: Deserializer<'de>>(from: D) -> Result<T, D::Error> {
+/// For `#[serde(with = "bits")]`.
+///
+/// # Errors
+/// Those of the format, and where there are other digits.
+pub fn deserialize<'de, T: Bits, D: Deserializer<'de>>(from: D) -> Result<T, D::Error> {
     let text = String::deserialize(from)?;
     T::read(&text).ok_or_else(|| D::Error::custom("not the bits of numbers: 16 digits 0-f each"))
 }

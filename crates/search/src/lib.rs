@@ -52,7 +52,7 @@
 //! prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
 pub mod annealing;
-mod bits;
+pub mod bits;
 mod bounds;
 pub mod cma_es;
 pub mod descent;

@@ -35,6 +35,7 @@ fn options(problem: &str, seeds: u64) -> CompareOptions {
         decades: None,
         integrator: Scheme::Explin,
         cost: None,
+        max_samples: u64::MAX,
     }
 }
 

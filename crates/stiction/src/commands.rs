@@ -3,8 +3,8 @@
 
 /// Forms of files, and how they are written.
 pub use stiction_files::{
-    Bundle, Error as FileError, Kept, Remedy, axis, check_folder, check_folder_of, check_inputs,
-    compare_file, plan, reproduce_file, shell, study, write_atomic,
+    Bundle, Error as FileError, Kept, Remedy, Runs, axis, check_folder, check_folder_of,
+    check_inputs, compare_file, has_runs, plan, reproduce_file, shell, study, write_atomic,
 };
 /// Integration steps of a simulated candidate.
 pub use stiction_identify::candidates::Scheme;
@@ -14,7 +14,7 @@ pub use stiction_number as number;
 pub use stiction_pages::{report, text};
 /// Searches beside each other.
 pub use stiction_workflows::compare::{
-    CompareOptions, Cost, Excitation, Input, ONE_START, compare,
+    CompareOptions, Comparison, Cost, Excitation, Input, ONE_START, compare,
 };
 /// An identification from paths.
 pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
@@ -22,8 +22,8 @@ pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
 pub use stiction_workflows::plan::{Known, PlanOptions, Planned, plan as plan_motion};
 /// Logs with the files they came from.
 pub use stiction_workflows::source::{Source, load, table};
-/// Exported C beside the compensator of a study's model.
-pub use stiction_workflows::study::{ExportedC, compare_exported};
+/// Exported C beside the compensator of a study's model; runs of a study that are kept as they are done.
+pub use stiction_workflows::study::{ExportedC, compare_exported, keep, simulate_keeping};
 /// How an error names options.
 pub use stiction_workflows::{Part, Setting, Wording};
 /// Further workflows, and what an outcome is worth.

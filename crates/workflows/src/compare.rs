@@ -18,11 +18,14 @@ use crate::error::Error;
 use crate::wording::{Setting, TOGETHER_WITH};
 use known::Known;
 use options::USUAL_NOISE;
+use std::fmt::Write;
+use std::path::Path;
 use std::time::Instant;
-use stiction_files::Axis;
 use stiction_files::compare_file::{CompareFile, Reference, SCHEMA};
+use stiction_files::{Axis, Hash, Runs, Work};
 use stiction_identify::Observer;
 use stiction_identify::candidates::Scheme;
+use stiction_number::{counted, short};
 use subject::Subject;
 use trial::Trial;
 
@@ -47,7 +50,154 @@ pub fn compare(
     options: &CompareOptions,
     observer: &mut dyn Observer,
 ) -> Result<CompareFile, Error> {
-    let clock = Instant::now();
+    Comparison::new(options, observer)?.run(observer)
+}
+
+/// Most samples that the candidates of a comparison are computed on unless more are allowed: fifty times what one of all methods on
+/// a known axis takes with the usual seeds and evaluations.
+pub const MOST_SAMPLES: u64 = 1_000_000_000_000;
+
+/// A comparison whose input is read: how large it is, before it runs.
+pub struct Comparison<'a> {
+    options: &'a CompareOptions,
+    axis: Axis,
+    subject: Subject,
+    methods: Vec<String>,
+    clock: Instant,
+}
+
+/// How large a comparison is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CompareSize {
+    /// Each method with each seed.
+    pub runs: u64,
+    /// Samples on which candidates are computed, at most: runs times evaluations times samples of the record.
+    pub samples: u64,
+}
+
+impl<'a> Comparison<'a> {
+    /// Reads or makes what is compared on.
+    ///
+    /// # Errors
+    /// As [`compare()`]; also for one that is larger than the options allow.
+    pub fn new(options: &'a CompareOptions, observer: &mut dyn Observer) -> Result<Self, Error> {
+        let clock = Instant::now();
+        check(options)?;
+        let axis = options.axis.as_deref();
+        let axis = axis.map_or_else(|| Ok(Axis::default()), Axis::read)?;
+        let subject = subject(options, &axis, observer)?;
+        let methods = methods(options, &subject)?;
+        let comparison = Self {
+            options,
+            axis,
+            subject,
+            methods,
+            clock,
+        };
+        let CompareSize { runs, samples } = comparison.size();
+        if samples > options.max_samples {
+            let found = format!(
+                "{runs} runs compute candidates on up to {} samples: {} x {} x {} evaluations x {} samples",
+                short(samples as f64),
+                counted(comparison.methods.len(), "method"),
+                counted(options.seeds as usize, "seed"),
+                options.evaluations,
+                comparison.subject.samples,
+            );
+            return Err(Error::File(stiction_files::Error::TooLarge {
+                what: comparison.subject.name,
+                found,
+                needed: samples,
+                allowed: options.max_samples,
+            }));
+        }
+        Ok(comparison)
+    }
+
+    /// How large it is.
+    pub fn size(&self) -> CompareSize {
+        let runs = self.options.seeds * self.methods.len() as u64;
+        let each = self.options.evaluations * self.subject.samples as u64;
+        CompareSize {
+            runs,
+            samples: runs.saturating_mul(each),
+        }
+    }
+
+    /// Runs it.
+    ///
+    /// # Errors
+    /// As [`compare()`].
+    pub fn run(self, observer: &mut dyn Observer) -> Result<CompareFile, Error> {
+        run(&self, None, observer)
+    }
+
+    /// The same, where the runs are [kept](Self::keep) as they are done, and those that were kept before are taken.
+    ///
+    /// # Errors
+    /// As [`compare()`].
+    pub fn run_keeping(
+        self,
+        runs: &Runs,
+        observer: &mut dyn Observer,
+    ) -> Result<CompareFile, Error> {
+        run(&self, Some(runs), observer)
+    }
+
+    /// Keeps the runs in the folder that the outcome goes to; `resume` takes those that an earlier call has left there.
+    ///
+    /// # Errors
+    /// Where the folder cannot be written, another call is at work in it, or the runs in it are of another comparison or version.
+    pub fn keep(&self, dir: &Path, resume: bool) -> Result<Runs, Error> {
+        let work = Work {
+            kind: "comparison".into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            of: self.depends_on()?,
+            runs: usize::try_from(self.size().runs).unwrap_or(usize::MAX),
+        };
+        Ok(match resume {
+            true => Runs::resume(dir, &work)?,
+            false => Runs::begin(dir, &work)?,
+        })
+    }
+}
+
+impl Comparison<'_> {
+    /// SHA-256 of all that its runs depend on.
+    fn depends_on(&self) -> Result<String, Error> {
+        let mut options = self.options.clone();
+        // It does not matter how many could have been run, nor what its files are called.
+        options.max_samples = 0;
+        if let Input::Log { logs } = &mut options.input {
+            logs.clear();
+        }
+        let mut hash = Text(Hash::default());
+        // It has the settings of the methods.
+        if let Some(axis) = options.axis.take() {
+            hash.0.take(stiction_files::sha256(&axis)?.as_bytes());
+        }
+        let Subject {
+            data, law, bounds, ..
+        } = &self.subject;
+        let methods = &self.methods;
+        let written = write!(hash, "{options:?} {methods:?} {law:?} {bounds:?} {data:?}");
+        written.expect("a hash takes all");
+        Ok(hash.0.finish())
+    }
+}
+
+/// A text of which only the hash is kept.
+struct Text(Hash);
+
+impl std::fmt::Write for Text {
+    fn write_str(&mut self, text: &str) -> std::fmt::Result {
+        self.0.take(text.as_bytes());
+        Ok(())
+    }
+}
+
+/// Refuses options that are out of range or do not go together.
+fn check(options: &CompareOptions) -> Result<(), Error> {
     for (setting, found, most) in [
         (Setting::Seeds, options.seeds, 10_000),
         (Setting::Evaluations, options.evaluations, 100_000_000),
@@ -71,23 +221,49 @@ pub fn compare(
             ],
         ));
     }
-    let axis = options.axis.as_deref();
-    let axis = axis.map_or_else(|| Ok(Axis::default()), Axis::read)?;
-    let subject = subject(options, &axis, observer)?;
-    let methods = methods(options, &subject)?;
+    Ok(())
+}
+
+/// A run that an earlier call of the same comparison has kept.
+fn taken(runs: Option<&Runs>, place: usize, name: &str, seed: u64) -> Option<Trial> {
+    let trial: Trial = serde_json::from_str(runs?.taken(place)?).ok()?;
+    (trial.method == name && trial.seed == seed).then_some(trial)
+}
+
+fn run(
+    comparison: &Comparison,
+    runs: Option<&Runs>,
+    observer: &mut dyn Observer,
+) -> Result<CompareFile, Error> {
+    let Comparison {
+        options,
+        axis,
+        subject,
+        methods,
+        clock,
+    } = comparison;
     let (least, by) = subject.reference(observer)?;
     let problem = subject.problem()?;
     let setting = trial::Setting {
         problem: &*problem,
         evaluations: options.evaluations,
         descends: subject.descends(),
-        axis: &axis,
+        axis,
     };
-    let tasks: Vec<(&str, u64)> = (0..options.seeds)
+    let tasks = (0..options.seeds)
         .flat_map(|seed| methods.iter().map(move |name| (name.as_str(), seed)))
-        .collect();
-    let (trials, stopped) = crew::run(&tasks, observer, |&(name, seed), stop| {
-        setting.run(name, seed, stop)
+        .enumerate();
+    let tasks: Vec<(usize, (&str, u64))> = tasks.collect();
+    let (trials, stopped) = crew::run(&tasks, observer, |&(place, (name, seed)), stop| {
+        if let Some(trial) = taken(runs, place, name, seed) {
+            return Some(trial);
+        }
+        let trial = setting.run(name, seed, stop)?;
+        if let Some(runs) = runs {
+            let text = serde_json::to_string(&trial).expect("plain data");
+            runs.add(place, &text);
+        }
+        Some(trial)
     });
     let trials: Vec<Trial> = trials.into_iter().flatten().collect();
     let found = trials.iter().filter_map(|t| t.cost());

@@ -243,6 +243,8 @@ fn at_any_time() {
 /// again, ends that first. In the end nothing is left of the killed one.
 fn one_or_the_other(bench: &Bench, case: &Case, old: &Files, new: &Files, place: &str) {
     let temporary = |path: &Path| path.to_str().unwrap().starts_with(".stiction-part-");
+    // Runs that were done, for a later call: no part of an outcome.
+    let kept = |path: &Path| path == Path::new(".stiction-runs");
     let model = bench.path(case.out).join("model.toml");
     if model.exists() {
         let model = model.to_str().unwrap();
@@ -261,7 +263,7 @@ fn one_or_the_other(bench: &Bench, case: &Case, old: &Files, new: &Files, place:
         let there = files(&bench.path(case.out));
         let own: Files = there
             .into_iter()
-            .filter(|(path, _)| !temporary(path))
+            .filter(|(path, _)| !temporary(path) && !kept(path))
             .collect();
         let names: Vec<_> = own.keys().collect();
         assert!(own == *old || own == *new, "{place}: {names:?}");

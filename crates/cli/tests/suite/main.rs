@@ -11,6 +11,8 @@ mod linuxcnc;
 mod paper;
 mod plan;
 mod procedures;
+#[cfg(unix)]
+mod resumed;
 mod rows;
 mod searches;
 mod study;

@@ -1,7 +1,7 @@
 //! What an output folder may hold already, and what would be lost in it.
 
-use super::describe;
 use super::staged::{clean, probe};
+use super::{describe, runs};
 use crate::error::{Error, Remedy};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -97,7 +97,8 @@ pub fn check_folder_of(dir: impl AsRef<Path>, schema: &str, force: bool) -> Resu
     }
     clean(dir)?;
     let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
-    let empty = entries.next().is_none();
+    // Runs that were kept until the outcome is there are nothing that would be lost.
+    let empty = entries.all(|entry| entry.is_ok_and(|entry| entry.file_name() == runs::NAME));
     let mut marks = MARKS
         .iter()
         .filter(|mark| mark.split('.').next() == Some(kind));

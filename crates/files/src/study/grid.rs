@@ -2,9 +2,10 @@
 
 use super::belief::{Belief, Family};
 use super::plan::{Scheme, Study};
+use serde::{Deserialize, Serialize};
 
 /// A run of the grid, by the places in the lists of the study.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Job {
     /// Index of the path; contours are numbered after the paths.
     pub path: usize,

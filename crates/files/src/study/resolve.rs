@@ -20,6 +20,7 @@ mod usual;
 
 use super::belief::{Belief, Family, Undrawn};
 use super::plan::{Machine, Named, Study};
+use super::size::MOST_SAMPLES;
 use crate::config::{ANY_COUNT, Source, Table};
 use crate::error::{Error, Warning};
 pub(super) use compensators::whole;
@@ -37,11 +38,22 @@ impl Study {
     /// Reads and checks a study file, and the models that it names.
     ///
     /// # Errors
-    /// With file, line, column and key, what was found and what is allowed.
+    /// With file, line, column and key, what was found and what is allowed; for one that simulates more than
+    /// [`MOST_SAMPLES`](super::MOST_SAMPLES), with what makes it so large.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
+        Self::read_within(file, MOST_SAMPLES)
+    }
+
+    /// [`Study::read`] with at most so many samples to simulate, in [all runs](Study::size) together.
+    ///
+    /// # Errors
+    /// As [`Study::read`].
+    pub fn read_within(file: impl AsRef<Path>, samples: u64) -> Result<Self, Error> {
         let file = file.as_ref();
         let text = crate::config::read(file, "a study file")?;
-        resolve(&text, file)
+        let study = resolve(&text, file)?;
+        study.within(file, samples)?;
+        Ok(study)
     }
 }
 

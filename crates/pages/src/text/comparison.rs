@@ -3,10 +3,24 @@
 use super::table::table;
 use std::fmt::Write;
 use stiction_files::compare_file::{CompareFile, MethodEntry, Quartiles};
-use stiction_number::four_digits as short;
+use stiction_number::{counted, four_digits as short, short as whole};
+use stiction_workflows::compare::CompareSize;
 
 fn median(values: &Quartiles) -> String {
     values.map_or("-".into(), |[_, median, _]| short(median))
+}
+
+/// Samples up to which nothing is said before: a comparison of some seconds.
+const SHORT: u64 = 1_000_000_000;
+
+/// How large a comparison is, before it runs; `None` of a short one.
+pub fn announced_comparison(size: CompareSize) -> Option<String> {
+    let text = format!(
+        "{}, whose candidates are computed on up to {} samples in all",
+        counted(size.runs as usize, "run"),
+        whole(size.samples as f64)
+    );
+    (size.samples > SHORT).then_some(text)
 }
 
 /// What was compared, the rates, and how long success took.

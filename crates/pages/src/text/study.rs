@@ -10,9 +10,9 @@ use std::fmt::Write;
 use std::path::Path;
 use stiction_files::shell::quoted_path;
 use stiction_files::study::result::{ResultRow, StudyFile};
-use stiction_files::study::{Started, results};
-use stiction_number::quantity;
-use stiction_workflows::study::StudyOutcome;
+use stiction_files::study::{Started, Study, results};
+use stiction_number::{bytes, counted, quantity, short};
+use stiction_workflows::study::{StudyOutcome, memory};
 
 /// Rows of a study up to which all are shown; of more, the best of each path and controller.
 const MOST_ROWS: usize = 40;
@@ -36,6 +36,22 @@ pub fn started_study(started: &Started, file: &Path) -> String {
         quoted_path(&results(file))
     );
     out
+}
+
+/// Samples up to which nothing is said before: a study of some seconds.
+const SHORT: u64 = 10_000_000;
+
+/// How large a study is, before it runs; `None` of a short one.
+pub fn announced(study: &Study) -> Option<String> {
+    let size = study.size();
+    let text = format!(
+        "{} of {} samples at most, {} samples in all, in some {} of memory",
+        counted(size.runs, "run"),
+        short(size.longest as f64),
+        short(size.samples as f64),
+        bytes(memory(study))
+    );
+    (size.samples > SHORT).then_some(text)
 }
 
 /// The outcome of a study.

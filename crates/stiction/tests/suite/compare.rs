@@ -18,6 +18,7 @@ fn options(problem: &str, methods: &[&str]) -> CompareOptions {
         decades: None,
         integrator: Scheme::Explin,
         cost: None,
+        max_samples: u64::MAX,
     }
 }
 

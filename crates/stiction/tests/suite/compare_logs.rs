@@ -60,6 +60,7 @@ fn compared(folder: &Path, log: PathBuf, axis: &str, decades: Option<f64>) -> Co
         decades,
         integrator: Scheme::Explin,
         cost: None,
+        max_samples: u64::MAX,
     };
     compare(&options, &mut Silent).unwrap_or_else(|e| panic!("{axis}: {e}"))
 }

@@ -28,6 +28,7 @@ mod study_axis;
 mod study_depends;
 mod study_events;
 mod study_examples;
+mod study_size;
 mod study_sweep;
 mod terms;
 mod workflow;

@@ -76,6 +76,8 @@ pub struct CompareOptions {
     pub integrator: Scheme,
     /// What is minimised.
     pub cost: Option<Cost>,
+    /// Samples on which candidates may be computed; [`MOST_SAMPLES`](super::MOST_SAMPLES) are usual.
+    pub max_samples: u64,
 }
 
 /// Name of an integrator as typed and as written to files.

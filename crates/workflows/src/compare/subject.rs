@@ -35,6 +35,7 @@ pub(super) struct Subject {
 }
 
 /// The data that the candidates are compared with.
+#[derive(Debug)]
 pub(super) enum Data {
     Record {
         record: Box<Record>,

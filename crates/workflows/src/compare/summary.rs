@@ -136,7 +136,7 @@ impl Judge<'_> {
         let within = |(_, cost): &(f64, f64)| *cost <= threshold;
         RunEntry {
             seed: trial.seed,
-            status: trial.status.into(),
+            status: trial.status.clone(),
             evaluations: trial.evaluations,
             seconds: trial.seconds,
             cost_own: trial.own.as_ref().map(|p| p.cost),

@@ -3,6 +3,7 @@
 use super::options::{ONE_START, Shared};
 use crate::entries;
 use crate::spread::Spread;
+use serde::{Deserialize, Serialize};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 use stiction_files::Axis;
@@ -24,10 +25,11 @@ pub(super) struct Setting<'a> {
 }
 
 /// A complete run.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Trial {
     pub method: String,
     pub seed: u64,
-    pub status: &'static str,
+    pub status: String,
     pub evaluations: Evaluations,
     pub own: Option<Point>,
     pub last: Option<Point>,
@@ -39,6 +41,7 @@ pub(super) struct Trial {
 }
 
 /// The best of a run.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Point {
     pub cost: f64,
     pub evaluations: f64,
@@ -115,7 +118,7 @@ impl Setting<'_> {
         Some(Trial {
             method: name.into(),
             seed,
-            status,
+            status: status.into(),
             evaluations: entries::evaluations(&run.counts(), share),
             own: run.own_best().map(point),
             last: run.best().map(point),

@@ -1,7 +1,9 @@
 //! An axis that changes while it runs, and what is found of it: the load that is estimated, the level that is adapted.
 
+use serde::{Deserialize, Serialize};
 use stiction_files::study::{Belief, Event, Machine, ModelScheme, Scheme, Study};
 use stiction_friction::ParamError;
+use stiction_search::bits;
 use stiction_servo::axis::{Axis, Correction, Sample};
 use stiction_servo::integrator::Integrator;
 use stiction_servo::law::{AxisLaw, OfAxis};
@@ -12,20 +14,36 @@ use stiction_servo::path::Reference;
 const MOST_POINTS_KEPT: usize = 1000;
 
 /// The load of an axis over a run, from its beginning, and what was found of it.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct LoadCourse {
     /// s
+    #[serde(with = "bits")]
     pub time: Vec<f64>,
     /// kg (kg m^2)
+    #[serde(with = "bits")]
     pub mass: Vec<f64>,
     /// Factor on the friction of the law.
+    #[serde(with = "bits")]
     pub level: Vec<f64>,
     /// The mass that is estimated; empty where none is.
+    #[serde(with = "bits")]
     pub found_mass: Vec<f64>,
     /// The level that is estimated or adapted; empty where neither is.
+    #[serde(with = "bits")]
     pub found_level: Vec<f64>,
     /// How long the load estimate learnt, s; `None` where there is none.
+    #[serde(with = "bits")]
     pub learning_time: Option<f64>,
+}
+
+impl LoadCourse {
+    /// Whether it has a value of each signal at each time.
+    pub(super) fn is_whole(&self) -> bool {
+        let known = [&self.mass, &self.level];
+        let found = [&self.found_mass, &self.found_level];
+        let all = |s: &&Vec<f64>| s.len() == self.time.len();
+        known.iter().all(all) && found.iter().all(|s| s.is_empty() || all(s))
+    }
 }
 
 /// What moves an axis by a period, given its reference and the velocity ahead.

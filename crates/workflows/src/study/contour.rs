@@ -27,9 +27,8 @@ struct Plan<'a> {
     pub controllers: [Controller; 2],
     pub scheme: &'a Scheme,
     pub beliefs: [Belief; 2],
-    /// The axes themselves, and whether they are those of the study.
+    /// The axes themselves.
     pub axes: [Belief; 2],
-    pub own: bool,
     pub coupling: Option<CrossCoupling>,
 }
 
@@ -66,8 +65,7 @@ fn along<L: OfAxis, I: Integrator<L>>(
         let samples = follow(&mut axes, plan.coupling.as_ref(), contour.motion.as_ref())?;
         Ok((axes, samples))
     };
-    let own_mass = (machines.iter().zip(&plan.beliefs)).all(|(m, b)| m.mass == b.mass);
-    let watches = before.before(study, job, !(plan.own && own_mass), || {
+    let watches = before.before(study, job, || {
         let (_, samples) = follow(settings.clone())?;
         Ok(sides(&samples).to_vec())
     })?;
@@ -171,7 +169,6 @@ pub(super) fn on_contour(
                 mass: machine.mass,
             }),
         },
-        own: drawn[0].is_none(),
         coupling: coupling.map(|c| c.above(controllers.each_ref())),
     };
     let run = (study, second, &plan, job, before);

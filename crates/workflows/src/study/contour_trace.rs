@@ -1,11 +1,14 @@
 //! The course of a run on a contour, for figures.
 
+use serde::{Deserialize, Serialize};
+use stiction_search::bits;
 use stiction_servo::two_axes::PlaneSample;
 
 /// Most points of a course that are kept: more than a figure can show.
 const MOST_POINTS_KEPT: usize = 3000;
 
 /// The course of a run on a contour with exact parameters, for figures.
+#[derive(Serialize, Deserialize)]
 pub struct ContourTrace {
     /// Name of the contour.
     pub path: String,
@@ -16,16 +19,26 @@ pub struct ContourTrace {
     /// Whether the contour error was controlled.
     pub coupled: bool,
     /// s
+    #[serde(with = "bits")]
     pub time: Vec<f64>,
     /// The reference, m.
+    #[serde(with = "bits")]
     pub reference: Vec<[f64; 2]>,
     /// Unit vector to the left of the motion; zero where it stands.
+    #[serde(with = "bits")]
     pub left: Vec<[f64; 2]>,
     /// m, positive if the contour lies to the left.
+    #[serde(with = "bits")]
     pub deviation: Vec<f64>,
 }
 
 impl ContourTrace {
+    /// Whether it has a value of each signal at each time.
+    pub(super) fn is_whole(&self) -> bool {
+        let lengths = [self.reference.len(), self.left.len(), self.deviation.len()];
+        lengths.iter().all(|n| *n == self.time.len())
+    }
+
     /// Of each stretch the sample that deviates most.
     pub(super) fn of(names: [&str; 3], coupled: bool, samples: &[PlaneSample]) -> Self {
         let mut trace = ContourTrace {

@@ -33,7 +33,6 @@ impl Learnt {
         &self,
         study: &Study,
         job: Job,
-        own_mass: bool,
         without: impl Fn() -> Result<Vec<Vec<Sample>>, ParamError>,
     ) -> Result<Watches, ParamError> {
         let watchdog = |compensator: usize| match &study.compensators[compensator].value {
@@ -49,7 +48,7 @@ impl Learnt {
         let Some(mine) = watchdog(job.compensator) else {
             return Ok(vec![Watch::default(); 2]);
         };
-        if own_mass {
+        if study.learns_alone(job) {
             return learn(mine, &without()?);
         }
         let place = 2 * (job.path * study.controllers.len() + job.controller);

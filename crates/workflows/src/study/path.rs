@@ -21,7 +21,7 @@ use stiction_servo::sampled::Sampled;
 use stiction_servo::trajectory::Lookahead;
 
 /// Most reference samples that are kept for all runs, of all paths together: a hundred megabytes.
-const MOST_SHARED_SAMPLES: usize = 4_000_000;
+pub(super) const MOST_SHARED_SAMPLES: usize = 4_000_000;
 
 /// The reference of each path at the control rate, for all runs along it, where there are so many grids in all; `None` where
 /// that would be too much to keep.
@@ -65,8 +65,7 @@ pub(super) fn on_path<L: OfAxis, I: Integrator<L>>(
         let mut axis = Axis::new(settings.clone(), integrator()?)?;
         Ok(vec![follow(&mut axis)?])
     };
-    let alone = drawn.is_some() || belief.mass != study.machine.mass;
-    let watches = before.before(study, job, alone, without)?;
+    let watches = before.before(study, job, without)?;
     settings.feedforward = feedforward(scheme, &study.machine, &controller, belief, &watches[0])?;
     let changing = Changing::of(study, scheme, axis, belief, controller.mass_feedforward());
     let mut load = None;

@@ -6,12 +6,12 @@ use super::learnt::Learnt;
 use super::metrics::{may_be_absent, metrics};
 use super::outcome::StudyOutcome;
 use super::rows::{promises, rows};
-use super::{contour, course, doubt, machine, not_promised, path, sweeps};
+use super::{contour, course, doubt, kept, machine, not_promised, path, sweeps};
 use rayon::prelude::*;
 use stiction_codes::Code;
-use stiction_files::Warning;
 use stiction_files::study::result::{SCHEMA, StudyFile};
 use stiction_files::study::{Job, Study};
+use stiction_files::{Runs, Warning};
 use stiction_friction::{ElastoPlastic, LuGre, MaxwellSlip, ParamError};
 use stiction_number::{four_digits as short, quantity};
 use stiction_search::{Observer, Shared};
@@ -25,6 +25,16 @@ use stiction_servo::unmodelled::Beside;
 /// passes of learning, and may stop the work: what is done then is kept. Results do not depend on the number of
 /// threads.
 pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
+    simulated(study, None, observer)
+}
+
+/// [`simulate`], where the runs are [kept](super::keep()) as they are done, and those that were kept before are taken: the same
+/// bits.
+pub fn simulate_keeping(study: &Study, runs: &Runs, observer: &mut dyn Observer) -> StudyOutcome {
+    simulated(study, Some(runs), observer)
+}
+
+fn simulated(study: &Study, runs: Option<&Runs>, observer: &mut dyn Observer) -> StudyOutcome {
     let grids: Vec<Grid> = {
         let count = study.grids().count();
         study.grids().map(|grid| Grid::of(grid, count)).collect()
@@ -33,16 +43,36 @@ pub fn simulate(study: &Study, observer: &mut dyn Observer) -> StudyOutcome {
     let jobs: Vec<(usize, Job)> = jobs
         .flat_map(|(i, grid)| grid.study.jobs().into_iter().map(move |job| (i, job)))
         .collect();
-    let watch = Shared::new(observer, jobs.len());
+    let size = jobs.iter().map(|&(i, job)| grids[i].study.work(job)).sum();
+    let watch = Shared::sized(observer, jobs.len(), size);
     let mut warnings = study.warnings.clone();
+    let places = jobs.iter().enumerate();
+    let mut taken: Vec<Option<Done>> = places
+        .map(|(place, &(i, job))| {
+            let done = kept::taken(grids[i].study, job, runs?.taken(place)?)?;
+            watch.one_more_of(grids[i].study.work(job));
+            Some(done)
+        })
+        .collect();
+    if taken.iter().any(Option::is_some) {
+        watch.go_on();
+    }
     let done: Vec<Option<Result<Done, Fault>>> = jobs
         .par_iter()
-        .map(|&(i, job)| {
+        .zip(&mut taken)
+        .enumerate()
+        .map(|(place, (&(i, job), taken))| {
+            if let Some(done) = taken.take() {
+                return Some(Ok(done));
+            }
             if watch.is_stopped() {
                 return None;
             }
             let done = grids[i].run(job, &|| watch.go_on()).transpose()?;
-            watch.one_more();
+            if let (Some(runs), Ok(done)) = (runs, &done) {
+                kept::add(runs, place, done);
+            }
+            watch.one_more_of(grids[i].study.work(job));
             watch.go_on();
             Some(done)
         })

@@ -1,6 +1,8 @@
 //! The course of a run on a path, for figures.
 
 use super::changing::LoadCourse;
+use serde::{Deserialize, Serialize};
+use stiction_search::bits;
 use stiction_servo::axis::Sample;
 use stiction_servo::metrics::reversals;
 
@@ -8,6 +10,7 @@ use stiction_servo::metrics::reversals;
 const MOST_POINTS_KEPT: usize = 2000;
 
 /// The course of the run with exact parameters, for figures.
+#[derive(Serialize, Deserialize)]
 pub struct Trace {
     /// Name of the path.
     pub path: String,
@@ -24,15 +27,19 @@ pub struct Trace {
 }
 
 /// Signals over time, thinned to what a figure can show.
-#[derive(Default)]
+#[derive(Default, Serialize, Deserialize)]
 pub struct Course {
     /// s
+    #[serde(with = "bits")]
     pub time: Vec<f64>,
     /// m (rad)
+    #[serde(with = "bits")]
     pub reference: Vec<f64>,
     /// m (rad)
+    #[serde(with = "bits")]
     pub error: Vec<f64>,
     /// N (N m)
+    #[serde(with = "bits")]
     pub compensation: Vec<f64>,
 }
 
@@ -60,6 +67,12 @@ impl Trace {
 }
 
 impl Course {
+    /// Whether it has a value of each signal at each time.
+    pub(super) fn is_whole(&self) -> bool {
+        let signals = [&self.reference, &self.error, &self.compensation];
+        signals.iter().all(|s| s.len() == self.time.len())
+    }
+
     /// Of each stretch the least and the largest error.
     fn of(samples: &[Sample]) -> Self {
         let mut course = Course::default();

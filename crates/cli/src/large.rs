@@ -1,0 +1,105 @@
+//! Work that may be long: how large it is, what is kept of it while it lasts, how to go on.
+
+use crate::arguments::Common;
+use crate::output;
+use std::io::Write;
+use std::path::Path;
+use stiction::Error;
+use stiction::commands::shell::text as path_text;
+use stiction::commands::{Runs, has_runs};
+
+/// Says how large the work is before it begins.
+pub fn announce(size: Option<String>, common: &Common) {
+    if let Some(size) = size.filter(|_| !(common.json || common.quiet)) {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&size));
+    }
+}
+
+/// Keeps runs in a folder as they are done, and says what becomes of those that an earlier call has left there.
+pub fn keeping(
+    dir: &Path,
+    resume: bool,
+    keep: impl FnOnce(&Path, bool) -> Result<Runs, Error>,
+) -> Result<Runs, Error> {
+    let left = has_runs(dir);
+    let runs = keep(dir, resume)?;
+    let said = match (resume, left, runs.before()) {
+        (true, false, _) => Some(format!(
+            "{} holds no runs of an earlier call: it begins with the first",
+            dir.display()
+        )),
+        (true, true, before) => Some(format!("{before} of {} runs are taken", runs.all())),
+        (false, true, _) => Some(format!(
+            "{} held runs of a call that was not finished: it begins anew; --resume would have taken them",
+            dir.display()
+        )),
+        (false, false, _) => None,
+    };
+    if let Some(said) = said {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
+    }
+    Ok(runs)
+}
+
+/// Removes runs whose work is whole; says how to go on where it is not.
+pub fn kept(runs: Runs, whole: bool) {
+    let fault = runs.fault();
+    let said = match (whole, fault) {
+        (true, _) => return runs.end(),
+        (false, Some(fault)) => format!("what was done could not be kept: {fault}"),
+        (false, None) => {
+            let arguments = std::env::args_os().skip(1);
+            let arguments = arguments.map(|a| path_text(Path::new(&a)));
+            let others = arguments.filter(|a| a != "--resume");
+            let all = others.chain(["--resume".into()]);
+            format!(
+                "next: {} goes on where it was stopped",
+                stiction::commands::text::command(all)
+            )
+        }
+    };
+    // As above.
+    let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
+}
+
+/// The present command, which takes no runs of an earlier call.
+pub fn anew() -> String {
+    let arguments = std::env::args_os().skip(1);
+    let arguments = arguments.map(|a| path_text(Path::new(&a)));
+    let command = stiction::commands::text::command(arguments.filter(|a| a != "--resume"));
+    format!("next: {command} begins anew")
+}
+
+/// The present command, which may simulate so many samples.
+pub fn with_more_samples(needed: u64) -> String {
+    const OPTION: &str = "--max-samples";
+    let mut typed = std::env::args_os().skip(1);
+    let mut kept = Vec::new();
+    while let Some(argument) = typed.next() {
+        let argument = path_text(Path::new(&argument));
+        match argument.strip_prefix(OPTION) {
+            Some("") => drop(typed.next()),
+            Some(value) if value.starts_with('=') => {}
+            _ => kept.push(argument),
+        }
+    }
+    kept.extend([OPTION.into(), rounded_up(needed)]);
+    let command = stiction::commands::text::command(kept.into_iter());
+    format!("next: {command}, or make it smaller")
+}
+
+/// A number of two digits with a power of ten that is not below it.
+fn rounded_up(count: u64) -> String {
+    let mut power = 0;
+    let mut digits = count;
+    while digits >= 100 {
+        digits = digits.div_ceil(10);
+        power += 1;
+    }
+    match power {
+        0 => digits.to_string(),
+        _ => format!("{digits}e{power}"),
+    }
+}
