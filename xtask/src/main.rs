@@ -12,6 +12,7 @@ mod shell;
 mod soak;
 mod test;
 mod tools;
+mod wheel;
 
 use std::process::ExitCode;
 
@@ -25,7 +26,7 @@ struct Task {
 const TASKS: &[Task] = &[
     Task {
         name: "setup",
-        help: "install what the tests need: Debian packages, Python packages and tools in .venv",
+        help: "install what the tests need: Debian packages, Python packages and tools in .venv and target",
         run: setup,
     },
     Task {
@@ -52,6 +53,16 @@ const TASKS: &[Task] = &[
         name: "archive",
         help: "only that archive, from the work tree as it is",
         run: release::archive,
+    },
+    Task {
+        name: "python",
+        help: "build the Python package and run its tests, and nothing else",
+        run: wheel::built,
+    },
+    Task {
+        name: "wheel",
+        help: "the Python wheel as users get it, tested: target/python/release",
+        run: wheel::release,
     },
     Task {
         name: "validation",

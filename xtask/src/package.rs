@@ -2,8 +2,8 @@
 
 use crate::shell::{self, Outcome, cargo};
 
-/// Never published: for tests, and the tasks.
-const PRIVATE: &str = "--exclude stiction-testkit --exclude xtask";
+/// Never published as crates: for tests, the tasks, and the Python package.
+const PRIVATE: &str = "--exclude stiction-testkit --exclude stiction-python --exclude xtask";
 
 /// Packs every crate; whether a packed crate also builds is for [`verified`] to say.
 pub fn run() -> Outcome {

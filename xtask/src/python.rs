@@ -1,30 +1,52 @@
-//! The virtual environment with the Python packages that tests compare stiction with.
+//! The virtual environments: one with the Python packages that tests compare stiction with, one that has nothing but the
+//! Python package stiction and what its tests need.
 
 use crate::debian;
 use crate::shell::{self, Outcome};
 use std::fs;
+use std::path::PathBuf;
 
 /// The oldest Python for which all pinned packages have wheels.
 const OLDEST: &str = "3.11";
 const TOO_OLD: &str = "import sys; sys.exit(sys.version_info < (3, 11))";
 
-/// Where the environment is made, from the workspace root.
-const FOLDER: &str = ".venv";
-/// Exact versions of its packages.
-const REQUIREMENTS: &str = "xtask/requirements.txt";
 /// Python that runs only where the packages are whole.
 const PROBE: &str = "import numpy";
 
-/// Makes `.venv`.
-pub fn install() -> Outcome {
-    environment().map(drop)
+/// A virtual environment.
+struct Environment {
+    /// Where it is made.
+    folder: PathBuf,
+    /// Exact versions of its packages, a file from the workspace root.
+    requirements: &'static str,
 }
 
-/// The Python of `.venv`, which is made afresh unless it was made from the requirements as they are now.
+/// Makes both.
+pub fn install() -> Outcome {
+    environment().and_then(|_| bare()).map(drop)
+}
+
+/// The Python of `.venv`.
 pub fn environment() -> Result<String, String> {
-    let folder = shell::root().join(FOLDER);
+    made(&Environment {
+        folder: shell::root().join(".venv"),
+        requirements: "xtask/requirements.txt",
+    })
+}
+
+/// The Python that has numpy and pytest alone, for the package stiction.
+pub fn bare() -> Result<String, String> {
+    made(&Environment {
+        folder: shell::target().join("python/venv"),
+        requirements: "python/tests/requirements.txt",
+    })
+}
+
+/// The Python of an environment, which is made afresh unless it was made from the requirements as they are now.
+fn made(environment: &Environment) -> Result<String, String> {
+    let folder = &environment.folder;
     let python = folder.join("bin/python").to_string_lossy().into_owned();
-    let file = shell::root().join(REQUIREMENTS);
+    let file = shell::root().join(environment.requirements);
     let wanted = fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
     // A copy of the requirements, written last: it is there only if all of them are installed.
     let stamp = folder.join("requirements.installed");
@@ -48,11 +70,11 @@ pub fn environment() -> Result<String, String> {
     if !has("import ensurepip, venv") {
         debian::install_python_venv()?;
     }
-    let arguments = ["-m", "venv", "--clear", FOLDER];
+    let arguments = ["-m", "venv", "--clear", &folder.to_string_lossy()];
     shell::run(shell::command("python3", &arguments))?;
     let install = "-m pip install --quiet --disable-pip-version-check --only-binary :all: -r";
     let mut arguments: Vec<&str> = install.split_whitespace().collect();
-    arguments.push(REQUIREMENTS);
+    arguments.push(environment.requirements);
     shell::run(shell::command(&python, &arguments))?;
     fs::write(&stamp, wanted).map_err(|e| format!("{}: {e}", stamp.display()))?;
     Ok(python)

@@ -32,7 +32,7 @@ pub fn run() -> Outcome {
         "\nleft to do, each after a look at the one before:\n    \
          cargo xtask test && cargo xtask soak\n    \
          git tag --annotate v{version} --message 'stiction {version}' && git push --tags\n    \
-         cargo publish --workspace --exclude stiction-testkit --exclude xtask\n    \
+         cargo publish --workspace --exclude stiction-testkit --exclude stiction-python --exclude xtask\n    \
          attach the files above to the release of the tag"
     );
     Ok(())

@@ -1,7 +1,7 @@
 //! Everything CI checks, the quick refusals first.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{instructions, licences, package, setup, tools};
+use crate::{instructions, licences, package, setup, tools, wheel};
 use std::thread;
 
 /// Every target that has tests; examples and benchmarks are only checked, with the lints.
@@ -23,7 +23,8 @@ pub fn run() -> Outcome {
     instructions::compare()?;
     shell::run(tools::command(&tools::NEXTEST, TESTS)?)?;
     // nextest runs no doctests.
-    shell::run(cargo("test --quiet --workspace --doc"))
+    shell::run(cargo("test --quiet --workspace --doc"))?;
+    wheel::test()
 }
 
 /// What needs the compiler alone.
@@ -35,5 +36,6 @@ fn build() -> Outcome {
     shell::run(doc)?;
     licences::run()?;
     package::run()?;
-    shell::run(cargo("test --workspace --tests --no-run"))
+    // With the tests, the library of the Python package: of the same dependencies, which are built once.
+    shell::run(cargo("build --workspace --lib --tests"))
 }

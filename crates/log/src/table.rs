@@ -13,6 +13,14 @@ pub struct Column {
     pub values: Vec<f64>,
 }
 
+impl Column {
+    /// A column under a header as files have it: `Position [mm]` is the position in mm, `Position` has no unit.
+    pub fn headed(header: &str, values: Vec<f64>) -> Self {
+        let (name, unit) = crate::text::unit::split(header);
+        Self { name, unit, values }
+    }
+}
+
 /// A single number that a file carries beside its columns (a force constant, a sample time).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scalar {

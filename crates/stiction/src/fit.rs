@@ -3,11 +3,12 @@
 use crate::{Error, Log, Parameter, bundle};
 use std::path::{Path, PathBuf};
 use stiction_files::result::{CovarianceEntry, FitEntry, ResultFile};
-use stiction_files::{ModelFile, Warning};
+use stiction_files::{Bundle, ModelFile, Warning};
 use stiction_friction::compensator::Compensator;
 use stiction_identify::Series;
 use stiction_pages::report;
 use stiction_parameters::{FrictionLaw, LawError, LawKind, ParameterSet};
+use stiction_workflows::Verdict;
 use stiction_workflows::export::{self, ExportOptions, Target};
 use stiction_workflows::identify::{self, Outcome, Prediction};
 
@@ -109,6 +110,32 @@ impl Fit {
         report::identification(&self.outcome).to_html()
     }
 
+    /// As the command line prints it: parameters, fit, what it may be used for.
+    pub fn text(&self) -> String {
+        stiction_pages::text::outcome(&self.outcome)
+    }
+
+    /// What the result is worth, in one word.
+    pub fn verdict(&self) -> Verdict {
+        self.outcome.verdict()
+    }
+
+    /// The files that [`write`](Self::write) writes: `result.json`, `model.toml`, `report.html`, `fit.csv`, and where a study
+    /// takes the law `study.toml`.
+    pub fn bundle(&self) -> Bundle {
+        bundle::identification(&self.outcome)
+    }
+
+    /// The same for a folder, by which the commands in the report call those that follow.
+    pub fn bundle_in(&self, folder: &Path) -> Bundle {
+        bundle::identification_in(&self.outcome, folder)
+    }
+
+    /// The logs that were fitted, as they were given.
+    pub fn inputs(&self) -> impl Iterator<Item = &Path> {
+        self.outcome.sources.iter().map(|s| s.path.as_path())
+    }
+
     /// Writes `result.json`, `model.toml`, `report.html` and `fit.csv` into a folder, whole or not at all.
     ///
     /// # Errors
@@ -116,7 +143,7 @@ impl Fit {
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
         let folder = folder.as_ref();
         stiction_files::check_folder(folder, false)?;
-        stiction_files::check_inputs(folder, self.outcome.sources.iter().map(|s| &s.path))?;
-        Ok(bundle::identification_in(&self.outcome, folder).write(folder)?)
+        stiction_files::check_inputs(folder, self.inputs())?;
+        Ok(self.bundle_in(folder).write(folder)?)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use stiction_files::symbols;
+use stiction_log::Column;
 use stiction_workflows::identify::{Outcome, Simulated};
 
 /// Bytes of one number and its comma, of most numbers.
@@ -13,6 +14,25 @@ pub(crate) fn fit_csv(outcome: &Outcome) -> String {
         Some(simulated) => of_position(outcome, simulated),
         None => of_force(outcome),
     }
+}
+
+/// The columns of a `fit.csv`, with the bits they were written from; `None` where the text is none.
+pub fn columns(text: &str) -> Option<Vec<Column>> {
+    let mut lines = text.lines();
+    let headers: Vec<&str> = lines.next()?.split(',').collect();
+    let mut values: Vec<Vec<f64>> = headers.iter().map(|_| Vec::new()).collect();
+    for line in lines {
+        let mut cells = line.split(',');
+        for column in &mut values {
+            column.push(cells.next()?.parse().ok()?);
+        }
+    }
+    let named = headers.iter().zip(values);
+    Some(
+        named
+            .map(|(header, column)| Column::headed(header, column))
+            .collect(),
+    )
 }
 
 /// Time, measured, model, residual, and the number of the log where there are several.

@@ -1,9 +1,23 @@
 //! Logs to a law.
 
 use crate::{Axis, Error, Fit, Log, Observer, Silent};
+use stiction_workflows::check::Check;
 use stiction_workflows::identify as workflow;
 
-pub use stiction_workflows::identify::Options;
+pub use stiction_workflows::identify::{Files, Options};
+
+/// Identifies from files as the command line does: logs that the axis file lists, and parts of them, are used as it says.
+///
+/// # Errors
+/// As [`identify`], and where a file cannot be read.
+pub fn identify_files(
+    files: &Files,
+    options: &Options,
+    observer: &mut dyn Observer,
+) -> Result<Fit, Error> {
+    let outcome = workflow::identify(files, options, observer)?;
+    Ok(Fit { outcome })
+}
 
 /// Identifies the friction of an axis from its logs, with intervals and a verdict.
 ///
@@ -47,4 +61,13 @@ pub fn identify_observed(
     let (fitted, held_out) = (sources(logs), sources(validate));
     let outcome = workflow::identify_logs(options, axis, fitted, held_out, observer)?;
     Ok(Fit { outcome })
+}
+
+/// What was read of logs that are in memory, and what they can and cannot determine.
+///
+/// # Errors
+/// Where the axis does not go with a log.
+pub fn check(logs: &[Log], axis: &Axis, observer: &mut dyn Observer) -> Result<Check, Error> {
+    let sources: Vec<_> = logs.iter().map(|log| log.source.clone()).collect();
+    stiction_workflows::check::check_logs(&sources, axis, observer)
 }

@@ -92,6 +92,7 @@
 //! | a file or columns in memory | [`Log`] | [`Log::open`], [`Log::from_columns`] |
 //! | what is known of the machine | [`Axis`] | [`Axis::read`], [`Axis::parse`] |
 //! | logs | [`Fit`] | [`identify()`], [`identify_validated`], [`identify_observed`] |
+//! | a folder with a result | [`SavedFit`] | [`SavedFit::read`] |
 //! | a fit | law, prediction, compensator, files | [`Fit::law`], [`Fit::predict`], [`Fit::compensator`], [`Fit::write`] |
 //! | a model | code for a controller | [`export()`] |
 //! | a study file | tracking errors with and without compensation | [`Study::read`], [`simulate`] |
@@ -108,12 +109,19 @@ mod fit_csv;
 mod identify;
 mod log;
 mod parameter;
+mod saved;
 mod setpoints;
+mod stepped;
 
 pub use fit::Fit;
-pub use identify::{Options, identify, identify_observed, identify_validated};
+pub use fit_csv::columns as fit_columns;
+pub use identify::{
+    Files, Options, check, identify, identify_files, identify_observed, identify_validated,
+};
 pub use log::{Column, Finding, Log, Severity};
 pub use parameter::Parameter;
+pub use saved::SavedFit;
+pub use stepped::{SteppedLaw, forces_along};
 pub use stiction_codes::Code;
 pub use stiction_files::study::Study;
 pub use stiction_files::{Axis, ModelFile, Warning, model, result};

@@ -12,7 +12,7 @@ pub use tracking::{Peak, Tracking, TrackingChange};
 
 use crate::error::Error;
 use crate::identify::{Asked, Options, Outcome, identify_asked};
-use crate::source;
+use crate::source::{self, Source};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -148,15 +148,36 @@ pub fn check(
     source::refuse_several(&read, logs.len())?;
     let mut out = Vec::new();
     for path in logs {
-        out.push(one(path, &read, observer)?);
+        out.push(one(source::load(path, &read)?, &read, observer)?);
     }
-    let tracking = changes(&mut out);
-    Ok(Check {
+    Ok(together(out, axis))
+}
+
+/// The same of logs that are in memory already, read with this axis.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_logs(
+    sources: &[Source],
+    axis: &Axis,
+    observer: &mut dyn Observer,
+) -> Result<Check, Error> {
+    let mut out = Vec::new();
+    for source in sources {
+        out.push(one(source.clone(), axis, observer)?);
+    }
+    Ok(together(out, axis.file()))
+}
+
+/// What is told of several logs.
+fn together(mut logs: Vec<LogCheck>, axis: Option<&Path>) -> Check {
+    let tracking = changes(&mut logs);
+    Check {
         schema: "stiction.check/1".into(),
         axis: axis.map(Path::to_path_buf),
-        logs: out,
+        logs,
         tracking,
-    })
+    }
 }
 
 /// What changed from the first log to each other one that follows a reference of the same kind.
@@ -183,9 +204,8 @@ fn changes(logs: &mut [LogCheck]) -> Vec<TrackingChange> {
     out
 }
 
-fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck, Error> {
+fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck, Error> {
     let clock = Instant::now();
-    let source = source::load(path, axis)?;
     let log = &source.log;
     let mut out = LogCheck {
         input: source.input(true),
@@ -215,7 +235,7 @@ fn one(path: &Path, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck
         next: Lead::Record,
         line: None,
     };
-    match Tracking::of(&path.display().to_string(), log) {
+    match Tracking::of(&source.path.display().to_string(), log) {
         Ok(tracking) => out.tracking = Some(tracking),
         Err(why) => out.not_tracked = Some(why.into()),
     }

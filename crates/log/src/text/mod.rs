@@ -58,7 +58,7 @@ mod scope;
 mod source;
 mod split;
 mod twincat;
-mod unit;
+pub(crate) mod unit;
 mod utf16;
 
 #[cfg(feature = "json")]

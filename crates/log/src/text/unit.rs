@@ -6,7 +6,7 @@ use crate::unit::Unit;
 ///
 /// Square brackets hold a unit unless they are empty or hold only digits (an index); round brackets
 /// only where they hold a known unit, since `x (1)` or `q (left)` are names.
-pub(super) fn split(header: &str) -> (String, Option<String>) {
+pub(crate) fn split(header: &str) -> (String, Option<String>) {
     let text = header.trim();
     for (open, close) in [('[', ']'), ('(', ')')] {
         let Some(inside) = text.strip_suffix(close) else {

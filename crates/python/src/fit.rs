@@ -1,0 +1,276 @@
+//! Identification, and what it found.
+
+use crate::axis::Axis;
+use crate::error::{Refusal, raised};
+use crate::law::Law;
+use crate::log::Log;
+use crate::options::Asked;
+use crate::run::{How, Stopped, run};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use std::path::PathBuf;
+use stiction::bundle::beside_complete;
+use stiction::commands::{Bundle, Files, check_folder, check_inputs};
+use stiction::{Column, FrictionLaw, ModelFile, SavedFit, Verdict};
+
+/// An identified law with everything that is known of it.
+#[pyclass(frozen, module = "stiction._native")]
+pub struct Fit {
+    content: Content,
+}
+
+enum Content {
+    /// By an identification in this process.
+    Made(Box<stiction::Fit>),
+    /// From the files of one.
+    Saved(Box<SavedFit>),
+}
+
+/// An array with its name.
+type Named<'py> = (&'static str, Bound<'py, PyArray1<f64>>);
+
+impl Fit {
+    fn bundle(&self) -> Bundle {
+        match &self.content {
+            Content::Made(fit) => fit.bundle(),
+            Content::Saved(saved) => saved.bundle(),
+        }
+    }
+
+    /// The model.
+    pub fn model(&self) -> ModelFile {
+        match &self.content {
+            Content::Made(fit) => fit.model(),
+            Content::Saved(saved) => saved.model().clone(),
+        }
+    }
+}
+
+#[pymethods]
+impl Fit {
+    /// Reads the folder of a fit.
+    #[staticmethod]
+    fn load(py: Python<'_>, folder: PathBuf) -> PyResult<Self> {
+        let saved = py.detach(|| SavedFit::read(&folder));
+        Self::saved(py, saved)
+    }
+
+    /// The same of its files, by their names.
+    #[staticmethod]
+    fn of_files(py: Python<'_>, folder: PathBuf, files: Vec<(String, Vec<u8>)>) -> PyResult<Self> {
+        Self::saved(py, SavedFit::of(&folder, files))
+    }
+
+    /// Its files with their names.
+    fn files<'py>(&self, py: Python<'py>) -> Vec<(&'static str, Bound<'py, PyBytes>)> {
+        let bundle = py.detach(|| self.bundle());
+        let files = bundle.files().iter();
+        files
+            .map(|(name, bytes)| (*name, PyBytes::new(py, bytes)))
+            .collect()
+    }
+
+    /// Whether it came from files, without the logs.
+    #[getter]
+    fn is_saved(&self) -> bool {
+        matches!(self.content, Content::Saved(_))
+    }
+
+    /// `result.json`.
+    fn result_json(&self) -> String {
+        match &self.content {
+            Content::Made(fit) => serde_json::to_string(fit.result()).expect("plain data"),
+            Content::Saved(saved) => saved.text("result.json"),
+        }
+    }
+
+    /// `model.toml`.
+    fn model_toml(&self) -> String {
+        match &self.content {
+            Content::Made(fit) => fit.model().to_toml(),
+            Content::Saved(saved) => saved.text("model.toml"),
+        }
+    }
+
+    /// `report.html`.
+    fn report(&self, py: Python<'_>) -> String {
+        match &self.content {
+            Content::Made(fit) => py.detach(|| fit.report()),
+            Content::Saved(saved) => saved.text("report.html"),
+        }
+    }
+
+    /// As the command line prints it; empty for a fit from files.
+    fn text(&self) -> String {
+        match &self.content {
+            Content::Made(fit) => fit.text(),
+            Content::Saved(_) => String::new(),
+        }
+    }
+
+    /// The columns of `fit.csv`: name, unit, samples.
+    fn series<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> Vec<(String, Option<String>, Bound<'py, PyArray1<f64>>)> {
+        let columns = py.detach(|| match &self.content {
+            Content::Made(fit) => {
+                let bundle = fit.bundle();
+                let csv = bundle.files().iter().find(|(name, _)| *name == "fit.csv");
+                let csv = csv.map(|(_, bytes)| String::from_utf8_lossy(bytes));
+                csv.and_then(|text| stiction::fit_columns(&text))
+            }
+            Content::Saved(saved) => saved.series(),
+        });
+        let array = |c: Column| (c.name, c.unit, c.values.into_pyarray(py));
+        columns.into_iter().flatten().map(array).collect()
+    }
+
+    /// What the law makes of another log: signals by name, and the quality as JSON.
+    fn predict<'py>(&self, py: Python<'py>, log: &Log) -> PyResult<(Vec<Named<'py>>, String)> {
+        let Content::Made(fit) = &self.content else {
+            return Err(Refusal::argument(
+                "fit",
+                "a fit that was read from files or unpickled, which has no filters of a record",
+                "a fit of this process: identify the log again (same bits) and predict with that, or give the other log \
+                 as identify(..., validate=[...]), whose figures the files keep",
+            )
+            .raise(py));
+        };
+        let (found, _) = run(py, &How::quiet(), |_| fit.predict(&log.log))?;
+        let found = found.map_err(|e| raised(py, &e))?;
+        let quality = serde_json::to_string(&found.quality).expect("plain data");
+        let residual = found.series.residual();
+        let series = found.series;
+        let named = [
+            ("time", series.time),
+            ("position", series.position),
+            ("velocity", series.velocity),
+            ("measured", series.measured),
+            ("model", series.model),
+            ("residual", residual),
+        ];
+        let named = named.map(|(name, values)| (name, values.into_pyarray(py)));
+        Ok((named.into(), quality))
+    }
+
+    /// The law, at rest.
+    fn law(&self, py: Python<'_>) -> PyResult<Law> {
+        let law = match &self.content {
+            Content::Made(fit) => Some(fit.law()),
+            Content::Saved(saved) => saved.law(),
+        };
+        let refused = |found: String| {
+            let allowed = "parameters that make a law: see which the log leaves open";
+            Refusal::argument("law", found, allowed).raise(py)
+        };
+        let law: FrictionLaw = law
+            .ok_or_else(|| refused("a law that this version does not know".into()))?
+            .map_err(|e| refused(e.to_string()))?;
+        Ok(Law::new(law))
+    }
+
+    /// `trustworthy`, `not-trustworthy` or `interrupted`; `None` where it is to be read from the result.
+    #[getter]
+    fn verdict(&self) -> Option<&'static str> {
+        match &self.content {
+            Content::Made(fit) => Some(match fit.verdict() {
+                Verdict::Trustworthy => "trustworthy",
+                Verdict::NotTrustworthy => "not-trustworthy",
+                Verdict::Interrupted => "interrupted",
+            }),
+            Content::Saved(_) => None,
+        }
+    }
+
+    /// Writes the files of the command line; where they went.
+    fn save(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<PathBuf>> {
+        let write = || -> Result<Vec<PathBuf>, stiction::Error> {
+            check_folder(&folder, force)?;
+            let bundle = match &self.content {
+                Content::Made(fit) => {
+                    check_inputs(&folder, fit.inputs())?;
+                    fit.bundle_in(&folder)
+                }
+                Content::Saved(saved) => saved.bundle(),
+            };
+            let beside = beside_complete(&bundle, &folder, stiction::result::SCHEMA);
+            Ok(bundle.write(beside.as_deref().unwrap_or(&folder))?)
+        };
+        py.detach(write).map_err(|e| raised(py, &e))
+    }
+}
+
+impl Fit {
+    fn saved(py: Python<'_>, saved: Result<SavedFit, stiction::Error>) -> PyResult<Self> {
+        let saved = saved.map_err(|e| raised(py, &e))?;
+        Ok(Self {
+            content: Content::Saved(Box::new(saved)),
+        })
+    }
+
+    fn made(
+        py: Python<'_>,
+        (fit, stopped): (Result<stiction::Fit, stiction::Error>, bool),
+    ) -> PyResult<(Self, bool)> {
+        let fit = fit.map_err(|e| raised(py, &e))?;
+        let content = Content::Made(Box::new(fit));
+        Ok((Self { content }, stopped))
+    }
+}
+
+/// Identifies from logs in memory; the fit, and whether it was asked to stop.
+#[pyfunction]
+pub fn identify(
+    py: Python<'_>,
+    logs: Vec<Py<Log>>,
+    validate: Vec<Py<Log>>,
+    axis: &Axis,
+    options: Asked,
+    progress: Option<Py<PyAny>>,
+    threads: Option<usize>,
+) -> PyResult<(Fit, bool)> {
+    let options = options.options().map_err(|refusal| refusal.raise(py))?;
+    let each = |logs: Vec<Py<Log>>| -> Vec<stiction::Log> {
+        logs.iter().map(|log| log.get().log.clone()).collect()
+    };
+    let (logs, validate) = (each(logs), each(validate));
+    let how = How {
+        progress,
+        threads,
+        stopped: Stopped::Keeps,
+    };
+    let found = run(py, &how, |observer| {
+        stiction::identify_observed(&logs, &validate, &axis.axis, &options, observer)
+    });
+    Fit::made(py, found?)
+}
+
+/// Identifies from files, as the command line does.
+#[pyfunction]
+pub fn identify_files(
+    py: Python<'_>,
+    logs: Vec<PathBuf>,
+    validate: Vec<PathBuf>,
+    axis: Option<PathBuf>,
+    options: Asked,
+    progress: Option<Py<PyAny>>,
+    threads: Option<usize>,
+) -> PyResult<(Fit, bool)> {
+    let options = options.options().map_err(|refusal| refusal.raise(py))?;
+    let files = Files {
+        logs,
+        axis,
+        validate,
+    };
+    let how = How {
+        progress,
+        threads,
+        stopped: Stopped::Keeps,
+    };
+    let found = run(py, &how, |observer| {
+        stiction::identify_files(&files, &options, observer)
+    });
+    Fit::made(py, found?)
+}

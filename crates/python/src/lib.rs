@@ -1,0 +1,43 @@
+//! The native half of the Python package `stiction`: arrays and options go in, outcomes of the library come out.
+//!
+//! Nothing is computed here. The other half, `python/stiction`, has what users call; it is described there and held by the
+//! stub `_native.pyi`. While Rust works the interpreter is free: see `run`.
+
+mod axis;
+mod error;
+mod export;
+mod fit;
+mod law;
+mod log;
+mod motion;
+mod options;
+mod run;
+mod study;
+
+/// The module `stiction._native`.
+#[pyo3::pymodule]
+mod _native {
+    use pyo3::prelude::*;
+
+    #[pymodule_export]
+    use crate::axis::Axis;
+    #[pymodule_export]
+    use crate::export::export;
+    #[pymodule_export]
+    use crate::fit::{Fit, identify, identify_files};
+    #[pymodule_export]
+    use crate::law::Law;
+    #[pymodule_export]
+    use crate::log::{Log, allow_memory, check, check_files, write_demo_log};
+    #[pymodule_export]
+    use crate::motion::{Plan, plan};
+    #[pymodule_export]
+    use crate::options::choices;
+    #[pymodule_export]
+    use crate::study::{Study, simulate};
+
+    #[pymodule_init]
+    fn init(module: &Bound<'_, PyModule>) -> PyResult<()> {
+        module.add("__version__", env!("CARGO_PKG_VERSION"))
+    }
+}

@@ -1,0 +1,110 @@
+//! Plans: the motion to record.
+
+use crate::error::raised;
+use crate::run::{How, Stopped, run};
+use crate::study::saved;
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use stiction::bundle;
+use stiction::commands::plan::SCHEMA;
+use stiction::commands::{Bundle, Known, PlanOptions, plan_motion, text};
+
+/// A planned motion.
+#[pyclass(frozen, module = "stiction._native")]
+pub struct Plan {
+    bundle: Bundle,
+    json: String,
+    text: String,
+    inputs: Vec<PathBuf>,
+}
+
+#[pymethods]
+impl Plan {
+    /// `plan.toml`, as JSON.
+    fn result_json(&self) -> &str {
+        &self.json
+    }
+
+    /// As the command line prints it.
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// A file of it as text; `None` where there is none.
+    fn file(&self, name: &str) -> Option<String> {
+        let mut files = self.bundle.files().iter();
+        let file = files.find(|(own, _)| *own == name);
+        file.map(|(_, bytes)| String::from_utf8_lossy(bytes).into_owned())
+    }
+
+    /// The columns of `setpoints.csv`: name, unit, samples.
+    fn setpoints<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> Vec<(String, Option<String>, Bound<'py, PyArray1<f64>>)> {
+        let columns = self.file("setpoints.csv");
+        let columns = columns.and_then(|text| stiction::fit_columns(&text));
+        let columns = columns.into_iter().flatten();
+        columns
+            .map(|c| (c.name, c.unit, c.values.into_pyarray(py)))
+            .collect()
+    }
+
+    /// Writes the files of the command line.
+    fn save(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<PathBuf>> {
+        saved(py, (&self.bundle, SCHEMA), &self.inputs, &folder, force)
+    }
+}
+
+/// A dict with every option.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Asked {
+    model: Option<PathBuf>,
+    log: Option<PathBuf>,
+    probe: bool,
+    time: Option<f64>,
+    seed: u64,
+}
+
+/// Plans the motion to record for the axis of a file; none where it was stopped before there was one.
+#[pyfunction]
+pub fn plan(
+    py: Python<'_>,
+    axis: PathBuf,
+    options: Asked,
+    progress: Option<Py<PyAny>>,
+    threads: Option<usize>,
+) -> PyResult<(Option<Plan>, bool)> {
+    let how = How {
+        progress,
+        threads,
+        stopped: Stopped::Keeps,
+    };
+    let files = [
+        Some(axis.clone()),
+        options.model.clone(),
+        options.log.clone(),
+    ];
+    let options = PlanOptions {
+        time: options.time,
+        probe: options.probe,
+        known: options
+            .model
+            .map(Known::Model)
+            .or(options.log.map(Known::Log)),
+        seed: options.seed,
+    };
+    let (found, stopped) = run(py, &how, |observer| {
+        let planned = plan_motion(&axis, &options, observer)?;
+        Ok(planned.map(|planned| Plan {
+            bundle: bundle::plan(&planned),
+            json: serde_json::to_string(&planned.file).expect("plain data"),
+            text: text::planned(&planned, &axis, std::path::Path::new("plan")),
+            inputs: files.into_iter().flatten().collect(),
+        }))
+    })?;
+    let plan = found.map_err(|e: stiction::Error| raised(py, &e))?;
+    Ok((plan, stopped))
+}

@@ -1,0 +1,99 @@
+//! Studies: an axis with and without compensation.
+
+use crate::error::raised;
+use crate::run::{How, Stopped, run};
+use pyo3::prelude::*;
+use std::path::PathBuf;
+use stiction::bundle;
+use stiction::commands::study::result::SCHEMA;
+use stiction::commands::{Bundle, check_folder_of, check_inputs, text};
+
+/// What came out of a study.
+#[pyclass(frozen, module = "stiction._native")]
+pub struct Study {
+    bundle: Bundle,
+    json: String,
+    text: String,
+    inputs: Vec<PathBuf>,
+    /// `trustworthy`, `not-trustworthy` or `interrupted`.
+    #[pyo3(get)]
+    verdict: &'static str,
+}
+
+#[pymethods]
+impl Study {
+    /// `study.json`.
+    fn result_json(&self) -> &str {
+        &self.json
+    }
+
+    /// As the command line prints it.
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// A file of it as text; `None` where there is none.
+    fn file(&self, name: &str) -> Option<String> {
+        let mut files = self.bundle.files().iter();
+        let file = files.find(|(own, _)| *own == name);
+        file.map(|(_, bytes)| String::from_utf8_lossy(bytes).into_owned())
+    }
+
+    /// Writes the files of the command line.
+    fn save(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<PathBuf>> {
+        saved(py, (&self.bundle, SCHEMA), &self.inputs, &folder, force)
+    }
+}
+
+/// Writes files into a folder, or beside it where they are of an outcome that was stopped and a complete one is there.
+pub fn saved(
+    py: Python<'_>,
+    (bundle, schema): (&Bundle, &str),
+    inputs: &[PathBuf],
+    folder: &std::path::Path,
+    force: bool,
+) -> PyResult<Vec<PathBuf>> {
+    let write = || -> Result<Vec<PathBuf>, stiction::Error> {
+        check_folder_of(folder, schema, force)?;
+        check_inputs(folder, inputs)?;
+        let beside = bundle::beside_complete(bundle, folder, schema);
+        Ok(bundle.write(beside.as_deref().unwrap_or(folder))?)
+    };
+    py.detach(write).map_err(|e| raised(py, &e))
+}
+
+/// Simulates a study file.
+#[pyfunction]
+pub fn simulate(
+    py: Python<'_>,
+    study: PathBuf,
+    max_samples: Option<u64>,
+    progress: Option<Py<PyAny>>,
+    threads: Option<usize>,
+) -> PyResult<(Study, bool)> {
+    let how = How {
+        progress,
+        threads,
+        stopped: Stopped::Keeps,
+    };
+    let (found, stopped) = run(py, &how, |observer| {
+        let study = match max_samples {
+            Some(most) => stiction::Study::read_within(&study, most)?,
+            None => stiction::Study::read(&study)?,
+        };
+        let outcome = stiction::simulate(&study, observer);
+        Ok(Study {
+            bundle: bundle::study(&outcome),
+            json: serde_json::to_string(&outcome.file).expect("plain data"),
+            text: text::study(&outcome),
+            inputs: study.inputs().map(PathBuf::from).collect(),
+            verdict: match outcome.verdict() {
+                stiction::Verdict::Trustworthy => "trustworthy",
+                stiction::Verdict::NotTrustworthy => "not-trustworthy",
+                stiction::Verdict::Interrupted => "interrupted",
+            },
+        })
+    })?;
+    let study = found.map_err(|e: stiction::Error| raised(py, &e))?;
+    Ok((study, stopped))
+}

@@ -1,0 +1,178 @@
+//! A law that is run: sample by sample in real time, or along a record.
+
+use crate::{Error, FrictionLaw};
+use stiction_friction::{Elements, Gms, GmsState, MOST_ELEMENTS, MaxwellSlip, State};
+
+/// A law with its state, one call a sample: the form for simulation and control, whose sigma1 is capped
+/// ([`FrictionLaw::capped`]).
+///
+/// ```
+/// use stiction::{FrictionLaw, LawKind, SteppedLaw};
+/// # use stiction_parameters::ParameterSet;
+/// # let values = [("sigma0", 1.2e5), ("sigma1", 600.0), ("sigma2", 60.0), ("coulomb", 20.0), ("static", 30.0),
+/// #     ("stribeck_velocity", 5e-3)];
+/// # let law = ParameterSet::from_text(LawKind::LuGre, values).law()?;
+/// let mut law = SteppedLaw::new(law); // of `Fit::law`
+/// for _ in 0..4000 {
+///     law.step(250e-6, 0.1); // 1 s at 0.1 m/s
+/// }
+/// assert!((law.force() - 26.0).abs() < 1e-9); // Fc + sigma2 v
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SteppedLaw {
+    law: FrictionLaw,
+    memory: Memory,
+    force: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Memory {
+    None,
+    Bristle(State<f64>),
+    Elements(GmsState<f64, MOST_ELEMENTS>),
+}
+
+impl SteppedLaw {
+    /// At rest, with nothing deflected.
+    pub fn new(law: FrictionLaw) -> Self {
+        let law = law.capped();
+        let (memory, force) = match &law {
+            FrictionLaw::CoulombViscous(law) => (Memory::None, law.force(0.0)),
+            FrictionLaw::Stribeck(curve) => (Memory::None, curve.force(0.0)),
+            FrictionLaw::LuGre(law) => (Memory::Bristle(law.rest()), law.rest().force),
+            FrictionLaw::ElastoPlastic(law) => (Memory::Bristle(law.rest()), law.rest().force),
+            FrictionLaw::MaxwellSlip(law) => (Memory::Elements(law.rest()), law.rest().force),
+        };
+        Self { law, memory, force }
+    }
+
+    /// Advances by `h` seconds at the velocity `v` (m/s, rad/s): the friction force in the unit of the law, positive against
+    /// positive velocities. A sample that is not finite leaves the law as it is and returns the force before.
+    pub fn step(&mut self, h: f64, v: f64) -> f64 {
+        let force = match (&self.law, &mut self.memory) {
+            (FrictionLaw::LuGre(law), Memory::Bristle(state)) => law.step(state, h, v),
+            (FrictionLaw::ElastoPlastic(law), Memory::Bristle(state)) => law.step(state, h, v),
+            (FrictionLaw::MaxwellSlip(law), Memory::Elements(state)) => law.step(state, h, v),
+            (FrictionLaw::CoulombViscous(law), _) if v.is_finite() => law.force(v),
+            (FrictionLaw::Stribeck(curve), _) if v.is_finite() => curve.force(v),
+            _ => self.force,
+        };
+        self.force = force;
+        force
+    }
+
+    /// The force of the last sample; of the law at rest where there was none.
+    pub fn force(&self) -> f64 {
+        self.force
+    }
+
+    /// The deflection of a bristle, m (rad), or the spring forces of elements; empty for a law without memory.
+    pub fn state(&self) -> Vec<f64> {
+        match (&self.law, &self.memory) {
+            (FrictionLaw::MaxwellSlip(law), Memory::Elements(state)) => {
+                state.elements.force[..law.elements().len()].to_vec()
+            }
+            (_, Memory::Bristle(state)) => vec![state.z],
+            _ => Vec::new(),
+        }
+    }
+
+    /// Back to rest.
+    pub fn reset(&mut self) {
+        *self = Self::new(self.law.clone());
+    }
+}
+
+/// The friction force of a law along a record that begins undeflected, as an identification takes it: time in s, velocity in
+/// m/s (rad/s), which runs linearly between samples.
+///
+/// # Errors
+/// Where the two differ in length, time does not increase, or a number is not finite.
+pub fn forces_along(law: &FrictionLaw, time: &[f64], velocity: &[f64]) -> Result<Vec<f64>, Error> {
+    check(time, velocity)?;
+    Ok(match law {
+        FrictionLaw::CoulombViscous(law) => velocity.iter().map(|&v| law.force(v)).collect(),
+        FrictionLaw::Stribeck(curve) => velocity.iter().map(|&v| curve.force(v)).collect(),
+        FrictionLaw::LuGre(law) => along(
+            (time, velocity),
+            0.0,
+            |z, h, va, vb| law.step_record(z, h, va, vb),
+            |z, v| law.force(*z, v),
+        ),
+        FrictionLaw::ElastoPlastic(law) => along(
+            (time, velocity),
+            0.0,
+            |z, h, va, vb| law.step_record(z, h, va, vb),
+            |z, v| law.force(*z, v),
+        ),
+        FrictionLaw::MaxwellSlip(law) => of_elements(law, (time, velocity)),
+    })
+}
+
+/// With as many elements as the law has.
+fn of_elements(law: &MaxwellSlip<f64>, record: (&[f64], &[f64])) -> Vec<f64> {
+    macro_rules! first_of {
+        ($($n:literal)*) => {
+            $(if let Some(law) = law.gms::<$n>() {
+                return along_elements(&law, record);
+            })*
+        };
+    }
+    first_of!(1 2 3 4 5 6 7 8 9 10);
+    Vec::new()
+}
+
+fn along_elements<const N: usize>(law: &Gms<f64, N>, record: (&[f64], &[f64])) -> Vec<f64> {
+    along(
+        record,
+        Elements::default(),
+        |at, h, va, vb| law.step_record(at, h, va, vb),
+        |at, v| law.force(at, v),
+    )
+}
+
+fn along<S: Copy>(
+    (time, velocity): (&[f64], &[f64]),
+    start: S,
+    step: impl Fn(S, f64, f64, f64) -> S,
+    force: impl Fn(&S, f64) -> f64,
+) -> Vec<f64> {
+    let mut at = start;
+    let mut out = Vec::with_capacity(time.len());
+    for (k, &v) in velocity.iter().enumerate() {
+        if k > 0 {
+            at = step(at, time[k] - time[k - 1], velocity[k - 1], v);
+        }
+        out.push(force(&at, v));
+    }
+    out
+}
+
+fn check(time: &[f64], velocity: &[f64]) -> Result<(), Error> {
+    let refused = |found: String, allowed: &'static str| Error::Usage {
+        found: found.into(),
+        allowed: allowed.into(),
+    };
+    if time.len() != velocity.len() {
+        let found = format!(
+            "velocity has {} samples, time {}",
+            velocity.len(),
+            time.len()
+        );
+        return Err(refused(found, "as many of both"));
+    }
+    for (name, values) in [("time", time), ("velocity", velocity)] {
+        if let Some(k) = values.iter().position(|x| !x.is_finite()) {
+            let found = format!("{name}[{k}] is {}", values[k]);
+            return Err(refused(found, "finite numbers"));
+        }
+    }
+    match time.windows(2).position(|pair| pair[1] <= pair[0]) {
+        Some(k) => Err(refused(
+            format!("time[{}] is not after time[{k}]", k + 1),
+            "time that increases, s",
+        )),
+        None => Ok(()),
+    }
+}

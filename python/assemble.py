@@ -1,0 +1,60 @@
+"""Packs python/stiction and a native half that is built already into a wheel: assemble.py LIBRARY FOLDER.
+
+Users and releases build the wheel with maturin. It has cargo build one package alone, which gets other features of its
+dependencies than in the workspace, and so compiles the whole library once more; tests of the package need not wait for that.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import sys
+import sysconfig
+import tomllib
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).parent.parent
+PACKAGE = ROOT / "python" / "stiction"
+
+
+def main(library: Path, folder: Path) -> Path:
+    """Writes the wheel and returns its path."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    version = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]["package"]["version"]
+    platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
+    oldest = project["requires-python"].removeprefix(">=").replace(".", "")
+    tag = f"cp{oldest}-abi3-{platform}"
+    about = f"stiction-{version}.dist-info"
+    metadata = [
+        "Metadata-Version: 2.4",
+        "Name: stiction",
+        f"Version: {version}",
+        f"Summary: {project['description']}",
+        f"Requires-Python: {project['requires-python']}",
+        *(f"Requires-Dist: {needed}" for needed in project["dependencies"]),
+    ]
+    wheel = ["Wheel-Version: 1.0", "Generator: assemble.py", "Root-Is-Purelib: false", f"Tag: {tag}"]
+    sources = sorted(path for path in PACKAGE.iterdir() if path.suffix in {".py", ".pyi"} or path.name == "py.typed")
+    files = {f"stiction/{path.name}": path.read_bytes() for path in sources}
+    files["stiction/_native.abi3.so"] = library.read_bytes()
+    files |= {f"{about}/licenses/{name}": (ROOT / name).read_bytes() for name in project["license-files"]}
+    files[f"{about}/METADATA"] = ("\n".join(metadata) + "\n").encode()
+    files[f"{about}/WHEEL"] = ("\n".join(wheel) + "\n").encode()
+    record = "".join(f"{name},sha256={digest(content)},{len(content)}\n" for name, content in files.items())
+    files[f"{about}/RECORD"] = f"{record}{about}/RECORD,,\n".encode()
+    folder.mkdir(parents=True, exist_ok=True)
+    out = folder / f"stiction-{version}-{tag}.whl"
+    with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in files.items():
+            archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED)
+    return out
+
+
+def digest(content: bytes) -> str:
+    """As a RECORD has it."""
+    return base64.urlsafe_b64encode(hashlib.sha256(content).digest()).decode().rstrip("=")
+
+
+if __name__ == "__main__":
+    print(main(Path(sys.argv[1]), Path(sys.argv[2])))

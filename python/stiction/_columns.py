@@ -1,0 +1,124 @@
+"""Columns in memory, as the library takes them: headers, units, and arrays of 64-bit floats.
+
+An array of that kind which is contiguous is passed on as it is; any other that has numbers is copied once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from ._errors import argument
+
+if TYPE_CHECKING:
+    import numpy
+    from numpy.typing import NDArray
+
+    Column = tuple[str, "str | None", NDArray[numpy.float64]]
+
+WHAT = "a path, a dict of arrays, or a DataFrame of pandas, polars or pyarrow"
+"""What a log may be."""
+EXACT = 2**53
+"""Integers up to this are exact as 64-bit floats."""
+
+
+def is_columns(data: object) -> bool:
+    """Whether this is a table in memory rather than a path."""
+    return isinstance(data, Mapping) or hasattr(data, "columns") or hasattr(data, "column_names")
+
+
+def columns(data: Any, name: str) -> list[Column]:
+    """Every column of a table; `name` is that of the argument."""
+    out: list[Column] = []
+    for header, values in _items(data, name):
+        if not isinstance(header, str) or not header.strip():
+            raise argument(name, f"a column called {header!r}", "names that are text, such as 'position [mm]'")
+        place = f"{name}[{header!r}]"
+        unit = None
+        if isinstance(values, tuple):
+            if len(values) != 2 or not isinstance(values[1], str):
+                raise argument(place, f"a tuple of {len(values)}", "an array, or (array, 'unit')")
+            values, unit = values
+        out.append((header, unit, array(values, place)))
+    if not out:
+        raise argument(name, "no column", "a time, a position or velocity, and a force")
+    _same_length(out, name)
+    return out
+
+
+def _items(data: Any, name: str) -> Iterator[tuple[Any, Any]]:
+    if isinstance(data, Mapping):
+        yield from data.items()
+    elif hasattr(data, "column_names"):  # pyarrow
+        for header in data.column_names:
+            yield header, data.column(header)
+    elif hasattr(data, "columns"):  # pandas, polars
+        headers = list(data.columns)
+        if len(set(headers)) < len(headers):
+            twice = next(h for h in headers if headers.count(h) > 1)
+            raise argument(name, f"two columns called {twice!r}", "a name of its own for each column")
+        for header in headers:
+            yield header, data[header]
+    else:
+        raise argument(name, f"a {type(data).__name__}", WHAT)
+
+
+def array(values: Any, place: str) -> NDArray[numpy.float64]:
+    """One column as contiguous 64-bit floats; missing samples are NaN."""
+    import numpy
+
+    mask = getattr(values, "mask", None) if isinstance(values, numpy.ma.MaskedArray) else None
+    try:
+        found = _plain(values)
+    except (TypeError, ValueError) as error:
+        raise argument(place, f"no array ({error})", "one number for each sample") from error
+    if found.ndim != 1:
+        raise argument(place, f"an array of shape {found.shape}", "one dimension: one number for each sample")
+    if found.dtype.kind in "mM":
+        raise argument(
+            place,
+            f"an array of {found.dtype}",
+            "seconds as numbers: ((t - t[0]) / numpy.timedelta64(1, 's'), 's'), "
+            "of a DataFrame (t - t.iloc[0]).dt.total_seconds()",
+        )
+    if found.dtype.kind not in "fiub":
+        raise argument(place, f"an array of {found.dtype}", "real numbers; leave columns of text out")
+    if found.dtype.kind in "iu" and found.size and max(abs(int(found.min())), abs(int(found.max()))) > EXACT:
+        raise argument(
+            place,
+            "integers above 2**53, which lose digits as 64-bit floats",
+            "smaller ones: subtract the first sample",
+        )
+    out = numpy.ascontiguousarray(found, dtype=numpy.float64)
+    if mask is not None and numpy.any(mask):
+        out = numpy.where(mask, numpy.nan, out)
+    return out
+
+
+def _plain(values: Any) -> NDArray[Any]:
+    """An array of what pandas, polars, pyarrow or a list has, without a copy where there need be none."""
+    import numpy
+
+    # Numbers that may be missing, of pandas.
+    if hasattr(values, "isna") and getattr(values.dtype, "na_value", None) is not None:
+        if getattr(values.dtype, "kind", "O") in "fiub":
+            return numpy.asarray(values.to_numpy(dtype=numpy.float64, na_value=numpy.nan))
+    if hasattr(values, "to_numpy") and not isinstance(values, numpy.ndarray):
+        return numpy.asarray(values.to_numpy())
+    if isinstance(values, numpy.ma.MaskedArray):
+        return numpy.asarray(values.data)
+    return numpy.asarray(values)
+
+
+def _same_length(out: list[Column], name: str) -> None:
+    first, _, values = out[0]
+    for header, _, other in out[1:]:
+        if len(other) != len(values):
+            raise argument(
+                f"{name}[{header!r}]",
+                f"{len(other)} samples, where {name}[{first!r}] has {len(values)}",
+                "as many in every column",
+            )
+    if len(values) < 2:
+        found = "no sample" if len(values) == 0 else "1 sample"
+        raise argument(name, found, "a record: at least 2 samples to be read, some hundreds to be identified")

@@ -1,0 +1,119 @@
+"""Logs to a law."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from . import _native
+from ._axis import path_of
+from ._errors import argument
+from ._fit import Fit
+from ._log import Logs, _warn, all_paths, one_axis, read_all, several
+from ._progress import finish, teller
+from ._study import STOPPED
+from ._types import AxisLike, IdentifyOptions, PathLike, Watcher
+
+
+def identify(
+    logs: Logs | None = None,
+    axis: AxisLike = None,
+    *,
+    law: str = "auto",
+    asymmetric: bool = False,
+    method: str = "separable",
+    validate: Logs | None = None,
+    split: float | None = None,
+    seed: int = 0,
+    compare_laws: bool = True,
+    statics: Sequence[PathLike] = (),
+    model: PathLike | None = None,
+    break_away: Sequence[PathLike] = (),
+    search: str | None = None,
+    no_finish: bool = False,
+    cost: str | None = None,
+    evaluations: int | None = None,
+    target: float | None = None,
+    time: float | None = None,
+    checkpoint: PathLike | None = None,
+    resume: PathLike | None = None,
+    progress: Watcher = None,
+    threads: int | None = None,
+) -> Fit:
+    """Identifies the friction of an axis from its logs, as `stiction identify`: the same options, defaults and bits.
+
+    logs: one log or several of one axis, fitted together: paths, columns in memory, or what `read_log` read; those under
+        [[log]] of the axis file if there are none.
+    axis: what is known of the axis: path of an axis file or its keys in a dict. Logs that were read have theirs.
+    law: `auto` lets the data choose; `coulomb-viscous`, `stribeck`, `dahl`, `lugre`, `elasto-plastic`, `maxwell-slip`, `gms`.
+    asymmetric: parameters of its own for each direction of motion.
+    method: how the parameters are found: `separable`, `static`, `static-then-dynamic`, `presliding-step`, `output-error`, or
+        a search (`ga`, `adaptive-ga`, `annealing-ga`, `niched-ga`, `de`, `cma-es`, `pso`, `annealing`, `nelder-mead`, `lm`).
+    validate: logs to validate on, which are not fitted. split: or the share of the samples that is fitted, 0 to 1.
+    seed: seed of the search. compare_laws: whether simpler laws are fitted beside one that is named.
+    statics: logs of constant velocities (`--static`). model: a model file for what is not identified here.
+    break_away: logs of force ramps.
+    search, no_finish, cost, evaluations, target, time, checkpoint, resume: of the searches, see docs/searches.md.
+    progress: True for a line on standard error, or a function that is given a `Progress` now and then; where it returns False
+        the work stops. threads: threads of this call alone; those of the process if it is not given. No result depends on it.
+
+    The interpreter is free while Rust works. Ctrl-C stops the search and keeps the best: the fit is returned with the verdict
+    `interrupted` and a warning; a second one raises KeyboardInterrupt. What to beware of is a StictionWarning with its code, what
+    cannot be identified a StictionError.
+    """
+    options: IdentifyOptions = {
+        "law": law,
+        "asymmetric": asymmetric,
+        "compare_laws": compare_laws,
+        "split": split,
+        "seed": seed,
+        "method": method,
+        "statics": [path_of(path, "statics") for path in statics],
+        "model": None if model is None else path_of(model, "model"),
+        "break_away": [path_of(path, "break_away") for path in break_away],
+        "search": search,
+        "no_finish": no_finish,
+        "cost": cost,
+        "evaluations": evaluations,
+        "target": target,
+        "time": time,
+        "checkpoint": None if checkpoint is None else path_of(checkpoint, "checkpoint"),
+        "resume": None if resume is None else path_of(resume, "resume"),
+    }
+    if split is not None and validate is not None:
+        raise argument("split", "split together with validate", "one of the two")
+    each = [] if logs is None else several(logs, "logs")
+    held_out = [] if validate is None else several(validate, "validate")
+    tell = teller(progress)
+    try:
+        if all_paths(each + held_out) and not isinstance(axis, dict):
+            if not each and axis is None and not break_away:
+                raise argument("logs", "no log", "at least one log, here or under [[log]] of the axis file")
+            native, stopped = _native.identify_files(
+                [path_of(log, "logs") for log in each],
+                [path_of(log, "validate") for log in held_out],
+                None if axis is None else path_of(axis, "axis"),
+                options,
+                tell,
+                threads,
+            )
+        else:
+            if not each:
+                raise argument("logs", "no log", "at least one log")
+            fitted = read_all(each, axis, "logs")
+            unseen = read_all(held_out, axis, "validate")
+            native, stopped = _native.identify(
+                [log._native for log in fitted],
+                [log._native for log in unseen],
+                one_axis(fitted + unseen),
+                options,
+                tell,
+                threads,
+            )
+    finally:
+        finish(progress)
+    fit = Fit(native)
+    told = fit.warnings
+    if stopped and all(code != STOPPED[0] for code, _ in told):
+        told = [*told, STOPPED]
+    _warn(told, 2)
+    return fit

@@ -1,0 +1,35 @@
+"""Who is told of the progress."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from ._types import Progress, Watcher
+
+Told = Callable[[str, float, "float | None"], Any]
+
+
+def teller(progress: Watcher) -> Told | None:
+    """The function that Rust calls."""
+    if progress is None or progress is False:
+        return None
+    if progress is True:
+        return _line
+    watch = progress
+    return lambda stage, fraction, error: watch(Progress(stage, fraction, error))
+
+
+def _line(stage: str, fraction: float, error: float | None) -> None:
+    """One line that is written over, on a terminal and in a notebook."""
+    best = "" if error is None else f", error {100 * error:.3g} %"
+    sys.stderr.write(f"\r{stage:>18} {int(100 * fraction):3d} %{best}".ljust(60))
+    sys.stderr.flush()
+
+
+def finish(progress: Watcher) -> None:
+    """Ends that line."""
+    if progress is True:
+        sys.stderr.write("\r".ljust(61) + "\r")
+        sys.stderr.flush()

@@ -1,0 +1,269 @@
+"""Whatever arrays come in: accepted as they are meant, or refused with the name of the argument."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy
+import pytest
+import stiction
+from conftest import quietly
+from stiction import StictionError
+
+T = numpy.arange(4000) * 1e-3
+GOOD: dict[str, Any] = {
+    "time [s]": T,
+    "position [mm]": 50 * numpy.sin(6 * T),
+    "force [N]": 20 * numpy.sign(numpy.cos(6 * T)) + 18 * numpy.cos(6 * T) - 16.2 * numpy.sin(6 * T),
+}
+
+
+def refused(data: Any, **options: Any) -> StictionError:
+    with pytest.raises(StictionError) as caught:
+        quietly(stiction.read_log, data, **options)
+    error = caught.value
+    assert error.code
+    assert error.found
+    assert str(error).startswith(f"[{error.code}]")
+    return error
+
+
+def other(values: Any, column: str = "position [mm]") -> dict[str, Any]:
+    return {**GOOD, column: values}
+
+
+@pytest.mark.parametrize(
+    ("values", "found"),
+    [
+        (GOOD["position [mm]"].reshape(2, -1), "shape (2, 2000)"),
+        (numpy.float64(3.0), "shape ()"),
+        (GOOD["position [mm]"].astype(object), "object"),
+        (GOOD["position [mm]"].astype(complex), "complex128"),
+        (numpy.array(["1"] * 4000), "<U1"),
+        (numpy.zeros(4000, dtype="datetime64[ns]"), "datetime64[ns]"),
+        (numpy.zeros(4000, dtype="timedelta64[us]"), "timedelta64[us]"),
+        (numpy.zeros(4000, dtype=[("a", float)]), "[('a', '<f8')]"),
+        ([[1.0], [1.0, 2.0]], "no array"),
+        (["a"] * 4000, "<U1"),
+        (None, "shape ()"),
+        ((GOOD["position [mm]"], "mm", 3), "a tuple of 3"),
+        ((GOOD["position [mm]"], 3), "a tuple of 2"),
+        (GOOD["position [mm]"][:-1], "3999 samples"),
+    ],
+)
+def test_a_column_that_cannot_be_taken_is_named(values: Any, found: str) -> None:
+    error = refused(other(values))
+    assert error.place == "log['position [mm]']"
+    assert error.code == "usage"
+    assert found in error.found
+    assert error.allowed
+
+
+def test_integers_that_would_lose_digits_are_refused() -> None:
+    stamps = 1_700_000_000_000_000_000 + numpy.arange(4000) * 1_000_000
+    error = refused({**GOOD, "time [s]": stamps})
+    assert (error.place, "2**53" in error.found) == ("log['time [s]']", True)
+    assert "subtract" in error.allowed
+
+
+@pytest.mark.parametrize(
+    ("data", "found"),
+    [({}, "no column"), ({3: T}, "a column called 3"), ({" ": T}, "a column called ' '")],
+)
+def test_a_table_that_is_none_is_refused(data: Any, found: str) -> None:
+    assert found in refused(data).found
+
+
+@pytest.mark.parametrize("data", [3, 2.5, T, [1, 2], object(), ""])
+def test_what_is_no_log_is_refused(data: Any) -> None:
+    assert refused(data).place == "log"
+
+
+@pytest.mark.parametrize(("samples", "found"), [(0, "no sample"), (1, "1 sample")])
+def test_records_without_a_length_are_refused(samples: int, found: str) -> None:
+    error = refused({name: values[:samples] for name, values in GOOD.items()})
+    assert (error.place, error.found) == ("log", found)
+
+
+def test_few_samples_are_read_and_not_identified() -> None:
+    short = quietly(stiction.read_log, {name: values[:40] for name, values in GOOD.items()})
+    assert any(finding.code == "few-samples" for finding in short.findings)
+    with pytest.raises(StictionError) as caught:
+        quietly(stiction.identify, short)
+    assert caught.value.code in {"too-few-samples", "no-motion"}
+
+
+@pytest.mark.parametrize("key", GOOD)
+def test_a_missing_key_is_named(key: str) -> None:
+    rest = {name: values for name, values in GOOD.items() if name != key}
+    with pytest.raises(StictionError) as caught:
+        quietly(stiction.identify, rest, law="coulomb-viscous", compare_laws=False)
+    error = caught.value
+    assert error.place.startswith("logs")
+    assert key.split(" ")[0] in f"{error.found} {error.allowed}"
+
+
+def test_units_that_are_missing_are_assumed_as_of_a_file_and_named() -> None:
+    plain = {name.split(" ")[0]: values for name, values in GOOD.items()}
+    with pytest.warns(stiction.StictionWarning, match=r"\[unit-assumed\].*position m") as caught:
+        assumed = stiction.read_log(plain)
+    assert caught[0].filename == __file__
+    assert numpy.array_equal(assumed.position, plain["position"])
+    # In the axis, or with the array, they are as good as in the name.
+    given = {"time": (plain["time"], "s"), "position": (plain["position"], "mm"), "force": (plain["force"], "N")}
+    axis = {
+        "kind": "linear",
+        "columns": {
+            "time": {"column": "time", "unit": "s"},
+            "position": {"column": "position", "unit": "mm"},
+            "force": {"column": "force", "unit": "N"},
+        },
+    }
+    same = quietly(stiction.read_log, GOOD)
+    for log in (quietly(stiction.read_log, given), quietly(stiction.read_log, plain, axis)):
+        assert numpy.array_equal(log.position, same.position)
+        assert numpy.array_equal(log.force, same.force)
+
+
+@pytest.mark.parametrize("unit", ["parsec", "N", ""])
+def test_a_unit_that_does_not_fit_is_refused(unit: str) -> None:
+    error = refused(other((GOOD["position [mm]"], unit)))
+    assert error.place.startswith("log")
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        numpy.asfortranarray(numpy.stack([GOOD["position [mm]"]] * 2, axis=1))[:, 0],
+        numpy.stack([GOOD["position [mm]"]] * 2, axis=1)[:, 0],
+        numpy.repeat(GOOD["position [mm]"], 2)[::2],
+        GOOD["position [mm]"][::-1].copy()[::-1],
+        GOOD["position [mm]"].astype(">f8"),
+        GOOD["position [mm]"].astype(numpy.longdouble),
+        list(GOOD["position [mm]"]),
+        numpy.ma.masked_array(GOOD["position [mm]"]),
+    ],
+    ids=["fortran", "column", "strided", "reversed", "big-endian", "long-double", "list", "masked-nothing"],
+)
+def test_any_layout_gives_the_same_log(values: Any) -> None:
+    same = quietly(stiction.read_log, GOOD)
+    log = quietly(stiction.read_log, other(values))
+    assert log.sha256 == same.sha256
+    assert numpy.array_equal(log.position, same.position)
+
+
+@pytest.mark.parametrize("kind", ["f4", "f2", "i4", "u2", "i8"])
+def test_other_numbers_are_taken_for_what_they_are(kind: str) -> None:
+    values = numpy.round(20 + 10 * numpy.sin(6 * T)).astype(kind)
+    log = quietly(stiction.read_log, other(values))
+    assert numpy.allclose(log.position, values.astype(float) * 1e-3, rtol=1e-15)
+
+
+def test_missing_samples_are_as_empty_cells() -> None:
+    gaps = GOOD["position [mm]"].copy()
+    gaps[1000:1003] = numpy.nan
+    log = quietly(stiction.read_log, other(gaps))
+    assert any(finding.code == "missing-cells" for finding in log.findings)
+    mask = numpy.isnan(gaps)
+    masked = numpy.ma.masked_array(GOOD["position [mm]"], mask)
+    assert quietly(stiction.read_log, other(masked)).sha256 == log.sha256
+
+
+@pytest.mark.parametrize("column", GOOD)
+@pytest.mark.parametrize("value", [numpy.nan, numpy.inf])
+def test_a_column_without_a_number_is_refused_or_found(column: str, value: float) -> None:
+    with pytest.raises(StictionError) as caught:
+        quietly(stiction.identify, other(numpy.full(4000, value), column), law="coulomb-viscous", compare_laws=False)
+    assert column.split(" ")[0] in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("axis", "code"),
+    [
+        ({"kind": "round"}, "bad-config"),
+        ({"kidn": "linear"}, "bad-config"),
+        ({"mass": object()}, "usage"),
+        ({"mass": float("nan")}, "usage"),
+        ({"mass": None}, "usage"),
+        ("no/such/axis.toml", "bad-config"),
+        (3, "usage"),
+    ],
+)
+def test_an_axis_that_is_none_is_refused(axis: Any, code: str) -> None:
+    error = refused(GOOD, axis=axis)
+    assert error.code == code
+    assert "axis" in error.place
+
+
+@pytest.mark.parametrize(
+    ("options", "place"),
+    [
+        ({"law": "lugree"}, "law"),
+        ({"method": "magic"}, "method"),
+        ({"method": "ga", "cost": "cheap"}, "cost"),
+        ({"method": "static", "search": "x"}, "search"),
+        ({"split": 0.5, "validate": GOOD}, "split"),
+        ({"split": 2.0}, "split"),
+        ({"law": "auto", "asymmetric": True}, "asymmetric"),
+        ({"axis": "axis.toml"}, "axis"),
+        ({"model": 3}, "model"),
+    ],
+)
+def test_an_option_that_is_none_is_named(options: dict[str, Any], place: str) -> None:
+    log = quietly(stiction.read_log, GOOD)
+    with pytest.raises(StictionError) as caught:
+        quietly(stiction.identify, log, **options)
+    assert place in str(caught.value)
+
+
+@pytest.mark.parametrize("options", [{"seed": -1}, {"seed": 1.5}, {"split": "half"}, {"threads": -1}, {"asymmetric": 3}])
+def test_an_option_of_another_type_is_an_error_of_python(options: dict[str, Any]) -> None:
+    with pytest.raises((TypeError, OverflowError)):
+        quietly(stiction.identify, GOOD, **options)
+
+
+def test_files_that_cannot_be_read_are_named(tmp_path: Path) -> None:
+    for path, content in [("empty.csv", b""), ("noise.csv", bytes(range(256)) * 40)]:
+        file = tmp_path / path
+        file.write_bytes(content)
+        assert path in refused(file).place
+    assert refused(tmp_path / "none.csv").code == "log-io"
+
+
+def test_a_folder_that_is_no_fit_is_refused(tmp_path: Path, fit: stiction.Fit) -> None:
+    with pytest.raises(StictionError) as caught:
+        stiction.load(tmp_path)
+    assert "result.json" in caught.value.place
+    fit.save(tmp_path / "fit")
+    for damaged in (b"", b"{}", b"[1", b'{"schema": "stiction.result/9"}'):
+        (tmp_path / "fit" / "result.json").write_bytes(damaged)
+        with pytest.raises(StictionError) as caught:
+            stiction.load(tmp_path / "fit")
+        assert "result.json" in caught.value.place
+
+
+def test_a_folder_that_holds_something_is_left_alone(tmp_path: Path, fit: stiction.Fit) -> None:
+    (tmp_path / "notes.txt").write_text("mine")
+    with pytest.raises(StictionError) as caught:
+        fit.save(tmp_path)
+    assert caught.value.code == "output"
+    assert "force" in caught.value.allowed
+    fit.save(tmp_path, force=True)
+    assert (tmp_path / "notes.txt").read_text() == "mine"
+
+
+def test_errors_pickle_and_have_their_parts() -> None:
+    import pickle
+
+    error = refused({})
+    again = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert (again.code, again.place, again.found, again.allowed, str(again)) == (
+        error.code,
+        error.place,
+        error.found,
+        error.allowed,
+        str(error),
+    )
+    warning = stiction.StictionWarning("gap", "two samples")
+    assert str(pickle.loads(pickle.dumps(warning))) == "[gap] two samples"  # noqa: S301

@@ -1,0 +1,76 @@
+"""Tables of pandas, polars and pyarrow, where they are installed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy
+import pytest
+import stiction
+from conftest import quietly
+from test_bad_input import GOOD, refused
+
+
+@pytest.fixture(params=["pandas", "polars", "pyarrow"])
+def frame(request: pytest.FixtureRequest) -> Any:
+    """What makes a table of a dict of arrays."""
+    library = pytest.importorskip(request.param)
+    return library.table if request.param == "pyarrow" else library.DataFrame
+
+
+def test_a_table_is_read_as_its_arrays(frame: Any) -> None:
+    same = quietly(stiction.read_log, GOOD)
+    log = quietly(stiction.read_log, frame(GOOD))
+    assert log.sha256 == same.sha256
+    assert numpy.array_equal(log.force, same.force)
+
+
+def test_units_that_a_table_lacks_are_named(frame: Any) -> None:
+    with pytest.warns(stiction.StictionWarning, match=r"\[unit-assumed\].*position m"):
+        stiction.read_log(frame({name.split(" ")[0]: values for name, values in GOOD.items()}))
+
+
+def test_columns_of_text_are_refused_by_name(frame: Any) -> None:
+    error = refused(frame({**GOOD, "note": ["a"] * 4000}))
+    assert error.place == "log['note']"
+
+
+def test_an_empty_table_is_refused(frame: Any) -> None:
+    assert refused(frame({name: values[:0] for name, values in GOOD.items()})).place == "log"
+
+
+def test_cells_that_are_missing_are_found(frame: Any) -> None:
+    cells = [None if 1000 <= k < 1003 else float(x) for k, x in enumerate(GOOD["position [mm]"])]
+    log = quietly(stiction.read_log, frame({**GOOD, "position [mm]": cells}))
+    assert any(finding.code == "missing-cells" for finding in log.findings)
+
+
+def test_pandas_of_its_own_types() -> None:
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame(GOOD)
+    same = quietly(stiction.read_log, table)
+    for kind in ("Float64", "float64[pyarrow]"):
+        if "pyarrow" in kind:
+            pytest.importorskip("pyarrow")
+        assert quietly(stiction.read_log, table.astype(kind)).sha256 == same.sha256, kind
+    # A part of a table has gaps in its index, which is not looked at.
+    assert quietly(stiction.read_log, table[table["time [s]"] > 1.0]).samples == 2999
+
+
+def test_two_columns_of_one_name_are_refused() -> None:
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame(GOOD)
+    table.columns = ["time [s]", "force [N]", "force [N]"]
+    assert "two columns" in refused(table).found
+
+
+def test_time_zones_are_refused_with_the_line_that_works() -> None:
+    pandas = pytest.importorskip("pandas")
+    stamps = pandas.date_range("2026-01-01", periods=4000, freq="ms")
+    for time in (stamps, stamps.tz_localize("Europe/Berlin")):
+        table = pandas.DataFrame({**GOOD, "time [s]": time})
+        error = refused(table)
+        assert error.place == "log['time [s]']"
+    stamp = table["time [s]"]
+    table["time [s]"] = (stamp - stamp.iloc[0]).dt.total_seconds()
+    assert quietly(stiction.read_log, table).samples == 4000

@@ -1,0 +1,152 @@
+"""While Rust works: other threads run, Ctrl-C stops it, progress is told."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+from typing import Any
+
+import numpy
+import pytest
+import stiction
+from conftest import quietly
+from stiction import Progress, StictionWarning
+
+LONG: dict[str, Any] = {"law": "lugre", "method": "ga", "cost": "separable", "evaluations": 10**9, "target": 1e-30}
+"""A search that does not end by itself."""
+
+
+def test_progress_is_told(run_csv: Path) -> None:
+    seen: list[Progress] = []
+    quietly(stiction.identify, run_csv, law="lugre", compare_laws=False, progress=seen.append)
+    assert seen
+    assert all(0.0 <= p.fraction <= 1.0 and p.stage for p in seen)
+
+
+def test_progress_that_says_false_stops_and_keeps_the_best(run_csv: Path) -> None:
+    with pytest.warns(StictionWarning, match=r"\[interrupted\]"):
+        fit = stiction.identify(run_csv, progress=lambda p: p.error is None, **LONG)
+    assert fit.parameters["coulomb"].value > 0.0
+    assert fit.verdict == "interrupted"
+
+
+def test_an_error_of_the_one_who_is_told_comes_back(run_csv: Path) -> None:
+    def fails(_: Progress) -> None:
+        raise ZeroDivisionError("mine")
+
+    with pytest.raises(ZeroDivisionError, match="mine"):
+        quietly(stiction.identify, run_csv, progress=fails, **LONG)
+
+
+def test_two_threads_are_at_work_at_once(run_csv: Path) -> None:
+    """Each search goes on until it has seen the other one at work: with the interpreter held neither would end."""
+    both = threading.Barrier(2, timeout=120)
+    found: list[str] = []
+
+    def work() -> None:
+        met = False
+
+        def told(p: Progress) -> bool:
+            nonlocal met
+            if not met and p.error is not None:
+                both.wait()
+                met = True
+            return not met
+
+        fit = stiction.identify(run_csv, progress=told, threads=1, **LONG)
+        found.append(fit.verdict)
+
+    threads = [threading.Thread(target=work) for _ in range(2)]
+    # Warnings are those of the whole process: silenced around both, not within.
+    def together() -> None:
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+
+    quietly(together)
+    assert found == ["interrupted"] * 2
+
+
+def test_python_runs_while_rust_works(run_csv: Path) -> None:
+    """Another thread ends the search, which it could not with the interpreter held and nobody told."""
+    counted = 0
+    go_on = True
+
+    def told(_: Progress) -> bool:
+        return go_on
+
+    def count() -> None:
+        nonlocal counted, go_on
+        while counted < 100_000:
+            counted += 1
+        go_on = False
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    quietly(stiction.identify, run_csv, progress=told, **LONG)
+    thread.join()
+    assert counted == 100_000
+
+
+INTERRUPTED = """
+import sys, warnings
+import stiction
+warnings.simplefilter("ignore")
+said = False
+def told(p):
+    global said
+    if p.error is not None and not said:
+        said = True
+        print("searching", flush=True)
+fit = stiction.identify(sys.argv[1], progress=told, law="lugre", method="ga", cost="separable", evaluations=10**9, target=1e-30)
+print(fit.verdict, fit.parameters["coulomb"].value > 0.0)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_ctrl_c_stops_and_keeps_the_best(run_csv: Path) -> None:
+    words = [sys.executable, "-c", INTERRUPTED, str(run_csv)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as process:  # noqa: S603
+        assert process.stdout is not None
+        assert process.stdout.readline() == "searching\n"
+        process.send_signal(signal.SIGINT)
+        assert process.stdout.read() == "interrupted True\n"
+    assert process.returncode == 0
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_ctrl_c_where_there_is_nothing_to_keep_is_a_keyboard_interrupt(run_csv: Path) -> None:
+    script = """
+import os, signal, sys
+import stiction
+told = lambda p: os.kill(os.getpid(), signal.SIGINT)
+try:
+    stiction.check(sys.argv[1], progress=told)
+except KeyboardInterrupt:
+    print("stopped")
+"""
+    words = [sys.executable, "-c", script, str(run_csv)]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)  # noqa: S603
+    assert done.stdout == "stopped\n"
+
+
+def test_nothing_is_kept_of_many_calls(arrays: dict[str, Any]) -> None:
+    """The memory of the process does not grow with the number of calls."""
+    resource = pytest.importorskip("resource")
+    log = quietly(stiction.read_log, {name: values[:4000] for name, values in arrays.items()})
+    law = quietly(stiction.identify, log, law="coulomb-viscous", compare_laws=False).law
+    velocity = numpy.zeros(20_000)
+
+    def peak() -> int:
+        for _ in range(200):
+            _ = log.force
+            law.steps(velocity, 1e-3)
+        return int(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+
+    first = peak()
+    assert peak() - first < 8_000, "kB; each round makes 38 MB of arrays"
