@@ -59,5 +59,13 @@ class Law:
         """Back to rest."""
         self._native.reset()
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (self._native.model, self._native.memory(), self.kind, self.unit)
+
     def __repr__(self) -> str:
         return f"<stiction.Law {self.kind}, force {self.force:.6g} {self.unit}>"
+
+
+def _again(model: str, memory: list[float], kind: str, unit: str) -> Law:
+    """A law as it was, as when it is unpickled."""
+    return Law(_native.Law.of_model(model, memory), kind, unit)

@@ -73,7 +73,7 @@ class Log:
     def time(self) -> NDArray[numpy.float64]:
         """Time from the first sample, s."""
         time = self._native.channel("time")
-        assert time is not None  # noqa: S101 - every log has one
+        assert time is not None
         return time
 
     @property

@@ -52,6 +52,9 @@ class Plan:
         """The report: one HTML document without scripts."""
         return self._native.file("report.html") or ""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (self._native.parts(),)
+
     def __str__(self) -> str:
         return self._native.text()
 
@@ -61,6 +64,11 @@ class Plan:
     def _repr_html_(self) -> str:
         document = escape(self.report(), quote=True)
         return f'<iframe srcdoc="{document}" style="width: 100%; height: 40em; border: 0"></iframe>'
+
+
+def _again(parts: Any) -> Plan:
+    """A plan of its parts, as when it is unpickled."""
+    return Plan(_native.Plan.of_parts(parts))
 
 
 def plan(

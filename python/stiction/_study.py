@@ -54,6 +54,9 @@ class Study:
         """The report: one HTML document without scripts."""
         return self._native.file("report.html") or ""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (self._native.parts(),)
+
     def __str__(self) -> str:
         return self._native.text()
 
@@ -63,6 +66,13 @@ class Study:
     def _repr_html_(self) -> str:
         document = escape(self.report(), quote=True)
         return f'<iframe srcdoc="{document}" style="width: 100%; height: 40em; border: 0"></iframe>'
+
+
+def _again(parts: Any) -> Study:
+    """A study of its parts, as when it is unpickled."""
+    native = _native.Study.of_parts(parts)
+    assert native is not None
+    return Study(native)
 
 
 def simulate(

@@ -109,6 +109,7 @@ def test_units_that_are_missing_are_assumed_as_of_a_file_and_named() -> None:
     with pytest.warns(stiction.StictionWarning, match=r"\[unit-assumed\].*position m") as caught:
         assumed = stiction.read_log(plain)
     assert caught[0].filename == __file__
+    assert assumed.position is not None
     assert numpy.array_equal(assumed.position, plain["position"])
     # In the axis, or with the array, they are as good as in the name.
     given = {"time": (plain["time"], "s"), "position": (plain["position"], "mm"), "force": (plain["force"], "N")}
@@ -257,7 +258,7 @@ def test_errors_pickle_and_have_their_parts() -> None:
     import pickle
 
     error = refused({})
-    again = pickle.loads(pickle.dumps(error))  # noqa: S301
+    again = pickle.loads(pickle.dumps(error))
     assert (again.code, again.place, again.found, again.allowed, str(again)) == (
         error.code,
         error.place,
@@ -266,4 +267,4 @@ def test_errors_pickle_and_have_their_parts() -> None:
         str(error),
     )
     warning = stiction.StictionWarning("gap", "two samples")
-    assert str(pickle.loads(pickle.dumps(warning))) == "[gap] two samples"  # noqa: S301
+    assert str(pickle.loads(pickle.dumps(warning))) == "[gap] two samples"

@@ -21,7 +21,7 @@ def test_every_block_of_the_guide_runs(tmp_path: Path, monkeypatch: pytest.Monke
     for block in blocks:
         # Line numbers in an error are those of the page.
         above = "\n" * text[: block.start(1)].count("\n")
-        quietly(exec, compile(above + block.group(1), str(GUIDE), "exec"), names)  # noqa: S102
+        quietly(exec, compile(above + block.group(1), str(GUIDE), "exec"), names)
     assert (tmp_path / "result" / "model.toml").is_file()
     assert (tmp_path / "study" / "study.json").is_file()
     assert any(path.suffix == ".c" for path in (tmp_path / "controller").iterdir())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +47,7 @@ def test_an_axis_file_and_options_do_the_same(run_csv: Path, command: Any, tmp_p
     command(
         "identify", run_csv, "--axis", axis, "--law", "stribeck", "--asymmetric", "--split", "0.7", "--seed", "5",
         "--out", tmp_path / "theirs",
-    )  # fmt: skip
+    )
     options: Any = {"law": "stribeck", "asymmetric": True, "split": 0.7, "seed": 5}
     fit = quietly(stiction.identify, run_csv, axis, **options)
     fit.save(tmp_path / "ours")
@@ -100,14 +101,15 @@ def test_a_study_is_that_of_the_command_line(fit: stiction.Fit, command: Any, tm
     study = tmp_path / "fit" / "study.toml"
     command("simulate", study, "--out", tmp_path / "theirs")
     theirs = json.loads((tmp_path / "theirs" / "study.json").read_text())
-    ours = quietly(fit.simulate)
+    # Of a fit that is in no folder.
+    unsaved = pickle.loads(pickle.dumps(fit))
+    unsaved._folder = None
+    ours = quietly(unsaved.simulate)
     assert ours.rows == theirs["results"]
     written = ours.save(tmp_path / "ours")
+    again = pickle.loads(pickle.dumps(ours))
+    assert (again.result, again.verdict, again.report()) == (ours.result, ours.verdict, ours.report())
     assert sorted(p.name for p in written) == sorted(p.name for p in (tmp_path / "theirs").iterdir())
-    # A fit that was never saved has the same study.
-    fresh = stiction.load(tmp_path / "fit")
-    fresh._folder = None
-    assert quietly(fresh.simulate).rows == theirs["results"]
 
 
 LIMITED = """kind = "linear"
@@ -141,3 +143,5 @@ def test_a_plan_is_that_of_the_command_line(fit: stiction.Fit, command: Any, tmp
     assert list(motion) == ["t", "x", "v", "a"]
     assert motion["v"][0] == motion["v"][-1] == 0.0
     assert plan.expected
+    again = pickle.loads(pickle.dumps(plan))
+    assert (again.result, str(again), again.report()) == (plan.result, str(plan), plan.report())

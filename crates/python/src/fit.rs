@@ -12,7 +12,7 @@ use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use stiction::bundle::beside_complete;
 use stiction::commands::{Bundle, Files, check_folder, check_inputs};
-use stiction::{Column, FrictionLaw, ModelFile, SavedFit, Verdict};
+use stiction::{Column, ModelFile, SavedFit, Verdict};
 
 /// An identified law with everything that is known of it.
 #[pyclass(frozen, module = "stiction._native")]
@@ -157,18 +157,7 @@ impl Fit {
 
     /// The law, at rest.
     fn law(&self, py: Python<'_>) -> PyResult<Law> {
-        let law = match &self.content {
-            Content::Made(fit) => Some(fit.law()),
-            Content::Saved(saved) => saved.law(),
-        };
-        let refused = |found: String| {
-            let allowed = "parameters that make a law: see which the log leaves open";
-            Refusal::argument("law", found, allowed).raise(py)
-        };
-        let law: FrictionLaw = law
-            .ok_or_else(|| refused("a law that this version does not know".into()))?
-            .map_err(|e| refused(e.to_string()))?;
-        Ok(Law::new(law))
+        Law::of(&self.model()).map_err(|refusal| refusal.raise(py))
     }
 
     /// `trustworthy`, `not-trustworthy` or `interrupted`; `None` where it is to be read from the result.

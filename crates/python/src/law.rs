@@ -3,27 +3,66 @@
 use crate::error::{Refusal, raised};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
-use stiction::{FrictionLaw, SteppedLaw, forces_along};
+use stiction::{FrictionLaw, ModelFile, SteppedLaw, forces_along};
 
 /// A friction law with its state.
 #[pyclass(module = "stiction._native")]
 pub struct Law {
     law: FrictionLaw,
     stepped: SteppedLaw,
+    /// The model file of the law.
+    model: String,
 }
 
 impl Law {
-    /// At rest.
-    pub fn new(law: FrictionLaw) -> Self {
-        Self {
+    /// The law of a model, at rest.
+    ///
+    /// # Errors
+    /// Where its parameters make none.
+    pub fn of(model: &ModelFile) -> Result<Self, Refusal> {
+        let refused = |found: String| {
+            let allowed = "parameters that make a law: see which the log leaves open";
+            Refusal::argument("law", found, allowed)
+        };
+        let values = model.values();
+        let values =
+            values.ok_or_else(|| refused("a law that this version does not know".into()))?;
+        let law = values.law().map_err(|e| refused(e.to_string()))?;
+        Ok(Self {
             stepped: SteppedLaw::new(law.clone()),
             law,
-        }
+            model: model.to_toml(),
+        })
     }
 }
 
 #[pymethods]
 impl Law {
+    /// The law of the text of a model file, with what `memory` gave.
+    #[staticmethod]
+    fn of_model(py: Python<'_>, model: &str, memory: Vec<f64>) -> PyResult<Self> {
+        let model = ModelFile::parse(model).map_err(|e| raised(py, &e.into()))?;
+        let mut law = Self::of(&model).map_err(|refusal| refusal.raise(py))?;
+        match law.stepped.recall(&memory) {
+            true => Ok(law),
+            false => {
+                let found = format!("{} numbers", memory.len());
+                Err(Refusal::argument("memory", found, "those of a law of this kind").raise(py))
+            }
+        }
+    }
+
+    /// The text of its model file.
+    #[getter]
+    fn model(&self) -> &str {
+        &self.model
+    }
+
+    /// All that it remembers.
+    fn memory(&self) -> Vec<f64> {
+        self.stepped.memory()
+    }
+
     /// One sample in real time.
     fn step(&mut self, velocity: f64, dt: f64) -> f64 {
         self.stepped.step(dt, velocity)

@@ -2,7 +2,7 @@
 
 use crate::error::raised;
 use crate::run::{How, Stopped, run};
-use crate::study::saved;
+use crate::study::{Parts, bundled, saved, unbundled};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use std::path::PathBuf;
@@ -19,8 +19,30 @@ pub struct Plan {
     inputs: Vec<PathBuf>,
 }
 
+/// Files of a plan.
+const NAMES: [&str; 3] = ["setpoints.csv", "report.html", "plan.toml"];
+
 #[pymethods]
 impl Plan {
+    /// What `parts` gave.
+    #[staticmethod]
+    fn of_parts(parts: Parts) -> Self {
+        let (files, json, text, inputs, _) = parts;
+        Self {
+            bundle: bundled(&NAMES, files),
+            json,
+            text,
+            inputs,
+        }
+    }
+
+    /// All that it is made of.
+    fn parts(&self) -> Parts {
+        let files = unbundled(&self.bundle);
+        let (json, text) = (self.json.clone(), self.text.clone());
+        (files, json, text, self.inputs.clone(), String::new())
+    }
+
     /// `plan.toml`, as JSON.
     fn result_json(&self) -> &str {
         &self.json

@@ -8,6 +8,29 @@ use stiction::bundle;
 use stiction::commands::study::result::SCHEMA;
 use stiction::commands::{Bundle, check_folder_of, check_inputs, text};
 
+/// Files by name, JSON, text, paths that were read, and a verdict where there is one.
+pub type Parts = (Vec<(String, Vec<u8>)>, String, String, Vec<PathBuf>, String);
+
+/// Files of a kind of outcome that have these names, in their order.
+pub fn bundled(names: &[&'static str], files: Vec<(String, Vec<u8>)>) -> Bundle {
+    let mut bundle = Bundle::default();
+    for name in names {
+        match files.iter().find(|(own, _)| own == name) {
+            Some((_, content)) => bundle.add(name, content.clone()),
+            None => bundle.lacks(name),
+        }
+    }
+    bundle
+}
+
+/// Files with their names.
+pub fn unbundled(bundle: &Bundle) -> Vec<(String, Vec<u8>)> {
+    let files = bundle.files().iter();
+    files
+        .map(|(name, content)| ((*name).to_string(), content.clone()))
+        .collect()
+}
+
 /// What came out of a study.
 #[pyclass(frozen, module = "stiction._native")]
 pub struct Study {
@@ -20,8 +43,39 @@ pub struct Study {
     verdict: &'static str,
 }
 
+/// Files of a study.
+const NAMES: [&str; 4] = [
+    "report.html",
+    "trajectories.csv",
+    "contours.csv",
+    "study.json",
+];
+const VERDICTS: [&str; 3] = ["trustworthy", "not-trustworthy", "interrupted"];
+
 #[pymethods]
 impl Study {
+    /// What `parts` gave.
+    #[staticmethod]
+    fn of_parts(parts: Parts) -> Option<Self> {
+        let (files, json, text, inputs, verdict) = parts;
+        let mut verdicts = VERDICTS.into_iter();
+        Some(Self {
+            bundle: bundled(&NAMES, files),
+            json,
+            text,
+            inputs,
+            verdict: verdicts.find(|own| *own == verdict)?,
+        })
+    }
+
+    /// All that it is made of.
+    fn parts(&self) -> Parts {
+        let files = unbundled(&self.bundle);
+        let (json, text) = (self.json.clone(), self.text.clone());
+        let verdict = self.verdict.to_string();
+        (files, json, text, self.inputs.clone(), verdict)
+    }
+
     /// `study.json`.
     fn result_json(&self) -> &str {
         &self.json

@@ -78,6 +78,52 @@ impl SteppedLaw {
         }
     }
 
+    /// All that it remembers, for [`recall`](Self::recall): the last force, then its deflection, or of elements the direction
+    /// and for each its spring force and whether it slips.
+    pub fn memory(&self) -> Vec<f64> {
+        let flag = |is: bool| f64::from(u8::from(is));
+        let mut out = vec![self.force];
+        match &self.memory {
+            Memory::None => {}
+            Memory::Bristle(state) => out.extend([state.force, state.z]),
+            Memory::Elements(state) => {
+                let at = &state.elements;
+                out.extend([state.force, flag(at.forward)]);
+                out.extend(at.force);
+                out.extend(at.slips.map(flag));
+            }
+        }
+        out
+    }
+
+    /// Takes up what [`memory`](Self::memory) gave, of the same law; whether it was that of such a law.
+    pub fn recall(&mut self, memory: &[f64]) -> bool {
+        match (&mut self.memory, memory) {
+            (Memory::None, [force]) => self.force = *force,
+            (Memory::Bristle(state), [force, last, z]) => {
+                *state = State {
+                    z: *z,
+                    force: *last,
+                };
+                self.force = *force;
+            }
+            (Memory::Elements(state), [force, last, forward, each @ ..])
+                if each.len() == 2 * MOST_ELEMENTS =>
+            {
+                let (forces, slips) = each.split_at(MOST_ELEMENTS);
+                state.force = *last;
+                state.elements.forward = *forward != 0.0;
+                state.elements.force.copy_from_slice(forces);
+                for (own, slip) in state.elements.slips.iter_mut().zip(slips) {
+                    *own = *slip != 0.0;
+                }
+                self.force = *force;
+            }
+            _ => return false,
+        }
+        true
+    }
+
     /// Back to rest.
     pub fn reset(&mut self) {
         *self = Self::new(self.law.clone());

@@ -75,3 +75,22 @@ fn a_record_that_is_none_is_refused() {
     }
     assert_eq!(forces_along(&law, &[], &[]).unwrap(), Vec::<f64>::new());
 }
+
+/// In the middle of a motion to and fro.
+#[test]
+fn a_law_goes_on_from_what_it_remembers() {
+    for law in laws() {
+        let velocity = |k: i32| 0.02 * libm::sin(0.05 * f64::from(k));
+        let mut one = SteppedLaw::new(law.clone());
+        for k in 0..90 {
+            one.step(1e-3, velocity(k));
+        }
+        let mut other = SteppedLaw::new(law.clone());
+        assert!(other.recall(&one.memory()));
+        assert!(!other.recall(&[]));
+        for k in 90..300 {
+            let force = one.step(1e-3, velocity(k));
+            assert_eq!(force, other.step(1e-3, velocity(k)), "{law:?}");
+        }
+    }
+}

@@ -1,0 +1,90 @@
+"""What the Python package costs over the library: measure.py TIMED, the built example `timed` of crates/stiction.
+
+Prints import time, identification of 30 001 samples against the same call in Rust (in turn, the least of all), two Python
+threads against one, and the memory of many calls. Run it with the Python that the wheel is installed in, on a machine that
+does nothing else.
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import warnings
+from pathlib import Path
+from typing import Any
+
+import stiction
+
+SAMPLES = 30_001
+ROUNDS = 7
+
+
+def importing(module: str) -> float:
+    """Least time of an import, s."""
+    line = f"import time; t = time.perf_counter(); import {module}; print(time.perf_counter() - t)"
+    words = [sys.executable, "-c", line]
+    return min(float(subprocess.run(words, capture_output=True, text=True, check=True).stdout) for _ in range(20))
+
+
+def identified(log: stiction.Log) -> float:
+    """Time of one identification on one thread, s."""
+    start = time.perf_counter()
+    stiction.identify(log, law="lugre", compare_laws=False, threads=1)
+    return time.perf_counter() - start
+
+
+def together(log: stiction.Log, threads: int) -> float:
+    """Time of as many identifications at once, s."""
+    all_of_them = [threading.Thread(target=identified, args=(log,)) for _ in range(threads)]
+    start = time.perf_counter()
+    for thread in all_of_them:
+        thread.start()
+    for thread in all_of_them:
+        thread.join()
+    return time.perf_counter() - start
+
+
+def kept(calls: int) -> float:
+    """Growth of the memory over so many identifications of a short log, MB."""
+    import numpy
+
+    t = numpy.arange(400) * 1e-3
+    velocity = 0.06 * numpy.cos(12.0 * t)
+    force = 20.0 * numpy.sign(velocity) + 60.0 * velocity
+    data: Any = {"time [s]": t, "position [m]": 5e-3 * numpy.sin(12.0 * t), "force [N]": force}
+
+    def run(n: int) -> int:
+        for _ in range(n):
+            stiction.identify(data, law="coulomb-viscous", compare_laws=False, threads=1).residual
+        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+
+    first = run(calls // 10)
+    return (run(calls) - first) / 1e3
+
+
+def main(timed: str) -> None:
+    print(f"import stiction {1e3 * importing('stiction'):.0f} ms, numpy {1e3 * importing('numpy'):.0f} ms")
+    with tempfile.TemporaryDirectory() as folder:
+        whole = stiction.write_demo_log(Path(folder) / "whole.csv", seed=1)
+        path = Path(folder) / "run.csv"
+        path.write_text("".join(whole.read_text().splitlines(keepends=True)[: SAMPLES + 1]))
+        log = stiction.read_log(path)
+        ours, theirs = [], []
+        for _ in range(ROUNDS):
+            ours += [identified(log) for _ in range(3)]
+            theirs.append(float(subprocess.run([timed, path, "3"], capture_output=True, text=True, check=True).stdout))
+        python, rust = min(ours), min(theirs)
+        print(f"identify, {SAMPLES} samples: Rust {rust:.4f} s, Python {python:.4f} s, {100 * (python / rust - 1):+.1f} %")
+        one = min(together(log, 1) for _ in range(ROUNDS))
+        two = min(together(log, 2) for _ in range(ROUNDS))
+        print(f"two threads do {2 * one / two:.2f} times the work of one")
+    print(f"10 000 identifications: {kept(10_000):+.1f} MB")
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    main(sys.argv[1])
