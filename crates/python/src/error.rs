@@ -122,6 +122,16 @@ fn of_file(error: &FileError) -> (String, String, String) {
             found.clone(),
             allowed.clone(),
         ),
+        FileError::TooLarge {
+            what,
+            found,
+            needed,
+            ..
+        } => (
+            what.clone(),
+            found.clone(),
+            format!("less, or max_samples={needed}"),
+        ),
         FileError::Output { path, reason } => {
             (path.display().to_string(), reason.clone(), String::new())
         }
