@@ -5,6 +5,9 @@
 //! Where it is sampled at half the rate or less, only rows nearest to its samples are kept, since nothing is known of it in
 //! between; temperatures and loads change slowly, and are not thinned so.
 
+mod lag;
+mod offset;
+
 use crate::findings::{Finding, Severity, count, full, median, short};
 use crate::mapping::{Channel, Mapping, Role, Source, select, time_source, wanted};
 use crate::{Column, Error, Kind, Selector, Table};
@@ -26,21 +29,43 @@ pub struct Elsewhere {
     pub role: Role,
     /// The time column of that file; found as in any recording where `None`.
     pub time: Option<Channel>,
-    /// What is added to the time stamps of that file, s.
-    pub offset: f64,
+    /// What is added to the time stamps of that file.
+    pub offset: Offset,
+}
+
+/// How the clock of another file goes with that of the recording.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Offset {
+    /// So many seconds are added to its time stamps.
+    Given(f64),
+    /// As many as make what the two files share go together.
+    Estimated,
 }
 
 impl Elsewhere {
     /// Which columns of the other file may be needed for this channel, of which only names and units are known yet: itself and
-    /// what may be its time stamps.
+    /// what may be its time stamps; where the offset is estimated also what may go with the log.
     pub fn wanted(&self, channel: &Channel, heads: &Table) -> Vec<bool> {
-        let open: &[Role] = match self.time {
-            Some(_) => &[],
-            None => &[Role::Time],
-        };
+        let mut open: Vec<Role> = self
+            .time
+            .is_none()
+            .then_some(Role::Time)
+            .into_iter()
+            .collect();
+        if self.offset == Offset::Estimated {
+            open.extend(offset::SHARED);
+        }
         let time = self.time.as_ref().map(|time| &time.column);
         let selectors: Vec<_> = time.into_iter().chain([&channel.column]).collect();
-        wanted(heads, &selectors, open)
+        wanted(heads, &selectors, &open)
+    }
+
+    /// Which columns of the log may be needed for the offset, beside those that the mapping takes.
+    pub fn wanted_of_log(&self, heads: &Table) -> Vec<bool> {
+        match self.offset {
+            Offset::Given(_) => vec![false; heads.columns.len()],
+            Offset::Estimated => wanted(heads, &[], &offset::SHARED),
+        }
     }
 }
 
@@ -77,7 +102,8 @@ impl Joined {
     /// Joins the column that the mapping names for a role, from a table that `name` stands for in messages.
     ///
     /// # Errors
-    /// Where one of the two has no time stamps, where they do not increase, and where the two share no time.
+    /// Where one of the two has no time stamps, where they do not increase, where the two share no time, and where the offset is to
+    /// be estimated and nothing tells it.
     pub fn join(&mut self, name: &str, other: &Table, from: &Elsewhere) -> Result<(), Error> {
         let role = from.role;
         let Some(channel) = self.mapping.channel(role).cloned() else {
@@ -100,9 +126,17 @@ impl Joined {
             let allowed = e.allowed.replace("under [columns]: time =", &own);
             Error::new(e.kind, found, allowed).of_setting(role.key("file"))
         };
-        let course = Course::read(other, &channel, from, origin).map_err(in_other)?;
+        let estimate = match from.offset {
+            Offset::Given(_) => None,
+            Offset::Estimated => Some(self.estimate(name, other, from)?),
+        };
+        let offset = match (from.offset, &estimate) {
+            (Offset::Given(seconds), _) => seconds,
+            (Offset::Estimated, estimate) => estimate.as_ref().map_or(0.0, |e| e.seconds),
+        };
+        let course = Course::read(other, &channel, from, (origin, offset)).map_err(in_other)?;
         let step = step(&time).unwrap_or(0.0);
-        self.refuse_apart(name, &course, &time, from)?;
+        self.refuse_apart(name, &course, &time, (from, offset))?;
         let slow = matches!(role, Role::Temperature | Role::Load);
         if !slow && course.step >= SLOWER * step {
             self.thin(&course, &time);
@@ -112,7 +146,9 @@ impl Joined {
         let stamps = &self.table.columns[own.column].values;
         let time: Vec<f64> = stamps.iter().map(|t| own.si(*t) - origin).collect();
         let values: Vec<f64> = time.iter().map(|t| course.at(*t)).collect();
-        self.say(name, &course, &time, &values, step, from);
+        self.say(name, &course, &time, &values, step, (from, offset));
+        self.findings
+            .extend(estimate.map(|estimate| estimate.finding(name, from.role)));
         for (outside, value) in self.outside.iter_mut().zip(&values) {
             *outside |= value.is_nan();
         }
@@ -138,7 +174,7 @@ impl Joined {
         name: &str,
         course: &Course,
         time: &[f64],
-        from: &Elsewhere,
+        (from, offset): (&Elsewhere, f64),
     ) -> Result<(), Error> {
         if time.iter().any(|t| !course.at(*t).is_nan()) {
             return Ok(());
@@ -158,8 +194,8 @@ impl Joined {
             micro(b)
         );
         let allowed = format!(
-            "files of one clock, or what is to be added to the time stamps of the other one, such as offset = \"{} s\"",
-            micro(a - c + from.offset)
+            "files of one clock, or what is to be added to the time stamps of the other one, such as offset = \"{} s\", or offset = \"estimate\"",
+            micro(a - c + offset)
         );
         Err(Error::new(Kind::Time, found, allowed).of_setting(from.role.key("file")))
     }
@@ -204,12 +240,12 @@ impl Joined {
         time: &[f64],
         values: &[f64],
         step: f64,
-        from: &Elsewhere,
+        (from, offset): (&Elsewhere, f64),
     ) {
         let cut = values.iter().filter(|x| x.is_nan()).count();
         let mut message = format!("{} is joined from {name} by time stamps", from.role.name());
-        if from.offset != 0.0 {
-            message.push_str(&format!(", {} s added to them", short(from.offset)));
+        if offset != 0.0 {
+            message.push_str(&format!(", {} s added to them", short(offset)));
         }
         message.push_str(&format!(
             "; it is sampled at {} Hz, the log at {} Hz",
@@ -250,19 +286,34 @@ fn micro(seconds: f64) -> String {
 }
 
 impl Course {
+    /// The column of another file, with its times counted from one of them and an offset added.
     fn read(
         table: &Table,
         channel: &Channel,
         from: &Elsewhere,
-        origin: f64,
+        (origin, offset): (f64, f64),
     ) -> Result<Self, Error> {
         let clock: Source = time_source(table, from.time.as_ref())?;
         let column = select(table, &channel.column, from.role)?;
+        Self::of(
+            table,
+            &clock,
+            &table.columns[column].values,
+            (origin, offset),
+        )
+    }
+
+    /// Numbers of a table that belong to its time stamps, which are counted from one of them, with an offset added.
+    fn of(
+        table: &Table,
+        clock: &Source,
+        own: &[f64],
+        (origin, offset): (f64, f64),
+    ) -> Result<Self, Error> {
         let stamps = &table.columns[clock.column].values;
-        let own = &table.columns[column].values;
         let (mut time, mut values) = (Vec::new(), Vec::new());
         for (row, (stamp, value)) in stamps.iter().zip(own).enumerate() {
-            let now = clock.si(*stamp) - origin + from.offset;
+            let now = clock.si(*stamp) - origin + offset;
             match time.last() {
                 _ if !now.is_finite() => continue,
                 Some(before) if now < *before => {
@@ -284,6 +335,37 @@ impl Course {
                 let found = format!("{} with a time stamp and a value", count(time.len(), "row"));
                 Err(Error::new(Kind::Value, found, "at least two"))
             }
+        }
+    }
+
+    /// Time of the first sample, s.
+    fn first(&self) -> f64 {
+        self.time[0]
+    }
+
+    /// Time from the first to the last, s.
+    fn span(&self) -> f64 {
+        self.time[self.time.len() - 1] - self.time[0]
+    }
+
+    /// The values at times of one step from the first on, each the mean over its step where that is longer than the own one.
+    fn grid(&self, step: f64) -> Vec<f64> {
+        let first = self.first();
+        let count = (self.span() / step) as usize + 1;
+        let mean = |n: usize| {
+            let middle = first + step * n as f64;
+            let from = self.time.partition_point(|t| *t < middle - 0.5 * step);
+            let own = self.time[from..].partition_point(|t| *t < middle + 0.5 * step);
+            match own {
+                0 | 1 => self.at(middle),
+                _ => self.values[from..from + own].iter().sum::<f64>() / own as f64,
+            }
+        };
+        match step > GAP_STEPS * self.step {
+            true => (0..count).map(mean).collect(),
+            false => (0..count)
+                .map(|n| self.at(first + step * n as f64))
+                .collect(),
         }
     }
 

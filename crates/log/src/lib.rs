@@ -57,7 +57,7 @@ mod xlsx;
 
 pub use error::{Error, Kind, Place};
 pub use findings::{Finding, Severity};
-pub use join::{Elsewhere, Joined};
+pub use join::{Elsewhere, Joined, Offset};
 pub use limits::{Limits, allow_memory};
 pub use log::{Excluded, Gap, Log, NotEnabled};
 pub use mapping::{

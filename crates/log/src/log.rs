@@ -33,7 +33,7 @@ mod driven;
 mod dropout;
 mod filled;
 mod held;
-mod unwrap;
+pub(crate) mod unwrap;
 
 use crate::findings::{self, Finding, Severity};
 use crate::join::Joined;

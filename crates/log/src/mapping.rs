@@ -51,6 +51,7 @@ mod wanted;
 use crate::findings::{Finding, full};
 use crate::{Error, Kind, Table};
 pub use channel::{Channel, Motion, Role, Selector};
+pub(crate) use choose::clear;
 pub(crate) use complete::time_source;
 pub(crate) use convert::{LARGEST_VALUE, Source};
 pub(crate) use drive::Gain;

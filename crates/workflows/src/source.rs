@@ -48,7 +48,18 @@ fn options(axis: &Axis) -> ReadOptions {
 
 /// The columns of a log that the axis file may take, with the SHA-256 of exactly the bytes that they were read from.
 fn hashed(path: &Path, axis: &Axis) -> Result<(Table, String), Error> {
-    hashed_of(path, axis, &|heads| axis.mapping.wanted(heads))
+    let wanted = |heads: &Table| {
+        let mut wanted = axis.mapping.wanted(heads);
+        for joined in &axis.joined {
+            let own = joined.from.wanted_of_log(heads);
+            wanted
+                .iter_mut()
+                .zip(own)
+                .for_each(|(all, own)| *all |= own);
+        }
+        wanted
+    };
+    hashed_of(path, axis, &wanted)
 }
 
 /// The same of the columns of a file that are wanted.

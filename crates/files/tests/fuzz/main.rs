@@ -61,6 +61,12 @@ struct Seed {
     bytes: Vec<u8>,
 }
 
+/// Axis files with columns of other files, of which none is among the examples.
+const JOINED: [&str; 2] = [
+    "[columns]\nforce = { file = \"tau.csv\", column = \"x\", offset = \"estimate\" }\n",
+    "[columns]\nload = { file = \"tau.csv\", column = 2, time = 1, offset = \"-12 ms\" }\n",
+];
+
 /// Where inputs are read from, and how many of them were read in the end.
 struct Bench {
     folder: tempfile::TempDir,
@@ -112,6 +118,11 @@ impl Bench {
                 .iter()
                 .filter(|p| p.extension().is_some_and(|e| e == "toml"));
             tables.for_each(|path| take(Form::Axis, path));
+        }
+        for text in JOINED {
+            let path = made.path().join("joined.toml");
+            std::fs::write(&path, text).unwrap();
+            take(Form::Axis, &path);
         }
         take(Form::Model, &workspace().join("examples/export/model.toml"));
         for path in files(&workspace().join("examples/stage")) {

@@ -7,7 +7,7 @@ use stiction_files::axis::{Found, ListedLog, Use, template};
 use stiction_files::{Axis, Error};
 use stiction_identify::{Cutoff, Hold, Source};
 use stiction_log::{
-    Channel, Column, Log, Mapping, Motion, Parts, Role, Selector, Table, Unit, Value, Wrap,
+    Channel, Column, Log, Mapping, Motion, Offset, Parts, Role, Selector, Table, Unit, Value, Wrap,
 };
 use stiction_search::Method;
 use stiction_search::genetic::{self, Annealing, Crossover, Rates, Ratio, Selection};
@@ -390,6 +390,10 @@ fn refusals() {
             "[columns]\nforce = { file = \"a\", column = 1, offset = 12 }",
         ),
         (
+            "an offset in a word",
+            "[columns]\nforce = { file = \"a\", column = 1, offset = \"estimated\" }",
+        ),
+        (
             "the time of another file",
             "[columns]\ntime = { file = \"a\", column = 1 }",
         ),
@@ -760,4 +764,17 @@ proptest! {
         }
         prop_assert_eq!(axis.name, None);
     }
+}
+
+#[test]
+fn an_offset_is_given_or_estimated() {
+    let offset = |text: &str| {
+        let force = format!("force = {{ file = \"tau.csv\", column = 1{text} }}");
+        parse(&format!("[columns]\n{force}\n")).unwrap().joined[0]
+            .from
+            .offset
+    };
+    assert_eq!(offset(""), Offset::Given(0.0));
+    assert_eq!(offset(", offset = \"-12 ms\""), Offset::Given(-0.012));
+    assert_eq!(offset(", offset = \"estimate\""), Offset::Estimated);
 }

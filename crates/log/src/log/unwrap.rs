@@ -11,7 +11,7 @@ const LEAST_STEPS: f64 = 2.0;
 const NEARLY_WHOLE: f64 = 0.1;
 
 /// The travel after which a position from this column repeats, m or rad.
-pub(super) fn period(wrap: Wrap, source: Option<&Source>) -> Result<f64, Error> {
+pub(crate) fn period(wrap: Wrap, source: Option<&Source>) -> Result<f64, Error> {
     let counts = match wrap {
         Wrap::Travel(travel) => return Ok(travel),
         Wrap::Counts(counts) => counts,

@@ -139,7 +139,7 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
 }
 
 /// The columns whose role is clear, whatever is wrong with the others.
-pub(super) fn clear(table: &Table) -> Mapping {
+pub(crate) fn clear(table: &Table) -> Mapping {
     let mut out = Mapping::default();
     let mut scan = Scan::new(table);
     for role in Role::ALL {

@@ -2,7 +2,7 @@
 
 use crate::mapping_common::{axis, column, message, table};
 use proptest::prelude::*;
-use stiction_log::{Channel, Elsewhere, Error, Joined, Log, Mapping, Role, Table};
+use stiction_log::{Channel, Elsewhere, Error, Joined, Log, Mapping, Offset, Role, Table};
 
 /// The clean axis without its force, at 1 kHz from 100 s on.
 fn log() -> Table {
@@ -27,7 +27,7 @@ fn from(role: Role) -> Elsewhere {
     Elsewhere {
         role,
         time: None,
-        offset: 0.0,
+        offset: Offset::Given(0.0),
     }
 }
 
@@ -94,7 +94,7 @@ fn a_temperature_is_not_what_thins_a_log() {
 fn an_offset_is_added_to_the_other_clock() {
     let late = other((0..4000).map(|i| 0.001 * f64::from(i)));
     let from = Elsewhere {
-        offset: 100.25,
+        offset: Offset::Given(100.25),
         ..from(Role::Force)
     };
     let log = joined(log(), &late, &from).unwrap();

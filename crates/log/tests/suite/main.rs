@@ -6,6 +6,7 @@
 #[cfg(feature = "all")]
 mod binary;
 mod join;
+mod join_offset;
 mod mapping_codes;
 mod mapping_common;
 mod mapping_detect;

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use proptest::sample::select;
 use std::path::Path;
 use stiction_log::{
-    Channel, Elsewhere, Enable, Joined, Log, Mapping, ReadOptions, Role, Selector, Table,
+    Channel, Elsewhere, Enable, Joined, Log, Mapping, Offset, ReadOptions, Role, Selector, Table,
     read_table, read_wanted,
 };
 
@@ -221,7 +221,7 @@ fn of_another_file_its_column_and_its_stamps_are_kept() {
     let from = Elsewhere {
         role: Role::Force,
         time: None,
-        offset: 0.0,
+        offset: Offset::Given(0.0),
     };
     let channel = Channel::named("torque");
     let [whole, kept] = both(file.path(), &|heads| from.wanted(&channel, heads));

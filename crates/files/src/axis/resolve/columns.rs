@@ -5,7 +5,9 @@ use crate::config::{Given, Table};
 use crate::error::Error;
 use std::path::Path;
 use stiction_log::mapping::SCALES;
-use stiction_log::{Channel, Dimension, Elsewhere, Enable, Mapping, Role, Selector, Unit, Value};
+use stiction_log::{
+    Channel, Dimension, Elsewhere, Enable, Mapping, Offset, Role, Selector, Unit, Value,
+};
 
 /// The columns of the log, and those of other files, which are named from a folder.
 pub(super) fn columns(
@@ -80,13 +82,29 @@ fn column(
         return Ok((own, None));
     };
     let time = table.get("time").map(|given| channel(&given)).transpose()?;
-    let offset = table.value("offset", Dimension::TIME)?.unwrap_or(0.0);
+    let offset = table
+        .get("offset")
+        .map(|given| offset(&given))
+        .transpose()?;
+    let offset = offset.unwrap_or(Offset::Given(0.0));
     table.end()?;
     let joined = JoinedColumn {
         file: folder.join(file.path("a recording")?),
         from: Elsewhere { role, time, offset },
     };
     Ok((own, Some(joined)))
+}
+
+/// What is added to the time stamps of another file.
+fn offset(given: &Given<'_>) -> Result<Offset, Error> {
+    match given.as_text() {
+        Some("estimate") => Ok(Offset::Estimated),
+        Some(text) if !text.contains(|c: char| c.is_ascii_digit()) => Err(given.refused(
+            "a time of either sign with its unit, such as \"12 ms\", or \"estimate\": it is then found from what the two files \
+             share",
+        )),
+        _ => given.signed(Dimension::TIME).map(Offset::Given),
+    }
 }
 
 /// A column by name, by number, or with all that is known of it.
