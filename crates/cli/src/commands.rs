@@ -17,7 +17,7 @@ use stiction::commands::shell::{quoted, quoted_path, text as path_text};
 use stiction::commands::{
     Bundle, CompareOptions, Comparison, Cost, Excitation, ExportedC, FileError, Files, Input, Kept,
     Known, Outcome, PlanOptions, Scheme, check_folder, check_folder_of, check_inputs,
-    compare_exported, compare_file, plan_motion, write_atomic,
+    compare_exported, compare_file, plan_motion, visible, write_atomic,
 };
 use stiction::result::Next;
 use stiction::{
@@ -73,6 +73,9 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     if let Error::File(FileError::TooLarge { needed, .. }) = error {
         return Some(large::with_more_samples(*needed));
     }
+    if let Some(next) = crate::next::missing(error).or_else(|| crate::next::no_room(error)) {
+        return Some(next);
+    }
     if let Error::File(FileError::Runs { .. }) = error {
         return Some(large::anew());
     }
@@ -88,8 +91,19 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         let axis = axis.map(|file| format!(" --axis {}", typed(file)));
         let log = identify.logs.first();
         let log = log.map_or(String::new(), |log| format!(" {}", typed(log)));
+        let rough = identify.axis.iter().find(|file| {
+            error.code() == Code::NoMotion
+                && Axis::read(file).is_ok_and(|axis| axis.mapping.resolution.is_some())
+        });
+        let rough = rough.map(|file| {
+            format!(
+                "leave resolution out of [log] of {} unless it is one encoder count: what moves by less does not move. ",
+                typed(file)
+            )
+        });
         return Some(format!(
-            "next: stiction check{log}{} shows what was read as position and force",
+            "next: {}stiction check{log}{} shows what was read as position and force",
+            rough.unwrap_or_default(),
             axis.collect::<String>()
         ));
     }
@@ -175,12 +189,26 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
                 "next: lower min_speed in [conditioning] of {file}, or leave it out"
             ));
         }
-        let asks = Axis::read(axis).is_ok_and(|axis| axis.conditioning.decimate.is_some());
-        if asks && losses.decimate > 1 && losses.logged >= needed {
+        let read = Axis::read(axis).ok();
+        let read = read.as_ref();
+        // Where not even a stretch is left, filters of so slow a rate take all of it.
+        let short = losses.short == losses.logged && losses.logged >= ENOUGH_TO_SIMULATE;
+        let decimates = losses.decimate > 1 && losses.logged >= needed;
+        let decimate = read.and_then(|axis| axis.conditioning.decimate);
+        if decimate.is_some_and(|by| by > 1) && (short || decimates) {
             return Some(format!(
                 "next: lower decimate in [conditioning] of {file}, or leave it out: then it follows from the cut-off"
             ));
         }
+    }
+    if let Some(axis) = &identify.axis
+        && Axis::read(axis).is_ok_and(|axis| axis.mapping.force_limit.is_some())
+        && losses.excluded * losses.decimate.max(1) > losses.logged / 2
+    {
+        return Some(format!(
+            "next: raise force_limit in [log] of {}, or leave it out: samples at or above it are saturated and not fitted",
+            typed(axis)
+        ));
     }
     // A simulation drops the stretches between gaps that are too short, as filters do.
     let is_long = losses.left_to_simulate() >= ENOUGH_TO_SIMULATE.max(needed);
@@ -357,7 +385,7 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
         return Err(FileError::output(file, reason).into());
     };
     let started = stiction::commands::check::init(log, check.axis.as_deref())?;
-    write_atomic(file, started.text.as_bytes())?;
+    write_atomic(file, visible::toml(started.text.clone()).as_bytes())?;
     if common.json {
         output::json(&serde_json::json!({
             "written": file.to_string_lossy(),
@@ -519,7 +547,7 @@ fn searching(typed: &arguments::Searching) -> Searching {
 /// Writes files into a folder, or beside it where they are of an outcome that was stopped early and a complete one is there; says
 /// what is kept. The folder, and what was written.
 fn put(bundle: &Bundle, dir: &Path, schema: &str) -> Result<(PathBuf, Vec<PathBuf>), Error> {
-    let beside = bundle::beside_complete(bundle, dir, schema);
+    let beside = bundle::beside_complete(bundle, dir, schema, interrupt::stopped());
     let out = beside.as_deref().unwrap_or(dir);
     let kept = bundle.kept(out);
     let written = bundle.write(out)?;
@@ -572,7 +600,7 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
         output::print(&format!("{text}\n{}{next}", written_to(dir, &written)))?;
     }
     // An interrupt may also have come while laws were compared, after the search had converged.
-    if interrupt::asked() {
+    if interrupt::stopped() {
         return Ok(Exit::Interrupted);
     }
     Ok(outcome.verdict().into())
@@ -638,7 +666,7 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     let mut bar = Bar::new(common.json || common.quiet);
     let mut outcome = stiction::commands::simulate_keeping(&study, &runs, &mut bar);
     bar.finish();
-    if let Some(exported) = exported.filter(|_| !interrupt::asked()) {
+    if let Some(exported) = exported.filter(|_| !interrupt::stops()) {
         compare_exported(&mut outcome, &study, &exported)?;
     }
     let schema = stiction::commands::study::result::SCHEMA;
@@ -656,7 +684,7 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
 fn init_study(file: &Path, model: Option<&Path>, common: &Common) -> Result<Exit, Error> {
     is_new(file)?;
     let started = stiction::commands::study::start(model, file)?;
-    write_atomic(file, started.text.as_bytes())?;
+    write_atomic(file, visible::toml(started.text.clone()).as_bytes())?;
     if common.json {
         output::json(&serde_json::json!({
             "written": file.to_string_lossy(),

@@ -49,7 +49,24 @@ pub fn something_to_keep() {
     NOTHING_YET.store(false, Ordering::SeqCst);
 }
 
+/// Whether some work was told to stop: its outcome may be less than it would have been. An interrupt that comes when everything is
+/// found stops nothing.
+static STOPPED: AtomicBool = AtomicBool::new(false);
+
+/// Whether work is to stop; it does where that is so.
+pub fn stops() -> bool {
+    if asked() {
+        STOPPED.store(true, Ordering::SeqCst);
+    }
+    asked()
+}
+
+/// Whether work was stopped.
+pub fn stopped() -> bool {
+    STOPPED.load(Ordering::SeqCst)
+}
+
 /// Whether the user asked to stop.
-pub fn asked() -> bool {
+fn asked() -> bool {
     ASKED.get().is_some()
 }

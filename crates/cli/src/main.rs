@@ -6,6 +6,7 @@ mod commands;
 mod exit;
 mod interrupt;
 mod large;
+mod next;
 mod output;
 mod panics;
 mod progress;

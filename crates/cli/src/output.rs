@@ -7,6 +7,7 @@ use std::path::Path;
 use stiction::Error;
 use stiction::commands::FileError;
 use stiction::commands::shell::{is_unseen, stands_for};
+use stiction::commands::visible;
 
 /// Prints a text in which names from files may stand; a reader that has gone away has seen enough.
 ///
@@ -49,14 +50,7 @@ pub fn json(value: &impl serde::Serialize) -> Result<(), Error> {
 fn json_text(value: &impl serde::Serialize) -> String {
     let mut text = serde_json::to_string_pretty(value).expect("plain data");
     text.push('\n');
-    // Those that JSON does not escape itself; they stand within strings only.
-    escaped(&text, steers, |c, out| {
-        let mut units = [0; 2];
-        for unit in c.encode_utf16(&mut units) {
-            let _ = write!(out, "\\u{unit:04x}");
-        }
-    })
-    .into_owned()
+    visible::json(text)
 }
 
 /// A text whose characters that would steer a terminal are written out, as `\u{1b}`; line feeds are kept.

@@ -239,7 +239,7 @@ impl Observer for Bar {
         if let Some(lines) = &mut self.lines {
             lines.tell(progress);
         }
-        if interrupt::asked() {
+        if interrupt::stops() {
             Control::Stop
         } else {
             Control::Continue

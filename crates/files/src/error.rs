@@ -110,6 +110,11 @@ impl Error {
         }
     }
 
+    /// Whether something could not be written because there is no room left.
+    pub fn is_full_disk(&self) -> bool {
+        matches!(self, Error::Output { reason, .. } if reason == crate::output::FULL)
+    }
+
     /// One error of all that were found, if any were.
     pub(crate) fn of_all(mut found: Vec<Error>) -> Option<Self> {
         match found.len() {

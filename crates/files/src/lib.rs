@@ -33,6 +33,7 @@ pub mod result;
 pub mod shell;
 pub mod study;
 pub mod symbols;
+pub mod visible;
 
 pub use axis::Axis;
 pub use error::{Error, Remedy, Warning};

@@ -254,8 +254,8 @@ impl PlanFile {
     /// The text of the file.
     pub fn to_toml(&self) -> String {
         let body = toml::to_string(self).expect("a plan has only tables, numbers and text");
-        format!(
+        crate::visible::toml(format!(
             "# The motion to record, planned by stiction. Units are SI; positions count from where the axis stands.\n{body}"
-        )
+        ))
     }
 }

@@ -184,7 +184,11 @@ impl Fit {
                 }
                 Content::Saved(saved) => saved.bundle(),
             };
-            let beside = beside_complete(&bundle, &folder, stiction::result::SCHEMA);
+            let stopped = match &self.content {
+                Content::Made(fit) => matches!(fit.verdict(), Verdict::Interrupted),
+                Content::Saved(_) => false,
+            };
+            let beside = beside_complete(&bundle, &folder, stiction::result::SCHEMA, stopped);
             Ok(bundle.write(beside.as_deref().unwrap_or(&folder))?)
         };
         py.detach(write).map_err(|e| raised(py, &e))

@@ -110,7 +110,7 @@ pub fn saved(
     let write = || -> Result<Vec<PathBuf>, stiction::Error> {
         check_folder_of(folder, schema, force)?;
         check_inputs(folder, inputs)?;
-        let beside = bundle::beside_complete(bundle, folder, schema);
+        let beside = bundle::beside_complete(bundle, folder, schema, false);
         Ok(bundle.write(beside.as_deref().unwrap_or(folder))?)
     };
     py.detach(write).map_err(|e| raised(py, &e))

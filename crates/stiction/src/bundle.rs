@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use stiction_files::compare_file::CompareFile;
 use stiction_files::study::template::{Shown, template};
-use stiction_files::{Bundle, ModelFile, check_folder_of};
+use stiction_files::{Bundle, ModelFile, check_folder_of, visible};
 use stiction_pages::report;
 use stiction_workflows::identify::Outcome;
 use stiction_workflows::plan::Planned;
@@ -35,7 +35,7 @@ fn with_report(outcome: &Outcome, report: String) -> Bundle {
     bundle.add("fit.csv", fit_csv(outcome));
     bundle.add("report.html", report);
     match study_of(outcome) {
-        Some(study) => bundle.add("study.toml", study),
+        Some(study) => bundle.add("study.toml", visible::toml(study)),
         None => bundle.lacks("study.toml"),
     }
     bundle.add("result.json", json(&outcome.result));
@@ -97,11 +97,17 @@ pub fn reproduction(outcome: &Reproduction) -> Bundle {
 }
 
 /// Where an outcome that was stopped early goes: beside `dir` where that holds a complete one of this schema, which is kept;
-/// `None` where `dir` itself may take it.
-pub fn beside_complete(bundle: &Bundle, dir: &Path, schema: &str) -> Option<PathBuf> {
+/// `None` where `dir` itself may take it. `stopped` says that it was, also where it does not say so itself: a search that had
+/// ended when what follows it was stopped.
+pub fn beside_complete(
+    bundle: &Bundle,
+    dir: &Path,
+    schema: &str,
+    stopped: bool,
+) -> Option<PathBuf> {
     let file = file_of(schema);
     let (_, content) = bundle.files().iter().find(|(name, _)| **name == file)?;
-    let early = serde_json::from_slice(content).is_ok_and(|value| stopped_early(&value));
+    let early = stopped || says_early(&file, content);
     if !early || !holds_complete(dir, schema) {
         return None;
     }
@@ -130,20 +136,48 @@ const MOST_NAMES: u32 = 100;
 /// The file of a schema: `result.json` of `stiction.result/1`.
 fn file_of(schema: &str) -> String {
     let kind = schema.trim_start_matches("stiction.").split('/').next();
-    format!("{}.json", kind.unwrap_or_default())
+    let kind = kind.unwrap_or_default();
+    match kind {
+        "plan" => "plan.toml".into(),
+        _ => format!("{kind}.json"),
+    }
 }
 
 /// Whether a folder holds an outcome of this schema that was not stopped early.
 fn holds_complete(dir: &Path, schema: &str) -> bool {
-    let file = dir.join(file_of(schema));
+    let name = file_of(schema);
+    let file = dir.join(&name);
     if !file.is_file() {
         return false;
     }
-    let read = std::fs::File::open(file).ok().and_then(|file| {
-        let value = serde_json::from_reader(file.take(MOST_BYTES)).ok()?;
-        Some(!stopped_early(&value))
-    });
-    read.unwrap_or(false)
+    let mut content = Vec::new();
+    let read =
+        std::fs::File::open(file).and_then(|file| file.take(MOST_BYTES).read_to_end(&mut content));
+    read.is_ok() && is_outcome(&name, &content) && !says_early(&name, &content)
+}
+
+/// Whether a file of that name is one that says how its work ended.
+fn is_outcome(name: &str, content: &[u8]) -> bool {
+    match name.ends_with(".toml") {
+        true => status_of_plan(content).is_some(),
+        false => serde_json::from_slice::<serde_json::Value>(content).is_ok(),
+    }
+}
+
+/// Whether a file of that name says that its work was stopped early.
+fn says_early(name: &str, content: &[u8]) -> bool {
+    match name.ends_with(".toml") {
+        true => status_of_plan(content).is_some_and(|status| status != "complete"),
+        false => serde_json::from_slice(content).is_ok_and(|value| stopped_early(&value)),
+    }
+}
+
+/// The status of a plan, which stands before its tables.
+fn status_of_plan(content: &[u8]) -> Option<&str> {
+    let text = std::str::from_utf8(content).ok()?;
+    let mut lines = text.lines().take_while(|line| !line.starts_with('['));
+    let status = lines.find_map(|line| line.strip_prefix("status = \""))?;
+    status.strip_suffix('"')
 }
 
 /// Whether a user, a budget or the time ended the work before it was done; least squares after a search end it.
@@ -163,5 +197,5 @@ fn stopped_early(value: &serde_json::Value) -> bool {
 const MOST_BYTES: u64 = 256 << 20;
 
 fn json(value: &impl Serialize) -> String {
-    serde_json::to_string_pretty(value).expect("plain data") + "\n"
+    visible::json(serde_json::to_string_pretty(value).expect("plain data") + "\n")
 }

@@ -4,7 +4,8 @@
 /// Forms of files, and how they are written.
 pub use stiction_files::{
     Bundle, Error as FileError, Kept, Remedy, Runs, axis, check_folder, check_folder_of,
-    check_inputs, compare_file, has_runs, plan, reproduce_file, shell, study, write_atomic,
+    check_inputs, compare_file, has_runs, plan, reproduce_file, shell, study, visible,
+    write_atomic,
 };
 /// Integration steps of a simulated candidate.
 pub use stiction_identify::candidates::Scheme;

@@ -3,6 +3,7 @@
 mod cli;
 mod export;
 mod exported;
+mod faults;
 #[cfg(target_os = "linux")]
 mod killed;
 mod leads;

@@ -167,9 +167,9 @@ impl ModelFile {
     /// The text of the file.
     pub fn to_toml(&self) -> String {
         let body = toml::to_string(self).expect("a model has only tables, numbers and text");
-        format!(
+        crate::visible::toml(format!(
             "# Friction model identified by stiction. Units are SI; ci95 is the 95 % interval.\n{body}"
-        )
+        ))
     }
 
     /// Its parameters with their values; `None` for a law of no known name.

@@ -97,6 +97,11 @@ fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
     let other = root.table("second_axis")?;
     let second = match &other {
         Some(table) => Some(contours::second(root, table, folder, &machine)?),
+        None if root.table("coupling")?.is_some() => {
+            let allowed =
+                "give a table [second_axis] as well: two axes are coupled along a contour";
+            return Err(root.refuse("coupling", "needs a second axis".into(), allowed));
+        }
         None => None,
     };
     let mut inputs = vec![file.to_path_buf()];

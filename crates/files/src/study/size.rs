@@ -9,8 +9,8 @@ use std::path::Path;
 use stiction_number::{counted, short};
 use stiction_servo::run::sample_count;
 
-/// Most samples that a study simulates unless more are allowed: at three plant steps a period one core takes some six minutes
-/// for them, at a hundred, the most there are, some three hours.
+/// Most samples that a study simulates unless more are allowed: at up to three plant steps a period one core takes some ten
+/// minutes for them, at a hundred, the most there are, some three hours.
 pub const MOST_SAMPLES: u64 = 2_000_000_000;
 
 /// How large a study is.

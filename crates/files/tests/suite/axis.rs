@@ -457,6 +457,7 @@ fn refusals() {
             "five pitches",
             "[terms]\ncogging = [\"1 mm\", \"2 mm\", \"3 mm\", \"4 mm\", \"5 mm\"]",
         ),
+        ("pitch twice", "[terms]\ncogging = [\"24 mm\", \"2.4 cm\"]"),
         ("pitch 0", "[terms]\ncogging = [\"0 mm\"]"),
         ("exponent 0", "[terms]\nstribeck_exponent = 0.0"),
         ("exponent nan", "[terms]\nstribeck_exponent = nan"),

@@ -2,7 +2,7 @@
 //! known to do, for which one probably is.
 
 use super::Log;
-use crate::findings::{Finding, Severity, extremes, short};
+use crate::findings::{Finding, Severity, extremes, median, short};
 use crate::mapping::{RATES, Role, Source};
 use crate::{Error, Kind, Motion, Table};
 use std::ops::RangeInclusive;
@@ -146,9 +146,70 @@ pub(super) fn check(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Res
             true => format!("{role} travels {} {unit} in all", short(size)),
             false => format!("{role} is {} {unit} at most", short(size)),
         };
+        if let Some(few) = values.as_deref().and_then(|x| Few::of(x, travels)) {
+            return Err(few.refusal(log, table, role, source, unit));
+        }
         return Err(refusal(table, role, source, (size, says), &SIZES, unit));
     }
     Ok(())
+}
+
+/// Largest part of the samples that is taken for damaged cells rather than for a wrong unit.
+const FEW: f64 = 0.01;
+
+/// Few samples that are far beyond all others, which are of a credible size: cells that are damaged, not a unit that is wrong.
+struct Few {
+    first: usize,
+    value: f64,
+    count: usize,
+    /// The most that the others have.
+    rest: f64,
+}
+
+impl Few {
+    /// `None` where the others are no better.
+    fn of(values: &[f64], travels: bool) -> Option<Self> {
+        let middle = match travels {
+            true => median(&mut values.to_vec())?,
+            false => 0.0,
+        };
+        let size = |x: &f64| (x - middle).abs();
+        let beyond = |x: &f64| size(x) > *SIZES.end();
+        let count = values.iter().filter(|x| beyond(x)).count();
+        let first = values.iter().position(beyond)?;
+        let others = values.iter().filter(|x| !beyond(x));
+        let rest = others.map(size).fold(0.0, f64::max);
+        let few = count as f64 <= (FEW * values.len() as f64).max(1.0);
+        (few && SIZES.contains(&rest)).then_some(Few {
+            first,
+            value: values[first],
+            count,
+            rest,
+        })
+    }
+
+    fn refusal(&self, log: &Log, table: &Table, role: Role, source: &Source, unit: &str) -> Error {
+        let time = log.start + log.time.get(self.first).copied().unwrap_or_default();
+        let more = match self.count {
+            1 => String::new(),
+            count => format!(", the first of {count} such samples"),
+        };
+        let about = match role {
+            Role::Position | Role::Reference => " of their middle",
+            _ => "",
+        };
+        let found = format!(
+            "{role} is {} {unit} at {} s{more}; all others lie within {} {unit}{about}",
+            short(self.value),
+            short(time),
+            short(self.rest)
+        );
+        let allowed = format!(
+            "at most {:e} {unit}: that is a damaged cell; empty it, or keep a part without it with crop under [log] of axis.toml",
+            SIZES.end()
+        );
+        Error::new(Kind::Value, found, allowed).in_column(source.place(table))
+    }
 }
 
 fn refusal(

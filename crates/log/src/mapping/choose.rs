@@ -35,6 +35,7 @@ struct Scan<'a> {
 pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     let given = out.mapping.clone();
     let mut scan = Scan::new(table);
+    let mut told: Vec<(usize, Role)> = Vec::new();
     for role in Role::ALL {
         if let Some(channel) = given.channel(role) {
             let of_role = |e: Error| e.of_setting(role.key("column"));
@@ -47,15 +48,22 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
                 continue;
             }
             let column = selected.map_err(of_role)?;
-            if scan.used[column] {
-                let found = format!(
-                    "{} has another role already",
-                    describe::column(table, column)
-                );
+            let taken = told.iter().find(|(other, _)| *other == column);
+            if let Some((_, other)) = taken {
+                let found = format!("{} is {other} already", describe::column(table, column));
                 let error = Error::new(Kind::Ambiguous, found, "a column of its own for each role");
                 return Err(of_role(error));
             }
+            if scan.is_time(column) && role != Role::Time && given.time.is_none() {
+                let found = format!(
+                    "{} is the time, by its name and unit",
+                    describe::column(table, column)
+                );
+                let allowed = format!("the column of the {role}; {}", describe::columns(table));
+                return Err(of_role(Error::new(Kind::Ambiguous, found, allowed)));
+            }
             scan.used[column] = true;
+            told.push((column, role));
             if MOVED_AND_MOVING.contains(&role) {
                 scan.axis = scan
                     .axis
@@ -64,11 +72,8 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
         }
     }
     if let Some(column) = Enable::of(&given, table)? {
-        if scan.used[column] {
-            let found = format!(
-                "{} has another role already",
-                describe::column(table, column)
-            );
+        if let Some((_, role)) = told.iter().find(|(other, _)| *other == column) {
+            let found = format!("{} is {role} already", describe::column(table, column));
             let allowed = "a column of its own that says in which rows the axis is enabled";
             let error = Error::new(Kind::Ambiguous, found, allowed);
             return Err(error.of_setting(format!("{}.column", enable::KEY)));
@@ -251,6 +256,13 @@ impl<'a> Scan<'a> {
                 *own = own.or(of_axis);
             }
         }
+    }
+
+    /// Whether a column is time by its name, in a unit of time or none.
+    fn is_time(&self, column: usize) -> bool {
+        let unit = self.units[column].as_ref();
+        self.hints[column].is_some_and(|hint| hint.role == Role::Time)
+            && unit.is_none_or(|unit| unit.dimension() == Dimension::TIME)
     }
 
     fn take(&mut self, column: usize) -> Channel {

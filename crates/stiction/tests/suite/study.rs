@@ -858,6 +858,14 @@ fn what_is_refused() {
         ("gain     = 1.0", "source = \"blend\""),
         ("name     = \"whole\"", "name = \"none\""),
         ("watchdog = false", "watchdog = 0"),
+        (
+            "watchdog = false",
+            "watchdog = false\nwatchdog_window = \"1 s\"",
+        ),
+        (
+            "[axis]",
+            "[coupling]\nbandwidth = \"30 Hz\"\nlimit = \"10 mm/s\"\n[axis]",
+        ),
         ("[axis]", "sead = 1\n[axis]"),
         ("[axis]", "seed = -1\n[axis]"),
         (

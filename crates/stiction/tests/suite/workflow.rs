@@ -405,11 +405,16 @@ fn a_complete_result_stays() {
     let whole = stiction::bundle::identification(&outcome);
     outcome.result.search.status = "interrupted".into();
     let part = stiction::bundle::identification(&outcome);
-    let beside = |bundle| stiction::bundle::beside_complete(bundle, &out, stiction::result::SCHEMA);
+    let schema = stiction::result::SCHEMA;
+    let beside = |bundle| stiction::bundle::beside_complete(bundle, &out, schema, false);
+    let late = |bundle| stiction::bundle::beside_complete(bundle, &out, schema, true);
+    assert_eq!(late(&whole), None);
     assert_eq!(beside(&part), None);
     whole.write(&out).unwrap();
     assert_eq!(beside(&whole), None);
     assert_eq!(beside(&part), Some(bench.path("out-interrupted")));
+    // Stopped after its search had ended, it says nothing of that itself.
+    assert_eq!(late(&whole), Some(bench.path("out-interrupted")));
     // Nor that of something else beside it.
     std::fs::create_dir(bench.path("out-interrupted")).unwrap();
     let thesis = bench.path("out-interrupted").join("thesis.doc");

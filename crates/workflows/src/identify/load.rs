@@ -10,7 +10,7 @@ use crate::wording::Setting;
 use std::time::Instant;
 use stiction_files::Axis;
 use stiction_identify::LawKind;
-use stiction_log::Motion;
+use stiction_log::{Log, Motion};
 
 /// What is asked, of which axis, and since when.
 #[derive(Clone, Copy)]
@@ -90,6 +90,22 @@ pub(super) fn load(
     })
 }
 
+/// Whether two logs have the same samples, bit by bit: one recording in two files, such as one with a line feed more.
+fn is_copy(a: &Log, b: &Log) -> bool {
+    let same = |a: &[f64], b: &[f64]| {
+        a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+    };
+    let both = |a: &Option<Vec<f64>>, b: &Option<Vec<f64>>| match (a, b) {
+        (Some(a), Some(b)) => same(a, b),
+        (None, None) => true,
+        _ => false,
+    };
+    same(&a.time, &b.time)
+        && both(&a.position, &b.position)
+        && both(&a.velocity, &b.velocity)
+        && both(&a.force, &b.force)
+}
+
 /// All logs must be of one kind of axis, with force in one unit, and no log may count twice.
 pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<(), Error> {
     let Some(first) = sources.first() else {
@@ -103,14 +119,21 @@ pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<
         // Parts of one log do not overlap.
         let apart =
             |a: &Source, b: &Source| a.part.is_some() && b.part.is_some() && a.part != b.part;
-        let same = |other: &&&Source| other.sha256 == log.sha256 && !apart(other, log);
+        let same_bytes = |other: &Source| other.sha256 == log.sha256;
+        let same = |other: &&&Source| {
+            !apart(other, log) && (same_bytes(other) || is_copy(&other.log, &log.log))
+        };
         if let Some(twin) = all[..i].iter().find(same) {
-            return Err(Error::usage(
-                format!(
-                    "{} and {} are the same log",
-                    twin.path.display(),
-                    log.path.display()
+            let [first, second] = [twin.path.display(), log.path.display()];
+            let found = match same_bytes(twin) {
+                true => format!("{first} and {second} are the same log"),
+                false => format!(
+                    "{first} and {second} are the same recording: time, motion and force agree in all {} samples",
+                    log.log.time.len()
                 ),
+            };
+            return Err(Error::usage(
+                found,
                 "give each log once, and validate on logs that are not fitted",
             ));
         }

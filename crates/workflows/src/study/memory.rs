@@ -6,8 +6,10 @@ use stiction_files::study::Study;
 use stiction_servo::axis::Sample;
 use stiction_servo::path::Reference;
 
-/// A row of a course as text, and a number beside it in a picture, bytes.
-const ROW: u64 = 110;
+/// The program itself with the report that it makes, bytes.
+const PROGRAM: u64 = 30_000_000;
+/// A row of a course as text, once more as the file that is written, and a number beside it in a picture, bytes.
+const ROW: u64 = 2 * 110;
 const POINT: u64 = 8;
 /// Most numbers that the pictures of a run hold.
 const MOST_POINTS: u64 = 20_000;
@@ -34,7 +36,7 @@ pub fn memory(study: &Study) -> u64 {
         * size.longest
         * size_of::<Sample>() as u64;
     let figures = size.runs as u64 * FIGURES;
-    courses + figures + shared.min(MOST_SHARED_SAMPLES as u64 * REFERENCE) + on_their_way
+    PROGRAM + courses + figures + shared.min(MOST_SHARED_SAMPLES as u64 * REFERENCE) + on_their_way
 }
 
 const REFERENCE: u64 = size_of::<Reference>() as u64;

@@ -9,6 +9,8 @@ use stiction_log::Dimension;
 use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
 
+/// Two pitches that differ by less, dimensionless, are one that is written in two units.
+const SAME_PITCH_WITHIN: f64 = 1e-9;
 /// Most pitches of cogging, and of friction along the axis.
 pub const MOST_PITCHES: usize = 4;
 
@@ -95,10 +97,20 @@ impl Resolver {
             let found = format!("{} pitches", list.len());
             return Err(given.refuse(found, &format!("at most {MOST_PITCHES}")));
         }
-        let pitches = list
-            .iter()
-            .map(|pitch| self.within(pitch, &LENGTHS, &WRAPS));
-        pitches.collect()
+        let mut pitches: Vec<f64> = Vec::new();
+        for pitch in &list {
+            let length = self.within(pitch, &LENGTHS, &WRAPS)?;
+            let same = |other: &f64| (length - other).abs() <= SAME_PITCH_WITHIN * length.abs();
+            if pitches.iter().any(same) {
+                let found = format!("{} twice", pitch.shown());
+                return Err(pitch.refuse(
+                    found,
+                    "each pitch once: two waves of one pitch cannot be told apart",
+                ));
+            }
+            pitches.push(length);
+        }
+        Ok(pitches)
     }
 }
 

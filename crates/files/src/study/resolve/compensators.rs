@@ -108,10 +108,7 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
             .not_negative("ramp", Dimension::TIME)?
             .unwrap_or(usual.ramp),
         adaptation,
-        watchdog: match table.flag("watchdog")? {
-            Some(false) => None,
-            _ => Some(watchdog(table, study.machine.rate)?),
-        },
+        watchdog: watchdog(table, study.machine.rate)?,
         inputs: inputs(table, study)?,
         load_estimate: load_estimate(table)?,
         preview: table.number("preview", 0.0, MAX_PREVIEW)?,
@@ -120,18 +117,24 @@ fn model(table: &Table<'_>, study: &Study, kind: ModelKind) -> Result<ModelSchem
     Ok(scheme)
 }
 
-fn watchdog(table: &Table<'_>, rate: f64) -> Result<Watchdog<f64>, Error> {
+fn watchdog(table: &Table<'_>, rate: f64) -> Result<Option<Watchdog<f64>>, Error> {
     let usual = Watchdog::default();
+    let is_off = table.flag("watchdog")? == Some(false);
     let Some(window) = table.positive("watchdog_window", Dimension::TIME)? else {
-        return Ok(usual);
+        return Ok((!is_off).then_some(usual));
     };
+    if is_off {
+        let found = "is given beside watchdog = false".into();
+        let allowed = "a window of a watchdog that is there: leave out one of both";
+        return Err(table.refuse("watchdog_window", found, allowed));
+    }
     // It learns over so many samples before a run.
     let longest = MOST_SAMPLES as f64 / rate;
     if window > longest {
         let allowed = format!("at most {} s, {MOST_SAMPLES} samples", short(longest));
         return Err(table.refused("watchdog_window", &allowed));
     }
-    Ok(Watchdog { window, ..usual })
+    Ok(Some(Watchdog { window, ..usual }))
 }
 
 fn source(table: &Table<'_>, bristles: bool, kind: ModelKind) -> Result<Source<f64>, Error> {

@@ -1,0 +1,119 @@
+//! What to type next where a file is not there, or cannot be written.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+use stiction::commands::FileError;
+use stiction::commands::shell::{quoted_path, text as path_text};
+use stiction::{Code, Error};
+
+/// What leads on from an input that is not there: the same command with the file that was probably meant, or a look at the folder.
+pub fn missing(error: &Error) -> Option<String> {
+    let path = match error {
+        Error::File(FileError::Log(e)) if e.kind.code() == Code::LogIo => e.file.as_deref()?,
+        Error::File(FileError::Config { file, .. }) => file,
+        _ => return None,
+    };
+    if path.as_os_str().is_empty() || path.symlink_metadata().is_ok() {
+        return None;
+    }
+    let folder = folder(path);
+    if let Some(meant) = meant(path, folder) {
+        let arguments = std::env::args_os().skip(1);
+        let arguments = arguments.map(|a| match Path::new(&a) == path {
+            true => path_text(&meant),
+            false => path_text(Path::new(&a)),
+        });
+        let command = stiction::commands::text::command(arguments);
+        return Some(format!("next: was another file meant? {command}"));
+    }
+    let there = folder.ancestors().map(or_here).find(|dir| dir.is_dir())?;
+    Some(format!(
+        "next: ls {} shows which files there are",
+        quoted_path(there)
+    ))
+}
+
+/// What leads on where the disk is full.
+pub fn no_room(error: &Error) -> Option<String> {
+    let Error::File(e @ FileError::Output { path, .. }) = error else {
+        return None;
+    };
+    if !e.is_full_disk() {
+        return None;
+    }
+    let there = path.ancestors().map(or_here).find(|dir| dir.is_dir())?;
+    let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
+    let arguments = arguments.iter().map(|a| path_text(Path::new(a)));
+    Some(format!(
+        "next: make room (df -h {} shows how much there is), then {}",
+        quoted_path(there),
+        stiction::commands::text::command(arguments)
+    ))
+}
+
+/// The folder of a path.
+fn folder(path: &Path) -> &Path {
+    or_here(path.parent().unwrap_or(Path::new("")))
+}
+
+fn or_here(dir: &Path) -> &Path {
+    match dir.as_os_str().is_empty() {
+        true => Path::new("."),
+        false => dir,
+    }
+}
+
+/// Most letters in which the name of a file that was meant differs from what was typed.
+const MOST_SLIPS: usize = 2;
+/// Most names of a folder that are looked at.
+const MOST_NAMES: usize = 10_000;
+
+/// The file of the folder whose name is closest to the one that was typed, if one is close.
+fn meant(path: &Path, folder: &Path) -> Option<PathBuf> {
+    let typed = path.file_name()?.to_str()?.to_lowercase();
+    let entries = std::fs::read_dir(folder).ok()?.take(MOST_NAMES).flatten();
+    let close = entries.filter_map(|entry| {
+        let name = entry.file_name().into_string().ok()?;
+        let slips = slips(&typed, &name.to_lowercase());
+        let close = slips <= MOST_SLIPS && 2 * slips < typed.chars().count();
+        (close && entry.path().is_file()).then_some((slips, name))
+    });
+    let (_, name) = close.min()?;
+    Some(path.with_file_name(name))
+}
+
+/// How many letters have to be put in, left out or changed to make one word of another.
+fn slips(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, c) in a.chars().enumerate() {
+        let mut corner = row[0];
+        row[0] = i + 1;
+        for (j, d) in b.iter().enumerate() {
+            let changed = corner + usize::from(c != *d);
+            corner = row[j + 1];
+            row[j + 1] = changed.min(row[j] + 1).min(corner + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::slips;
+
+    #[test]
+    fn slips_are_counted() {
+        for (a, b, count) in [
+            ("run.csv", "run.csv", 0),
+            ("rum.csv", "run.csv", 1),
+            ("run1.csv", "run.csv", 1),
+            ("rn.csv", "run.csv", 1),
+            ("", "ab", 2),
+            ("abc", "", 3),
+            ("kitten", "sitting", 3),
+        ] {
+            assert_eq!(slips(a, b), count, "{a} {b}");
+        }
+    }
+}
