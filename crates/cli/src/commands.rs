@@ -637,7 +637,7 @@ fn plan(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
         output::print(&format!("{text}\n{}", written_to(&dir, &written)))?;
     }
     Ok(match planned.file.status.as_str() {
-        "complete" => Exit::Done,
+        "complete" if !interrupt::stopped() => Exit::Done,
         _ => Exit::Interrupted,
     })
 }
@@ -677,6 +677,10 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     } else if !common.quiet {
         let text = stiction::commands::text::study(&outcome);
         output::print(&format!("{text}\n{}", written_to(&dir, &written)))?;
+    }
+    // Exported C may be what was left out.
+    if interrupt::stopped() {
+        return Ok(Exit::Interrupted);
     }
     Ok(outcome.verdict().into())
 }
