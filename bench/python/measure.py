@@ -37,6 +37,15 @@ def identified(log: stiction.Log) -> float:
     return time.perf_counter() - start
 
 
+def with_the_interpreter(log: stiction.Log) -> float:
+    """Part of the processor time of an identification that the calling thread takes: all that Python adds, and the most in
+    which others have to wait for the interpreter. Other work on the machine does not change it."""
+    thread, process = time.thread_time(), time.process_time()
+    identified(log)
+    thread, process = time.thread_time() - thread, time.process_time() - process
+    return thread / (process - thread)
+
+
 def together(log: stiction.Log, threads: int) -> float:
     """Time of as many identifications at once, s."""
     all_of_them = [threading.Thread(target=identified, args=(log,)) for _ in range(threads)]
@@ -52,7 +61,7 @@ def kept(calls: int) -> float:
     """Growth of the memory over so many identifications of a short log, MB."""
     import numpy
 
-    t = numpy.arange(400) * 1e-3
+    t = numpy.arange(1000) * 1e-3
     velocity = 0.06 * numpy.cos(12.0 * t)
     force = 20.0 * numpy.sign(velocity) + 60.0 * velocity
     data: Any = {"time [s]": t, "position [m]": 5e-3 * numpy.sin(12.0 * t), "force [N]": force}
@@ -60,10 +69,10 @@ def kept(calls: int) -> float:
     def run(n: int) -> int:
         for _ in range(n):
             stiction.identify(data, law="coulomb-viscous", compare_laws=False, threads=1).residual
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
 
     first = run(calls // 10)
-    return (run(calls) - first) / 1e3
+    return (run(calls) - first) / 1e6
 
 
 def main(timed: str) -> None:
@@ -79,6 +88,8 @@ def main(timed: str) -> None:
             theirs.append(float(subprocess.run([timed, path, "3"], capture_output=True, text=True, check=True).stdout))
         python, rust = min(ours), min(theirs)
         print(f"identify, {SAMPLES} samples: Rust {rust:.4f} s, Python {python:.4f} s, {100 * (python / rust - 1):+.1f} %")
+        held = min(with_the_interpreter(log) for _ in range(ROUNDS))
+        print(f"processor time of the calling thread: {100 * held:.2f} % of that of the search")
         one = min(together(log, 1) for _ in range(ROUNDS))
         two = min(together(log, 2) for _ in range(ROUNDS))
         print(f"two threads do {2 * one / two:.2f} times the work of one")

@@ -28,13 +28,19 @@ def test_progress_is_told(run_csv: Path) -> None:
     assert all(0.0 <= p.fraction <= 1.0 and p.stage for p in seen)
 
 
-def test_progress_that_says_false_stops_and_keeps_the_best(run_csv: Path) -> None:
+def test_progress_that_says_false_stops_and_keeps_the_best(run_csv: Path, tmp_path: Path) -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         fit = stiction.identify(run_csv, progress=lambda p: p.error is None, **LONG)
     assert "interrupted" in [w.message.code for w in caught if isinstance(w.message, StictionWarning)]
     assert fit.parameters["coulomb"].value > 0.0
     assert fit.verdict == "interrupted"
+    # It does not take the place of a complete one.
+    complete = quietly(stiction.identify, run_csv, law="stribeck", compare_laws=False)
+    complete.save(tmp_path / "fit")
+    written = fit.save(tmp_path / "fit")
+    assert {path.parent.name for path in written} == {"fit-interrupted"}
+    assert stiction.load(tmp_path / "fit").parameters.rows == complete.parameters.rows
 
 
 def test_an_error_of_the_one_who_is_told_comes_back(run_csv: Path) -> None:

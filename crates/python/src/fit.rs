@@ -18,6 +18,8 @@ use stiction::{Column, ModelFile, SavedFit, Verdict};
 #[pyclass(frozen, module = "stiction._native")]
 pub struct Fit {
     content: Content,
+    /// Whether it was told to stop, also where the result does not say so: a search that had ended before.
+    stopped: bool,
 }
 
 enum Content {
@@ -184,11 +186,8 @@ impl Fit {
                 }
                 Content::Saved(saved) => saved.bundle(),
             };
-            let stopped = match &self.content {
-                Content::Made(fit) => matches!(fit.verdict(), Verdict::Interrupted),
-                Content::Saved(_) => false,
-            };
-            let beside = beside_complete(&bundle, &folder, stiction::result::SCHEMA, stopped);
+            let schema = stiction::result::SCHEMA;
+            let beside = beside_complete(&bundle, &folder, schema, self.stopped);
             Ok(bundle.write(beside.as_deref().unwrap_or(&folder))?)
         };
         py.detach(write).map_err(|e| raised(py, &e))
@@ -200,6 +199,7 @@ impl Fit {
         let saved = saved.map_err(|e| raised(py, &e))?;
         Ok(Self {
             content: Content::Saved(Box::new(saved)),
+            stopped: false,
         })
     }
 
@@ -209,11 +209,11 @@ impl Fit {
     ) -> PyResult<(Self, bool)> {
         let fit = fit.map_err(|e| raised(py, &e))?;
         let content = Content::Made(Box::new(fit));
-        Ok((Self { content }, stopped))
+        Ok((Self { content, stopped }, stopped))
     }
 }
 
-/// Identifies from logs in memory; the fit, and whether it was asked to stop.
+/// Identifies from logs in memory; the fit, and whether it was told to stop.
 #[pyfunction]
 pub fn identify(
     py: Python<'_>,

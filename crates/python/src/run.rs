@@ -52,6 +52,8 @@ impl How {
 #[derive(Default)]
 struct Shared {
     stop: AtomicBool,
+    /// Whether the work was told so: a stop that comes when everything is found stops nothing.
+    stopped: AtomicBool,
     last: Mutex<Option<Progress>>,
 }
 
@@ -62,14 +64,15 @@ impl Observer for Watch<'_> {
         if let Ok(mut last) = self.0.last.lock() {
             *last = Some(*progress);
         }
-        match self.0.stop.load(Ordering::Relaxed) {
-            true => Control::Stop,
-            false => Control::Continue,
+        if !self.0.stop.load(Ordering::Relaxed) {
+            return Control::Continue;
         }
+        self.0.stopped.store(true, Ordering::Relaxed);
+        Control::Stop
     }
 }
 
-/// Does the work and returns what it found, and whether it was asked to stop.
+/// Does the work and returns what it found, and whether it was told to stop.
 pub fn run<T: Send>(
     py: Python<'_>,
     how: &How,
@@ -128,7 +131,7 @@ pub fn run<T: Send>(
     }
     match (found, refused) {
         (_, Some(error)) => Err(error),
-        (Some(found), None) => Ok((found, shared.stop.load(Ordering::Relaxed))),
+        (Some(found), None) => Ok((found, shared.stopped.load(Ordering::Relaxed))),
         (None, None) => Err(PyRuntimeError::new_err("no thread could be started")),
     }
 }
