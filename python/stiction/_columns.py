@@ -16,15 +16,17 @@ if TYPE_CHECKING:
 
     Column = tuple[str, "str | None", NDArray[numpy.float64]]
 
-WHAT = "a path, a dict of arrays, or a DataFrame of pandas, polars or pyarrow"
+WHAT = "a path, a dict of arrays, a DataFrame of pandas or polars, or an Arrow table"
 """What a log may be."""
+TABLES = ("columns", "column_names", "__arrow_c_stream__")
+"""What a table has: one of pandas and polars, of pyarrow, of any other library that passes on Arrow tables."""
 EXACT = 2**53
 """Integers up to this are exact as 64-bit floats."""
 
 
 def is_columns(data: object) -> bool:
     """Whether this is a table in memory rather than a path."""
-    return isinstance(data, Mapping) or hasattr(data, "columns") or hasattr(data, "column_names")
+    return isinstance(data, Mapping) or any(hasattr(data, name) for name in TABLES)
 
 
 def columns(data: Any, name: str) -> list[Column]:
@@ -50,17 +52,45 @@ def _items(data: Any, name: str) -> Iterator[tuple[Any, Any]]:
     if isinstance(data, Mapping):
         yield from data.items()
     elif hasattr(data, "column_names"):  # pyarrow
+        _each_once(data.column_names, name)
         for header in data.column_names:
             yield header, data.column(header)
+    elif hasattr(data, "__arrow_c_stream__") and not _has_arrays(data):
+        yield from _items(_arrow(data, name), name)
     elif hasattr(data, "columns"):  # pandas, polars
         headers = list(data.columns)
-        if len(set(headers)) < len(headers):
-            twice = next(h for h in headers if headers.count(h) > 1)
-            raise argument(name, f"two columns called {twice!r}", "a name of its own for each column")
+        _each_once(headers, name)
         for header in headers:
             yield header, data[header]
     else:
         raise argument(name, f"a {type(data).__name__}", WHAT)
+
+
+def _each_once(headers: list[Any], name: str) -> None:
+    for k, header in enumerate(headers):
+        if header in headers[:k]:
+            raise argument(name, f"two columns called {header!r}", "a name of its own for each column")
+
+
+def _has_arrays(data: Any) -> bool:
+    """Whether columns are given by their names as something that becomes an array, as pandas and polars do."""
+    if not hasattr(data, "columns"):
+        return False
+    headers = list(data.columns)
+    # Of two columns of one name pandas gives a table.
+    return not headers or hasattr(data[headers[0]], "to_numpy")
+
+
+def _arrow(data: Any, name: str) -> Any:
+    """A table of another library, through pyarrow: without a copy where the columns are whole."""
+    try:
+        import pyarrow
+    except ImportError:
+        raise argument(name, f"a {type(data).__name__}, which needs pyarrow", f"pip install pyarrow, or {WHAT}") from None
+    try:
+        return pyarrow.table(data)
+    except (TypeError, ValueError) as error:
+        raise argument(name, f"a {type(data).__name__} that is no table ({error})", WHAT) from error
 
 
 def array(values: Any, place: str) -> NDArray[numpy.float64]:

@@ -74,3 +74,23 @@ def test_time_zones_are_refused_with_the_line_that_works() -> None:
     stamp = table["time [s]"]
     table["time [s]"] = (stamp - stamp.iloc[0]).dt.total_seconds()
     assert quietly(stiction.read_log, table).samples == 4000
+
+
+def test_any_table_that_passes_on_arrow_is_read() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+
+    class Foreign:
+        """As duckdb, nanoarrow and others have it."""
+
+        def __init__(self, table: Any) -> None:
+            self._table = table
+
+        def __arrow_c_stream__(self, requested_schema: Any = None) -> Any:
+            return self._table.__arrow_c_stream__(requested_schema)
+
+    same = quietly(stiction.read_log, GOOD)
+    assert quietly(stiction.read_log, Foreign(pyarrow.table(GOOD))).sha256 == same.sha256
+    # Two columns of one name, and one column alone, which is no table.
+    twice = pyarrow.Table.from_arrays([pyarrow.array([1.0, 2.0])] * 2, names=["force [N]"] * 2)
+    assert "two columns" in refused(Foreign(twice)).found
+    assert "no table" in refused(Foreign(pyarrow.chunked_array([[1.0, 2.0]]))).found

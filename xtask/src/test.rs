@@ -36,6 +36,7 @@ fn build() -> Outcome {
     shell::run(doc)?;
     licences::run()?;
     package::run()?;
-    // With the tests, the library of the Python package: of the same dependencies, which are built once.
-    shell::run(cargo("build --workspace --lib --tests"))
+    // With the tests, the library of the Python package: of the same dependencies, which are built once; and the program
+    // that its tests compare it with.
+    shell::run(cargo("build --workspace --lib --bins --tests"))
 }
