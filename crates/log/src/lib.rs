@@ -61,8 +61,8 @@ pub use join::{Elsewhere, Joined, Offset};
 pub use limits::{Limits, allow_memory};
 pub use log::{Excluded, Gap, Log, NotEnabled};
 pub use mapping::{
-    Assumed, Channel, Detected, Drive, Enable, Mapping, Motion, Parts, Rests, Role, Selector,
-    Understood, Wrap,
+    Assumed, Channel, Detected, Drive, Enable, Mapping, Motion, OwnStamps, Parts, Rests, Role,
+    Selector, Understood, Wrap,
 };
 pub use open::{ReadOptions, read_table, read_table_with, read_wanted};
 pub use stiction_codes::Code;

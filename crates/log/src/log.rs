@@ -37,7 +37,7 @@ pub(crate) mod unwrap;
 
 use crate::findings::{self, Finding, Severity};
 use crate::join::Joined;
-use crate::mapping::{Enable, Mapping, Motion, Role, Source, Understood, parts};
+use crate::mapping::{Enable, MAX_CUT_SHARE, Mapping, Motion, Role, Source, Understood, parts};
 use crate::{Dimension, Error, Kind, Table};
 use cells::LeftOut;
 pub use chosen::NotEnabled;
@@ -125,8 +125,6 @@ pub struct Log {
 
 /// Fewest samples of a log; derivatives need three.
 const MIN_SAMPLES: usize = 3;
-/// Largest share of samples that may be cut off to bring all columns to the length of the shortest.
-const MAX_CUT_SHARE: f64 = 0.01;
 
 /// Fewest values of a force from which parameters may be constants: with fewer the error of a step is a tenth of the force and more.
 const FEWEST_FORCE_LEVELS: usize = 10;
@@ -184,10 +182,10 @@ impl Log {
         }
         same_force(&sources, mapping.drive.map(|_| motion.force()))?;
         let enable = Enable::of(&mapping, &table)?;
+        let length = common_length(&table, &mapping, &sources, &mut findings)?;
         keep_columns(&mut table, |column| {
             enable == Some(column) || sources.iter().any(|(_, source)| source.column == column)
         });
-        let length = common_length(&table, &sources, &mut findings)?;
         let clock = clock::read(&table, &sources, &mapping, length, &mut findings)?;
         let mut columns = cells::Columns::read(&mut table, &sources, &clock);
         let mut chosen = chosen::Chosen::read(&table, &mapping, &clock, outside)?;
@@ -492,6 +490,7 @@ fn same_force(sources: &[(Role, Source)], made: Option<Dimension>) -> Result<(),
 /// The length of the shortest column in use, if that costs little.
 fn common_length(
     table: &Table,
+    mapping: &Mapping,
     sources: &[(Role, Source)],
     findings: &mut Vec<Finding>,
 ) -> Result<usize, Error> {
@@ -510,7 +509,15 @@ fn common_length(
         findings::count(shortest, "sample")
     );
     if lost as f64 > MAX_CUT_SHARE * longest as f64 && lost > 2 {
-        let allowed = "all columns need the same rate; export them with one sample time";
+        let own = mapping.own_stamps(table);
+        let lines: Vec<&str> = own.iter().map(|own| own.line.as_str()).collect();
+        let allowed = match lines.is_empty() {
+            true => "all columns need the same rate; export them with one sample time".into(),
+            false => format!(
+                "a column with time stamps of its own names them in axis.toml under [columns], and is joined by them: {}",
+                lines.join(" and ")
+            ),
+        };
         return Err(Error::new(Kind::Value, found, allowed));
     }
     let message = format!("{found}; the record is cut to {shortest}");

@@ -32,6 +32,7 @@
 //! number counted from 1, or `{ column, unit, scale, invert }` for each quantity, `enable` with `{ column, equals }`; table `[log]` with
 //! `crop`, `rests`, `wrap`, `resolution`, `force_limit`.
 
+mod bases;
 mod channel;
 mod choose;
 mod complete;
@@ -50,6 +51,8 @@ mod wanted;
 
 use crate::findings::{Finding, full};
 use crate::{Error, Kind, Table};
+pub(crate) use bases::MAX_CUT_SHARE;
+pub use bases::OwnStamps;
 pub use channel::{Channel, Motion, Role, Selector};
 pub(crate) use choose::clear;
 pub(crate) use complete::time_source;

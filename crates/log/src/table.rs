@@ -93,6 +93,27 @@ impl Table {
             .unwrap_or(0)
     }
 
+    /// The same columns, those alone with their samples that are wanted.
+    pub fn only(&self, wanted: &[bool]) -> Self {
+        let columns = self
+            .columns
+            .iter()
+            .zip(wanted)
+            .map(|(column, wanted)| Column {
+                name: column.name.clone(),
+                unit: column.unit.clone(),
+                values: match wanted {
+                    true => column.values.clone(),
+                    false => Vec::new(),
+                },
+            });
+        Self {
+            columns: columns.collect(),
+            left_out: self.left_out.clone(),
+            ..Self::default()
+        }
+    }
+
     /// The number in the file, counted from 1, of the column at `index` of `columns`.
     pub fn number(&self, index: usize) -> usize {
         let ascending = self.left_out.iter();

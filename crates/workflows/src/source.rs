@@ -5,7 +5,7 @@ use crate::wording::{Setting, TOGETHER_WITH};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_files::axis::{ListedLog, Use};
+use stiction_files::axis::{JoinedColumn, ListedLog, Use};
 use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, JoinedEntry, NotEnabledEntry};
 use stiction_files::{Axis, Hash};
 use stiction_identify::{Samples, Terms};
@@ -57,6 +57,12 @@ fn hashed(path: &Path, axis: &Axis) -> Result<(Table, String), Error> {
                 .zip(own)
                 .for_each(|(all, own)| *all |= own);
         }
+        let own: Vec<&JoinedColumn> = axis.joined.iter().filter(|j| j.file.is_none()).collect();
+        let own = wanted_by(&own, &axis.mapping, heads);
+        wanted
+            .iter_mut()
+            .zip(own)
+            .for_each(|(all, own)| *all |= own);
         wanted
     };
     hashed_of(path, axis, &wanted)
@@ -208,11 +214,21 @@ fn joined(
     axis: &Axis,
     refused: impl Fn(stiction_log::Error) -> Error,
 ) -> Result<(Log, Vec<JoinedEntry>), Error> {
+    let own: Vec<&JoinedColumn> = axis.joined.iter().filter(|j| j.file.is_none()).collect();
+    // Rows may be thinned, and columns with stamps of their own have others.
+    let stamped = table.only(&wanted_by(&own, mapping, &table));
     let mut out = Joined::new(table, mapping);
+    for column in own {
+        out.join("the log itself", &stamped, &column.from)
+            .map_err(&refused)?;
+    }
+    drop(stamped);
     let mut entries = Vec::new();
     let mut before: Option<(&Path, (Table, String))> = None;
     for column in &axis.joined {
-        let file = column.file.as_path();
+        let Some(file) = column.file.as_deref() else {
+            continue;
+        };
         let other = match before.take() {
             Some((path, read)) if path == file => read,
             _ => hashed_of(file, axis, &|heads| wanted_of(axis, file, heads))?,
@@ -240,9 +256,16 @@ fn joined(
 
 /// Which columns of another file may be needed for what is joined from it.
 fn wanted_of(axis: &Axis, file: &Path, heads: &Table) -> Vec<bool> {
+    let joined = axis.joined.iter();
+    let joined = joined.filter(|column| column.file.as_deref() == Some(file));
+    wanted_by(&joined.collect::<Vec<_>>(), &axis.mapping, heads)
+}
+
+/// Which columns these may need.
+fn wanted_by(joined: &[&JoinedColumn], mapping: &Mapping, heads: &Table) -> Vec<bool> {
     let mut wanted = vec![false; heads.columns.len()];
-    for column in axis.joined.iter().filter(|column| column.file == file) {
-        let Some(channel) = axis.mapping.channel(column.from.role) else {
+    for column in joined {
+        let Some(channel) = mapping.channel(column.from.role) else {
             continue;
         };
         let own = column.from.wanted(channel, heads);
@@ -256,13 +279,14 @@ fn wanted_of(axis: &Axis, file: &Path, heads: &Table) -> Vec<bool> {
 
 /// Refuses several logs where a column comes from another file, which belongs to one of them.
 pub(crate) fn refuse_several(axis: &Axis, logs: usize) -> Result<(), Error> {
-    let Some(joined) = axis.joined.first().filter(|_| logs > 1) else {
+    let mut joined = axis.joined.iter().filter(|_| logs > 1);
+    let Some((joined, file)) = joined.find_map(|j| Some((j, j.file.as_ref()?))) else {
         return Ok(());
     };
     let found = format!(
         "{} comes from {}, and there are {logs} logs",
         joined.from.role,
-        joined.file.display()
+        file.display()
     );
     let allowed = "one log, which that file belongs to, with an axis file of its own";
     let key = format!("columns.{}.file", joined.from.role);
@@ -489,5 +513,60 @@ impl Source {
             at_rest: Vec::new(),
             breaks: self.log.segments.iter().skip(1).map(|s| s.start).collect(),
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::check::init;
+    use std::fmt::Write;
+
+    /// A state of a joint at 333 Hz with an effort at 1 kHz beside it, each with its time, in one file.
+    fn robot() -> String {
+        let list = |rate: f64, of: &dyn Fn(f64) -> f64| -> String {
+            let mut out = String::new();
+            for n in 0..(4.0 * rate) as usize {
+                let _ = write!(
+                    out,
+                    "{}{}",
+                    if n == 0 { "" } else { "," },
+                    of(n as f64 / rate)
+                );
+            }
+            format!("[{out}]")
+        };
+        let angle = |t: f64| (3.0 * t).sin() * (1.0 + 0.1 * t);
+        let effort = |t: f64| 0.4 * (3.0 * t).cos() + 0.1 * (3.0 * t).sin();
+        let stamp = |t: f64| t;
+        format!(
+            "{{\"joint_state\": {{\"time\": {}, \"position\": {}}}, \"effort\": {{\"time\": {}, \"torque\": {}}}}}",
+            list(333.0, &stamp),
+            list(333.0, &angle),
+            list(1000.0, &stamp),
+            list(1000.0, &effort)
+        )
+    }
+
+    #[test]
+    fn columns_of_one_file_with_several_bases_are_joined_by_the_lines_that_are_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let log = folder.path().join("robot.json");
+        std::fs::write(&log, robot()).unwrap();
+        let refused = load(&log, &Axis::default()).unwrap_err().to_string();
+        let line = "force = { column = \"effort.torque\", time = \"effort.time\" }";
+        assert!(refused.contains(line), "{refused}");
+        let started = init(&log, None).unwrap();
+        assert_eq!(started.undecided, None);
+        let axis = folder.path().join("axis.toml");
+        std::fs::write(&axis, &started.text).unwrap();
+        let axis = Axis::read(&axis).unwrap();
+        let log = load(&log, &axis).unwrap().log;
+        assert!((log.rate_hz - 333.0).abs() < 0.1, "{}", log.rate_hz);
+        let force = log.force.unwrap();
+        for (t, force) in log.time.iter().zip(&force) {
+            let effort = 0.4 * (3.0 * t).cos() + 0.1 * (3.0 * t).sin();
+            assert!((force - effort).abs() < 1e-4, "{force} is not {effort}");
+        }
     }
 }

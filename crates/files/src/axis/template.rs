@@ -1,7 +1,7 @@
 //! `check --init`: an axis file to fill in, with what was detected already in it.
 
 use std::fmt::Write;
-use stiction_log::{Channel, Dimension, Mapping, Motion, Role, Selector, Table};
+use stiction_log::{Channel, Dimension, Mapping, Motion, OwnStamps, Role, Selector, Table};
 
 /// Words of the examples, for one kind of axis.
 struct Words {
@@ -42,6 +42,8 @@ pub struct Found {
     pub resolution: Option<String>,
     /// Travel after which the position seems to start again, with its unit.
     pub wrap: Option<String>,
+    /// Columns that have time stamps of their own.
+    pub own_stamps: Vec<OwnStamps>,
     /// What the numbers of each column look like; may be empty.
     pub columns: Vec<String>,
 }
@@ -116,7 +118,12 @@ pub fn template(
                     true => "    # the unit is assumed: nothing gives it",
                     false => "",
                 };
-                let _ = writeln!(out, "{role} = {}{note}", entry(channel));
+                let mut entry = entry(channel);
+                if let Some(own) = found.own_stamps.iter().find(|own| own.role == role) {
+                    entry.truncate(entry.len() - " }".len());
+                    let _ = write!(entry, ", time = {} }}", selector(&own.time));
+                }
+                let _ = writeln!(out, "{role} = {entry}{note}");
                 let unit = channel.unit.as_ref().map(|u| u.dimension());
                 let raw = [Dimension::CURRENT, Dimension::VOLTAGE]
                     .map(Some)
@@ -207,11 +214,7 @@ pub fn template(
 
 /// A column as a value of `[columns]`: `{ column = "qm", unit = "m" }`.
 pub fn entry(channel: &Channel) -> String {
-    let column = match &channel.column {
-        Selector::Name(name) => toml::Value::String(name.clone()).to_string(),
-        Selector::Index(i) => i.to_string(),
-    };
-    let mut out = format!("{{ column = {column}");
+    let mut out = format!("{{ column = {}", selector(&channel.column));
     if let Some(unit) = &channel.unit {
         let _ = write!(
             out,
@@ -227,4 +230,11 @@ pub fn entry(channel: &Channel) -> String {
     }
     out.push_str(" }");
     out
+}
+
+fn selector(selector: &Selector) -> String {
+    match selector {
+        Selector::Name(name) => toml::Value::String(name.clone()).to_string(),
+        Selector::Index(i) => i.to_string(),
+    }
 }

@@ -14,11 +14,11 @@ use stiction_log::text::TextOptions;
 use stiction_log::{Elsewhere, Log, Mapping, Motion};
 use stiction_number::short;
 
-/// A column that comes from another file than the log.
+/// A column that comes from another file than the log, or has other time stamps than its rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JoinedColumn {
-    /// That file.
-    pub file: PathBuf,
+    /// That file; `None` for the log itself, in which the column has time stamps of its own.
+    pub file: Option<PathBuf>,
     /// What the column is, and how its clock goes with that of the log.
     pub from: Elsewhere,
 }
@@ -26,7 +26,10 @@ pub struct JoinedColumn {
 impl JoinedColumn {
     /// A line of the axis file such as `force = { column = "F", unit = "N" }`, with the file.
     pub fn line(&self, line: &str) -> String {
-        let file = toml::Value::String(self.file.display().to_string());
+        let Some(file) = &self.file else {
+            return line.into();
+        };
+        let file = toml::Value::String(file.display().to_string());
         line.replacen("{ ", &format!("{{ file = {file}, "), 1)
     }
 }
@@ -40,7 +43,7 @@ pub struct Axis {
     pub mapping: Mapping,
     /// The logs that the file lists.
     pub logs: Vec<ListedLog>,
-    /// Columns that come from other files than the log.
+    /// Columns that come from other files than the log, or have other time stamps than its rows.
     pub joined: Vec<JoinedColumn>,
     /// How text logs are written, where stated.
     pub text: TextOptions,

@@ -753,6 +753,7 @@ proptest! {
             assumed: vec![Role::Force],
             resolution: Some("5e-8 rad".into()),
             wrap: Some("25 rad".into()),
+            own_stamps: Vec::new(),
             columns: names.iter().map(|(name, _)| name.clone()).collect(),
         };
         let text = template(&table, Ok(&mapping), &found);
@@ -778,4 +779,13 @@ fn an_offset_is_given_or_estimated() {
     assert_eq!(offset(""), Offset::Given(0.0));
     assert_eq!(offset(", offset = \"-12 ms\""), Offset::Given(-0.012));
     assert_eq!(offset(", offset = \"estimate\""), Offset::Estimated);
+}
+
+#[test]
+fn a_column_of_the_log_may_have_time_stamps_of_its_own() {
+    let text = "[columns]\nforce = { column = \"effort.tau\", time = \"effort.t\" }\n";
+    let axis = parse(text).unwrap();
+    let joined = &axis.joined[0];
+    assert_eq!((&joined.file, joined.from.role), (&None, Role::Force));
+    assert_eq!(joined.from.time, Some(Channel::named("effort.t")));
 }

@@ -6,7 +6,7 @@ use super::enable::{self, Enable};
 use super::flags::is_flag;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
-use super::{Detected, Mapping, describe};
+use super::{Detected, Mapping, bases, describe};
 use crate::findings::{Finding, Severity, median, short};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -314,8 +314,19 @@ impl<'a> Scan<'a> {
         if is_motion && fits.iter().all(|(_, h)| h.commanded) {
             return Ok(None);
         }
-        let fits = fits.into_iter().map(|(column, _)| column).collect();
+        let mut fits = fits.into_iter().map(|(column, _)| column).collect();
+        if role == Role::Time
+            && let Some(motion) = self.motion()
+        {
+            fits = bases::as_long(self.table, fits, motion);
+        }
         self.only(distinct(self.table, fits), role)
+    }
+
+    /// The column that is clearly the motion.
+    fn motion(&self) -> Option<usize> {
+        let picked = |role| self.pick(role).ok().flatten();
+        picked(Role::Position).or_else(|| picked(Role::Velocity))
     }
 
     /// The one column without a telling name that is in a unit of this role.

@@ -137,6 +137,8 @@ const PASSED_OVER: &[&str] = &[
     "fehler",
     "abweichung",
 ];
+/// Those of them that say nothing of what a group holds: `joint_state.position` is a position.
+const GROUPS: &[&str] = &["state", "status", "id", "index"];
 /// Words that may be beside a letter or two without changing its meaning.
 const HARMLESS_NEIGHBOURS: &[&str] = &["axis", "motor", "joint", "drive", "m", "achse", "wert"];
 /// What German names are put together of: `Istposition`, `Lagesollwert`, `Schleppfehler`.
@@ -170,7 +172,7 @@ const GERMAN: &[&str] = &[
 pub(super) fn hint(name: &str) -> Option<Hint> {
     let words = words(name);
     let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
-    if has(PASSED_OVER) {
+    if passed_over(name) {
         return None;
     }
     let commanded = has(COMMANDED);
@@ -261,7 +263,7 @@ pub(super) fn hint_of_axis(name: &str) -> Option<Hint> {
     let words = words(name);
     let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
     let letter = words.iter().find(|w| AXIS_LETTERS.contains(&w.as_str()))?;
-    if has(PASSED_OVER) || !alone(&words, letter) {
+    if passed_over(name) || !alone(&words, letter) {
         return None;
     }
     let commanded = has(COMMANDED);
@@ -279,9 +281,10 @@ pub(super) fn hint_of_axis(name: &str) -> Option<Hint> {
 
 /// Whether a name speaks of errors, limits, states and other things that no role takes.
 pub(super) fn passed_over(name: &str) -> bool {
-    words(name)
-        .iter()
-        .any(|w| PASSED_OVER.contains(&w.as_str()))
+    let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
+    let over = |word: &String| PASSED_OVER.contains(&word.as_str());
+    words(own).iter().any(over)
+        || (words(group).iter()).any(|w| over(w) && !GROUPS.contains(&w.as_str()))
 }
 
 /// Whether nothing but numbers and harmless words stands beside this word.

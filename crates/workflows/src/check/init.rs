@@ -45,7 +45,8 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
     Ok(match Mapping::detect(&table) {
         Ok(detected) => {
             let log = Log::from_table(&table, &Mapping::default());
-            let found = log.as_ref().map(found).unwrap_or_default();
+            let mut found = log.as_ref().map(found).unwrap_or_default();
+            found.own_stamps = detected.mapping.own_stamps(&table);
             Started {
                 text: template(&table, Ok(&detected.mapping), &found),
                 changes: filled_in(&detected.mapping, &found),
@@ -76,6 +77,7 @@ fn found(log: &Log) -> Found {
             Some(counts) => format!("{counts} counts"),
             None => length(log, travel),
         }),
+        own_stamps: Vec::new(),
         columns: Vec::new(),
     }
 }
@@ -129,6 +131,9 @@ fn filled_in(mapping: &Mapping, found: &Found) -> Vec<String> {
         if mapping.channel(role).is_some() {
             out.push(match found.assumed.contains(&role) {
                 true => format!("{role}, its unit assumed"),
+                false if found.own_stamps.iter().any(|own| own.role == role) => {
+                    format!("{role}, with time stamps of its own")
+                }
                 false => role.to_string(),
             });
         }

@@ -70,7 +70,11 @@ fn column(
         _ => table.get("file"),
     };
     let own = of_table(&table)?;
+    let of_its_own = role != Role::Time && table.find("time").is_some();
     let Some(file) = file else {
+        if of_its_own {
+            return own_stamps(&table, own, role);
+        }
         if let Some(offset) = table.find("offset").filter(|_| role != Role::Time) {
             let found = format!("{} without file", offset.shown());
             return Err(offset.refuse(
@@ -89,10 +93,30 @@ fn column(
     let offset = offset.unwrap_or(Offset::Given(0.0));
     table.end()?;
     let joined = JoinedColumn {
-        file: folder.join(file.path("a recording")?),
+        file: Some(folder.join(file.path("a recording")?)),
         from: Elsewhere { role, time, offset },
     };
     Ok((own, Some(joined)))
+}
+
+/// A column of the log that has time stamps of its own.
+fn own_stamps(
+    table: &Table<'_>,
+    own: Channel,
+    role: Role,
+) -> Result<(Channel, Option<JoinedColumn>), Error> {
+    let time = table.get("time").map(|given| channel(&given)).transpose()?;
+    let offset = table
+        .get("offset")
+        .map(|given| offset(&given))
+        .transpose()?;
+    table.end()?;
+    let from = Elsewhere {
+        role,
+        time,
+        offset: offset.unwrap_or(Offset::Given(0.0)),
+    };
+    Ok((own, Some(JoinedColumn { file: None, from })))
 }
 
 /// What is added to the time stamps of another file.
