@@ -44,6 +44,6 @@ def path_of(path: Any, place: str) -> str:
         text = os.fspath(path)
     except TypeError:
         raise argument(place, f"a {type(path).__name__}", "a path") from None
-    if not isinstance(text, str) or not text:
+    if not isinstance(text, str) or not text or "\0" in text:
         raise argument(place, repr(text), "a path")
     return text

@@ -33,7 +33,7 @@ def columns(data: Any, name: str) -> list[Column]:
     """Every column of a table; `name` is that of the argument."""
     out: list[Column] = []
     for header, values in _items(data, name):
-        if not isinstance(header, str) or not header.strip():
+        if not isinstance(header, str) or not header.strip() or not header.isprintable():
             raise argument(name, f"a column called {header!r}", "names that are text, such as 'position [mm]'")
         place = f"{name}[{header!r}]"
         unit = None

@@ -10,6 +10,7 @@ from typing import Any
 from . import _native
 from ._axis import path_of
 from ._log import _warn
+from ._options import maybe, real, truth, words
 from ._types import ExportOptions, PathLike
 
 
@@ -64,18 +65,18 @@ def export(
 ) -> Exported:
     """Writes the compensator of a model file as code: as `stiction export`, whose options these are. See `Fit.export`."""
     options: ExportOptions = {
-        "target": target,
-        "name": name,
-        "cycle_time": cycle_time,
-        "limit": limit,
-        "rated_force": rated_force,
-        "gain": gain,
-        "ramp": ramp,
-        "dead_zone": dead_zone,
-        "slew": slew,
-        "window": window,
-        "adapt": adapt,
-        "feedforward": list(feedforward),
+        "target": str(target),
+        "name": None if name is None else str(name),
+        "cycle_time": real(cycle_time, "cycle_time"),
+        "limit": maybe(limit, "limit"),
+        "rated_force": maybe(rated_force, "rated_force"),
+        "gain": maybe(gain, "gain"),
+        "ramp": maybe(ramp, "ramp"),
+        "dead_zone": maybe(dead_zone, "dead_zone"),
+        "slew": maybe(slew, "slew"),
+        "window": maybe(window, "window"),
+        "adapt": truth(adapt, "adapt"),
+        "feedforward": words(feedforward, "feedforward"),
     }
     exported = write_code("", path_of(model, "model"), options, out, force)
     _warn(exported.warnings, 2)

@@ -15,6 +15,7 @@ from ._errors import argument
 from ._export import Exported, write_code
 from ._law import Law
 from ._log import Log, _warn
+from ._options import maybe, real, truth, words
 from ._parameters import Parameters
 from ._plan import Plan, plan
 from ._study import Study, simulate
@@ -214,18 +215,18 @@ class Fit:
         What is not given follows from the law.
         """
         options: ExportOptions = {
-            "target": target,
-            "name": name,
-            "cycle_time": cycle_time,
-            "limit": limit,
-            "rated_force": rated_force,
-            "gain": gain,
-            "ramp": ramp,
-            "dead_zone": dead_zone,
-            "slew": slew,
-            "window": window,
-            "adapt": adapt,
-            "feedforward": list(feedforward),
+            "target": str(target),
+            "name": None if name is None else str(name),
+            "cycle_time": real(cycle_time, "cycle_time"),
+            "limit": maybe(limit, "limit"),
+            "rated_force": maybe(rated_force, "rated_force"),
+            "gain": maybe(gain, "gain"),
+            "ramp": maybe(ramp, "ramp"),
+            "dead_zone": maybe(dead_zone, "dead_zone"),
+            "slew": maybe(slew, "slew"),
+            "window": maybe(window, "window"),
+            "adapt": truth(adapt, "adapt"),
+            "feedforward": words(feedforward, "feedforward"),
         }
         exported = write_code(self._native.model_toml(), None, options, out, force)
         _warn(exported.warnings, 2)

@@ -9,6 +9,7 @@ from ._axis import path_of
 from ._errors import argument
 from ._fit import Fit
 from ._log import Logs, _warn, all_paths, one_axis, read_all, several
+from ._options import maybe, some_threads, truth, whole
 from ._progress import finish, teller
 from ._study import STOPPED
 from ._types import AxisLike, IdentifyOptions, PathLike, Watcher
@@ -61,21 +62,21 @@ def identify(
     cannot be identified a StictionError.
     """
     options: IdentifyOptions = {
-        "law": law,
-        "asymmetric": asymmetric,
-        "compare_laws": compare_laws,
-        "split": split,
-        "seed": seed,
-        "method": method,
+        "law": str(law),
+        "asymmetric": truth(asymmetric, "asymmetric"),
+        "compare_laws": truth(compare_laws, "compare_laws"),
+        "split": maybe(split, "split"),
+        "seed": whole(seed, "seed"),
+        "method": str(method),
         "statics": [path_of(path, "statics") for path in statics],
         "model": None if model is None else path_of(model, "model"),
         "break_away": [path_of(path, "break_away") for path in break_away],
-        "search": search,
-        "no_finish": no_finish,
-        "cost": cost,
-        "evaluations": evaluations,
-        "target": target,
-        "time": time,
+        "search": None if search is None else str(search),
+        "no_finish": truth(no_finish, "no_finish"),
+        "cost": None if cost is None else str(cost),
+        "evaluations": None if evaluations is None else whole(evaluations, "evaluations"),
+        "target": maybe(target, "target"),
+        "time": maybe(time, "time"),
         "checkpoint": None if checkpoint is None else path_of(checkpoint, "checkpoint"),
         "resume": None if resume is None else path_of(resume, "resume"),
     }
@@ -83,7 +84,7 @@ def identify(
         raise argument("split", "split together with validate", "one of the two")
     each = [] if logs is None else several(logs, "logs")
     held_out = [] if validate is None else several(validate, "validate")
-    tell = teller(progress)
+    tell, own = teller(progress), some_threads(threads)
     try:
         if all_paths(each + held_out) and not isinstance(axis, dict):
             if not each and axis is None and not break_away:
@@ -94,7 +95,7 @@ def identify(
                 None if axis is None else path_of(axis, "axis"),
                 options,
                 tell,
-                threads,
+                own,
             )
         else:
             if not each:
@@ -107,7 +108,7 @@ def identify(
                 one_axis(fitted + unseen),
                 options,
                 tell,
-                threads,
+                own,
             )
     finally:
         finish(progress)

@@ -12,6 +12,7 @@ from . import _native
 from ._axis import axis_of, path_of
 from ._columns import columns, is_columns
 from ._errors import StictionError, StictionWarning, argument
+from ._options import some_threads, whole
 from ._progress import finish, teller
 from ._types import AxisLike, Columns, PathLike, Watcher
 
@@ -239,10 +240,10 @@ def check(
         if all_paths(each) and not isinstance(axis, dict):
             paths = [path_of(log, "logs") for log in each]
             known = None if axis is None else path_of(axis, "axis")
-            found = _native.check_files(paths, known, teller(progress), threads)
+            found = _native.check_files(paths, known, teller(progress), some_threads(threads))
         else:
             read = read_all(each, axis, "logs")
-            found = _native.check([log._native for log in read], one_axis(read), teller(progress), threads)
+            found = _native.check([log._native for log in read], one_axis(read), teller(progress), some_threads(threads))
     finally:
         finish(progress)
     return Check(json.loads(found[0]), found[1], found[2])
@@ -250,10 +251,10 @@ def check(
 
 def write_demo_log(path: PathLike, seed: int = 0) -> Path:
     """Writes the log of a known, simulated axis: 9 s at 4 kHz, with encoder steps and noise, as `stiction demo`."""
-    _native.write_demo_log(path_of(path, "path"), seed)
+    _native.write_demo_log(path_of(path, "path"), whole(seed, "seed"))
     return Path(path)
 
 
 def allow_memory(size: int) -> None:
     """Memory that reading a log may take, bytes; half of the machine's if it is not set."""
-    _native.allow_memory(size)
+    _native.allow_memory(whole(size, "size", 1_000_000))

@@ -12,6 +12,7 @@ from . import _native
 from ._axis import path_of
 from ._errors import StictionError, argument
 from ._log import _warn
+from ._options import maybe, some_threads, whole
 from ._progress import finish, teller
 from ._study import STOPPED
 from ._types import PathLike, PlanOptions, Watcher
@@ -95,11 +96,11 @@ def plan(
         "model": None if model is None else path_of(model, "model"),
         "log": None if log is None else path_of(log, "log"),
         "probe": stage == "probe",
-        "time": time,
-        "seed": seed,
+        "time": maybe(time, "time"),
+        "seed": whole(seed, "seed"),
     }
     try:
-        native, stopped = _native.plan(path_of(axis, "axis"), options, teller(progress), threads)
+        native, stopped = _native.plan(path_of(axis, "axis"), options, teller(progress), some_threads(threads))
     finally:
         finish(progress)
     if native is None:

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
+from ._errors import argument
 from ._types import Progress, Watcher
 
 Told = Callable[[str, float, "float | None"], Any]
@@ -17,6 +18,8 @@ def teller(progress: Watcher) -> Told | None:
         return None
     if progress is True:
         return _line
+    if not callable(progress):
+        raise argument("progress", repr(progress), "True, or a function of a Progress")
     watch = progress
     return lambda stage, fraction, error: watch(Progress(stage, fraction, error))
 

@@ -11,6 +11,7 @@ from typing import Any
 from . import _native
 from ._axis import path_of
 from ._log import _warn
+from ._options import real, some_threads, whole
 from ._progress import finish, teller
 from ._types import PathLike, Verdict, Watcher
 
@@ -87,9 +88,9 @@ def simulate(
     max_samples: samples that may be simulated, 2e9 if it is not given; a study with more is refused before it begins.
     progress, threads: as of `identify`.
     """
-    most = None if max_samples is None else int(max_samples)
+    most = None if max_samples is None else whole(int(real(max_samples, "max_samples")), "max_samples", 1)
     try:
-        native, stopped = _native.simulate(path_of(study, "study"), most, teller(progress), threads)
+        native, stopped = _native.simulate(path_of(study, "study"), most, teller(progress), some_threads(threads))
     finally:
         finish(progress)
     out = Study(native)

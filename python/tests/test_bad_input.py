@@ -69,7 +69,12 @@ def test_integers_that_would_lose_digits_are_refused() -> None:
 
 @pytest.mark.parametrize(
     ("data", "found"),
-    [({}, "no column"), ({3: T}, "a column called 3"), ({" ": T}, "a column called ' '")],
+    [
+        ({}, "no column"),
+        ({3: T}, "a column called 3"),
+        ({" ": T}, "a column called ' '"),
+        ({"a\udc80": T}, "a column called 'a\\udc80'"),
+    ],
 )
 def test_a_table_that_is_none_is_refused(data: Any, found: str) -> None:
     assert found in refused(data).found
@@ -218,10 +223,45 @@ def test_an_option_that_is_none_is_named(options: dict[str, Any], place: str) ->
     assert place in str(caught.value)
 
 
-@pytest.mark.parametrize("options", [{"seed": -1}, {"seed": 1.5}, {"split": "half"}, {"threads": -1}, {"asymmetric": 3}])
-def test_an_option_of_another_type_is_an_error_of_python(options: dict[str, Any]) -> None:
-    with pytest.raises((TypeError, OverflowError)):
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"seed": -1},
+        {"seed": 1.5},
+        {"seed": 2**70},
+        {"seed": True},
+        {"split": "half"},
+        {"threads": -1},
+        {"threads": 0},
+        {"threads": 10**6},
+        {"asymmetric": 3},
+        {"evaluations": 1.5},
+        {"target": [1]},
+        {"progress": 3},
+    ],
+)
+def test_an_option_of_another_type_is_named(options: dict[str, Any]) -> None:
+    with pytest.raises(StictionError) as caught:
         quietly(stiction.identify, GOOD, **options)
+    assert [caught.value.place] == list(options)
+
+
+@pytest.mark.parametrize(
+    ("options", "place"),
+    [
+        ({"target": "cobol"}, "target"),
+        ({"target": "c", "gain": "x"}, "gain"),
+        ({"target": "c", "feedforward": ["x"]}, "feedforward"),
+        ({"target": "c", "feedforward": [3]}, "feedforward"),
+        ({"target": "c", "cycle_time": None}, "cycle_time"),
+        ({"target": "c", "gain": 7.0}, "gain"),
+    ],
+)
+def test_an_option_of_an_export_is_named(fit: stiction.Fit, tmp_path: Path, options: dict[str, Any], place: str) -> None:
+    with pytest.raises(StictionError) as caught:
+        quietly(fit.export, out=tmp_path / "out", **options)
+    assert place in str(caught.value)
+    assert not (tmp_path / "out").exists()
 
 
 def test_files_that_cannot_be_read_are_named(tmp_path: Path) -> None:

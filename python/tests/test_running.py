@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import concurrent.futures
+import multiprocessing
 import os
 import signal
 import subprocess
@@ -100,6 +102,19 @@ def test_python_runs_while_rust_works(run_csv: Path) -> None:
     quietly(stiction.identify, run_csv, progress=told, **LONG)
     thread.join()
     assert counted == 100_000
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
+def test_a_process_that_was_forked_works(run_csv: Path, fit: stiction.Fit) -> None:
+    """It has none of the threads that the first one has."""
+    with quietly(concurrent.futures.ProcessPoolExecutor, 1, mp_context=multiprocessing.get_context("fork")) as pool:
+        done = quietly(pool.submit, forked, run_csv)
+        assert done.result(timeout=120) == fit.parameters.rows
+
+
+def forked(path: Path) -> list[stiction.Parameter]:
+    found: stiction.Fit = quietly(stiction.identify, path, law="lugre", compare_laws=False)
+    return found.parameters.rows
 
 
 INTERRUPTED = """

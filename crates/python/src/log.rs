@@ -55,7 +55,9 @@ impl Log {
                 }
             })
             .collect();
-        let log = py.detach(|| stiction::Log::from_columns(name, columns, &axis.axis));
+        let (log, _) = run(py, &How::quiet(), |_| {
+            stiction::Log::from_columns(name, columns, &axis.axis)
+        })?;
         let log = log.map_err(|e| raised(py, &e))?;
         Ok(Self { log })
     }

@@ -6,9 +6,10 @@
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 use std::any::Any;
-use std::sync::Mutex;
+use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, OnceLock};
 use std::thread;
 use std::time::Duration;
 use stiction::{Control, Observer, Progress, Stage};
@@ -17,6 +18,9 @@ use stiction::{Control, Observer, Progress, Stage};
 const BETWEEN: Duration = Duration::from_millis(20);
 /// Stack of the thread, bytes: that of a main thread.
 const STACK: usize = 8 << 20;
+
+/// The process whose threads those of the process are: one that was forked from it has none of them, and would wait for ever.
+static FIRST: OnceLock<u32> = OnceLock::new();
 
 /// What becomes of work that is stopped.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -78,8 +82,11 @@ pub fn run<T: Send>(
     how: &How,
     work: impl FnOnce(&mut dyn Observer) -> T + Send,
 ) -> PyResult<(T, bool)> {
-    let pool = how.threads.map(|threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.max(1));
+    let forked = *FIRST.get_or_init(process::id) != process::id();
+    // As many as there are cores where none is asked for.
+    let threads = how.threads.or(forked.then_some(0));
+    let pool = threads.map(|threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build()
     });
     let pool = pool.transpose();

@@ -1,0 +1,59 @@
+"""Options that are numbers, checked where they can still be named."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any
+
+from ._errors import argument
+
+LARGEST = 2**64 - 1
+"""Of a seed."""
+MOST_THREADS = 1024
+"""As on the command line."""
+
+
+def whole(value: Any, place: str, least: int = 0, most: int = LARGEST) -> int:
+    """A whole number."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = -1
+    if isinstance(value, bool) or not least <= number <= most:
+        raise argument(place, repr(value), f"a whole number from {least} to {most}")
+    return number
+
+
+def real(value: Any, place: str) -> float:
+    """A number."""
+    try:
+        if isinstance(value, (str, bytes, bool)):
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise argument(place, repr(value), "a number") from None
+
+
+def maybe(value: Any, place: str) -> float | None:
+    """A number, or none."""
+    return None if value is None else real(value, place)
+
+
+def truth(value: Any, place: str) -> bool:
+    """Yes or no."""
+    if not isinstance(value, bool) and type(value).__name__ not in ("bool", "bool_"):
+        raise argument(place, repr(value), "True or False")
+    return bool(value)
+
+
+def some_threads(value: Any) -> int | None:
+    """Threads of a call, or those of the process."""
+    return None if value is None else whole(value, "threads", 1, MOST_THREADS)
+
+
+def words(value: Any, place: str) -> list[str]:
+    """Names; one alone is a list of one."""
+    names = [value] if isinstance(value, str) else list(value)
+    if not all(isinstance(name, str) for name in names):
+        raise argument(place, repr(value), "names")
+    return names
