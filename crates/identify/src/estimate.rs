@@ -1,19 +1,23 @@
 //! The result of a fit: parameters with their uncertainty, residuals, and warnings.
 
 pub(crate) mod advice;
+mod along;
 mod autoregression;
 mod conditioned;
 mod confused;
 mod curve;
+mod delayed;
 mod filtered;
 pub(crate) mod fitted;
 pub(crate) mod intervals;
 mod optimal;
+mod pressed;
 mod profile;
 pub(crate) mod searched;
 pub(crate) mod series;
 pub(crate) mod sliding;
 pub(crate) mod uncertainty;
+mod windows;
 
 use crate::conditioning::record::Record;
 use crate::estimate::fitted::FittedLaw;

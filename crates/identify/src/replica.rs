@@ -282,7 +282,7 @@ pub(crate) fn first_delay(fitted: &Estimate, step: f64) -> Option<FirstDelay> {
 }
 
 /// Standard deviation of a fitted delay, samples.
-fn deviation(fitted: &Estimate, step: f64) -> Option<f64> {
+pub(crate) fn deviation(fitted: &Estimate, step: f64) -> Option<f64> {
     let delay = fitted.parameter(Quantity::Delay)?;
     delay.std.map(|std| std / step)
 }

@@ -10,6 +10,7 @@ use crate::agreement::Told;
 use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
+use crate::estimate::windows::Windows;
 use crate::law::physical::physical;
 use crate::misfit::Energies;
 use crate::parameter::physical::Physical;
@@ -36,6 +37,8 @@ pub(super) struct Shift {
     /// Squared difference between the shift of a replica and that of a replica of it, less what chance
     /// explains.
     change: Vec<f64>,
+    /// Variance that other cut-offs show and the replicas do not.
+    windows: Vec<f64>,
     /// What comes back of the residuals of the replicas.
     pub energies: Vec<Energies>,
     /// What the logs of each replica tell, where there are several.
@@ -62,7 +65,11 @@ impl Shift {
                 1.0
             };
         let doubt = SHIFT_DOUBT * self.bias[i];
-        calibrated + self.scatter[i] / REPLICA_COUNT as f64 + doubt * doubt + self.change[i]
+        calibrated
+            + self.scatter[i] / REPLICA_COUNT as f64
+            + doubt * doubt
+            + self.change[i]
+            + self.windows[i]
     }
 }
 
@@ -78,6 +85,8 @@ pub(super) fn shift(
     let conditioning = record.conditioning?;
     let axis = Axis::of(record, fitted)?;
     let noise = force_noise(record, &axis, &conditioning, fitted, &mut watch.counts)?;
+    asked(watch)?;
+    let mut windows = Windows::of(record, fitted, raw, &mut watch.counts);
     asked(watch)?;
     let mut first = Shifts::default();
     let mut second = Shifts::default();
@@ -99,6 +108,14 @@ pub(super) fn shift(
         }
         energies.push(all.energies);
         told.extend(all.told.clone());
+        let of = (record, fitted);
+        windows.count(
+            &replica,
+            of,
+            (&found.truth, &found.shift),
+            &mut watch.counts,
+        );
+        asked(watch)?;
         first.0.push(found.shift.clone());
         // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, and to
         // first order.
@@ -126,6 +143,7 @@ pub(super) fn shift(
         scatter: all.clone().map(|i| first.variance(i)).collect(),
         stated,
         change: all.map(|i| second.change(&first, i)).collect(),
+        windows: windows.variance(raw.len()),
         energies,
         told,
     })
@@ -139,6 +157,7 @@ fn asked(watch: &mut Watch) -> Option<()> {
 /// What the fit of one replica found.
 struct Found {
     refit: Refit,
+    truth: Vec<Physical>,
     parameters: Vec<Physical>,
     shift: Vec<f64>,
 }
@@ -167,6 +186,7 @@ fn once(
     let parameters = at(&refit.p, &refit.c);
     let found = Found {
         shift: between(&truth, &parameters),
+        truth,
         parameters,
         refit,
     };

@@ -3,16 +3,18 @@
 
 use crate::agreement::Between;
 use crate::conditioning::record::Record;
+use crate::estimate::along::Along;
 use crate::estimate::conditioned::shift;
 use crate::estimate::confused::flag_levels_that_take_viscous_friction;
 use crate::estimate::curve::{
     end_of_an_open_curve, missing, rises_unseen, spans_all_speeds, stays_within,
 };
+use crate::estimate::delayed::flag_what_an_unknown_delay_takes_along;
 use crate::estimate::filtered::flag_what_a_filter_hides;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::sliding::flag_what_the_motion_hides;
-use crate::estimate::{Estimate, advice, levels, optimal};
+use crate::estimate::{Estimate, advice, levels, optimal, pressed};
 use crate::held_delay;
 use crate::lag;
 use crate::law::physical::physical;
@@ -131,6 +133,7 @@ fn of_the_force(
     let mut watch = Watch::new(observer, Stage::Calibration);
     watch.fraction = 1.0;
     let missing = missing(objective, optimum, &estimate.unknowns, &mut watch);
+    let mut along = Along::new(raw);
     for p in raw {
         if watch.stopped {
             break;
@@ -138,11 +141,13 @@ fn of_the_force(
         if curve_of(p.name).is_some_and(|side| missing[side]) {
             without_curve(estimate, p.name);
         } else {
-            profiled(objective, optimum, p, estimate, &mut watch);
+            profiled(objective, optimum, p, estimate, (&mut along, &mut watch));
         }
     }
+    along.reach(raw, optimum, &levels(objective, raw), estimate);
     estimate.fitted.counts.add(&watch.counts);
     flag_what_a_filter_hides(objective.record(), estimate);
+    flag_what_an_unknown_delay_takes_along(objective.record(), estimate);
     let fitted = &mut estimate.fitted;
     stays_within(&fitted.law, optimum, &mut fitted.parameters);
     between
@@ -179,13 +184,16 @@ fn conditioned(
         propagate(raw, &unknowns)
     });
     estimate.fitted.misfit = misfit;
+    let pressed = pressed::spread(objective, at, raw, &estimate.unknowns.covariance);
     let stated = &estimate.fitted.covariance.matrix;
     let known: Vec<f64> = (0..raw.len())
         .map(|i| {
             let total = shift
                 .as_ref()
                 .map_or(stated[i][i], |s| s.total(i, stated[i][i]));
-            total + spread.as_ref().map_or(0.0, |s| s[(i, i)])
+            total
+                + spread.as_ref().map_or(0.0, |s| s[(i, i)])
+                + pressed.as_ref().map_or(0.0, |s| s[i])
         })
         .collect();
     let mut between = Between::default();
@@ -214,7 +222,7 @@ fn conditioned(
             between.add(p.name, p.variance(&unknowns));
         }
     }
-    if shift.is_none() && spread.is_none() && between.is_nothing() {
+    if shift.is_none() && spread.is_none() && pressed.is_none() && between.is_nothing() {
         return between;
     }
     let levels = levels(objective, raw);
@@ -306,7 +314,7 @@ fn profiled(
     optimum: &Optimum,
     p: &Physical,
     estimate: &mut Estimate,
-    watch: &mut Watch,
+    (along, watch): (&mut Along, &mut Watch),
 ) {
     let k = optimum.p.len();
     let curved = [
@@ -367,13 +375,14 @@ fn profiled(
                 &p_there,
                 &c_there,
             );
+            along.passes(&there, p.name);
             there
                 .iter()
                 .find(|q| q.name == p.name)
                 .filter(|q| q.value > 0.0)
                 .map(|q| {
-                    let along = libm::log(q.value / p.value);
-                    (along * along + quantile * quantile * apart).sqrt()
+                    let way = libm::log(q.value / p.value);
+                    (way * way + quantile * quantile * apart).sqrt()
                 })
         }
     });

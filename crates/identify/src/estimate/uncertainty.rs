@@ -48,7 +48,11 @@ pub(crate) fn free(objective: &Objective, at: &Evaluation) -> Unknowns {
 }
 
 /// With the coefficients of which that is said beside the nonlinear unknowns.
-fn beside(objective: &Objective, at: &Evaluation, is_free: impl Fn(usize) -> bool) -> Unknowns {
+pub(crate) fn beside(
+    objective: &Objective,
+    at: &Evaluation,
+    is_free: impl Fn(usize) -> bool,
+) -> Unknowns {
     let k = at.slopes.len();
     let width = k + at.columns.len();
     let columns: Vec<usize> = (0..at.columns.len()).filter(|&j| is_free(j)).collect();

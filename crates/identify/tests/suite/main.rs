@@ -21,6 +21,7 @@ mod output_error;
 mod profile;
 mod refusals;
 mod settling;
+mod sines;
 mod static_map;
 mod step;
 mod stretches;
