@@ -74,14 +74,13 @@ impl Along {
             let size = if p.is_positive() { p.value } else { 1.0 };
             let variance = (far * size / NORMAL_Q95).powi(2);
             let matrix = &mut estimate.fitted.covariance.matrix;
-            if !(variance > matrix[i][i] && variance.is_finite()) || !own.identified {
+            let farther = variance > matrix[i][i] && variance.is_finite();
+            if !farther || !own.identified {
                 continue;
             }
             let widen = (variance / matrix[i][i]).sqrt();
-            for j in 0..raw.len() {
-                matrix[i][j] *= widen;
-                matrix[j][i] *= widen;
-            }
+            matrix[i].iter_mut().for_each(|x| *x *= widen);
+            matrix.iter_mut().for_each(|row| row[i] *= widen);
             *own = optimal::fitted(p, variance, own.bias, optimum, levels[i]);
         }
     }
