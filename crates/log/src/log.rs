@@ -76,6 +76,8 @@ pub struct Log {
     pub start: f64,
     /// Position, m or rad; unwrapped.
     pub position: Option<Vec<f64>>,
+    /// Travel after which the position wraps in the file, m or rad, where the mapping gives it.
+    pub wrap: Option<f64>,
     /// Velocity as recorded, m/s or rad/s.
     pub velocity: Option<Vec<f64>>,
     /// Acceleration as recorded, m/s^2 or rad/s^2.
@@ -84,7 +86,7 @@ pub struct Log {
     pub force: Option<Vec<f64>>,
     /// SI unit of the force: `N`, `N*m`, `A`, `V`, or `1` for a fraction of the rated force.
     pub force_unit: String,
-    /// Reference (commanded) position, m or rad.
+    /// Reference (commanded) position, m or rad; unwrapped, in the turns of the position.
     pub reference: Option<Vec<f64>>,
     /// Samples whose reference was missing and is on a straight line between its neighbours, in order.
     pub without_reference: Vec<Range<usize>>,
@@ -193,14 +195,23 @@ impl Log {
         let mut left_out = dropout::clear(&mut columns, &table, &sources, &clock, &mut findings);
         keep_columns(&mut table, |_| false);
         let mut time = clock.time;
-        if let Some(wrap) = mapping.wrap
-            && let Some(position) = columns.get_mut(Role::Position)
+        let mut wrap = None;
+        if let Some(given) = mapping.wrap
+            && let Some(mut position) = columns.take(Role::Position)
         {
-            let source = sources.iter().find(|(role, _)| *role == Role::Position);
-            let period = unwrap::period(wrap, source.map(|(_, source)| source))?;
+            let source = |role| {
+                let found = sources.iter().find(|(r, _)| *r == role);
+                found.map(|(_, source)| source)
+            };
+            let period = unwrap::period(given, source(Role::Position))?;
             let unit = motion.position().si_text();
-            unwrap::resolved(position, period, mapping.resolution, &unit)?;
-            findings.push(unwrap::unwrap(position, period, &unit));
+            unwrap::resolved(&position, period, mapping.resolution, &unit)?;
+            let reference = columns.get_mut(Role::Reference).map(Vec::as_mut_slice);
+            findings.push(unwrap::unwrap(&mut position, reference, period, &unit));
+            if let Some(slot) = columns.get_mut(Role::Position) {
+                *slot = position;
+            }
+            wrap = Some(period);
         }
         let held = columns
             .get_mut(Role::Position)
@@ -254,6 +265,7 @@ impl Log {
             start: clock.start + first,
             time,
             position: columns.take(Role::Position),
+            wrap,
             velocity: columns.take(Role::Velocity),
             acceleration: columns.take(Role::Acceleration),
             force: columns.take(Role::Force),

@@ -40,6 +40,7 @@ mod convert;
 mod describe;
 mod drive;
 pub(crate) mod enable;
+mod endings;
 mod flags;
 mod limits;
 mod motion;

@@ -190,18 +190,17 @@ pub(super) fn steps(log: &mut Log) {
 }
 
 /// Compares work done along and against the motion: a force that drives an axis with friction
-/// puts energy in. Only for motion to and fro, since a weight may well brake one way.
+/// puts energy in. Only for motion to and fro, since a weight may well brake one way; a jump of the position is no motion.
 pub(super) fn sign(log: &mut Log) {
     let Some(force) = &log.force else { return };
-    let gap = |sample| log.gap_after(sample);
     let (mut net, mut gross, mut travel, mut path) = (0.0, 0.0, 0.0, 0.0);
-    for i in 1..log.time.len() {
+    for i in log.segments.iter().flat_map(|part| part.clone().skip(1)) {
         let moved = match (&log.position, &log.velocity) {
             (Some(x), _) => x[i] - x[i - 1],
             (None, Some(v)) => 0.5 * (v[i] + v[i - 1]) * (log.time[i] - log.time[i - 1]),
             (None, None) => return,
         };
-        if gap(i - 1) {
+        if log.gap_after(i - 1) {
             continue;
         }
         let work = 0.5 * (force[i] + force[i - 1]) * moved;

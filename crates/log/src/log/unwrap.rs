@@ -67,40 +67,70 @@ pub(super) fn resolved(
         .of_setting("log.wrap"))
 }
 
-/// Adds whole periods so that no step is longer than half a period; missing samples are passed
-/// over. Turns made within a gap cannot be known.
-pub(super) fn unwrap(position: &mut [f64], period: f64, unit: &str) -> Finding {
+/// Adds whole periods to a position so that no step is longer than half a period, and to its reference the same way, which ends up
+/// within half a period of the position; missing samples are passed over. Turns made within a gap cannot be known.
+pub(super) fn unwrap(
+    position: &mut [f64],
+    reference: Option<&mut [f64]>,
+    period: f64,
+    unit: &str,
+) -> Finding {
+    let wraps = straighten(position, period);
+    let likewise = reference.is_some_and(|reference| {
+        let followed = straighten(reference, period).is_some();
+        let moved = beside(position, reference, period);
+        followed || moved
+    });
+    let likewise = match likewise {
+        true => "; the reference likewise",
+        false => "",
+    };
+    let period = short(period);
+    let Some((wraps, first)) = wraps else {
+        let message = format!(
+            "position never wraps: no step is longer than half the wrap of {period} {unit}; nothing was unwrapped{}",
+            likewise.replace("likewise", "was")
+        );
+        return Finding::new(Code::PositionWrap, Severity::Note, message);
+    };
+    let message = format!(
+        "position wrapped {}, first at sample {first}; unwrapped with a period of {period} {unit}{likewise}",
+        count(wraps, "time")
+    );
+    Finding::new(Code::PositionWrap, Severity::Note, message).at(first)
+}
+
+/// How often a column wrapped, and at which sample first; `None` where it never did.
+fn straighten(column: &mut [f64], period: f64) -> Option<(usize, usize)> {
     let mut turns = 0.0;
     let mut before: Option<f64> = None;
-    let (mut wraps, mut first) = (0_usize, 0);
-    for (index, x) in position
-        .iter_mut()
-        .enumerate()
-        .filter(|(_, x)| x.is_finite())
-    {
+    let mut wraps: Option<(usize, usize)> = None;
+    let known = column.iter_mut().enumerate();
+    for (index, x) in known.filter(|(_, x)| x.is_finite()) {
         if let Some(before) = before {
             let passed = ((*x - before) / period).round();
             if passed != 0.0 {
                 turns -= passed;
-                if wraps == 0 {
-                    first = index;
-                }
-                wraps += 1;
+                let (many, first) = wraps.unwrap_or((0, index));
+                wraps = Some((many + 1, first));
             }
         }
         before = Some(*x);
         *x += turns * period;
     }
-    let period = short(period);
-    if wraps == 0 {
-        let message = format!(
-            "position never wraps: no step is longer than half the wrap of {period} {unit}; nothing was unwrapped"
-        );
-        return Finding::new(Code::PositionWrap, Severity::Note, message);
+    wraps
+}
+
+/// Moves a reference by the whole periods that it is away from the position, in the middle of all samples.
+fn beside(position: &[f64], reference: &mut [f64], period: f64) -> bool {
+    let both = position.iter().zip(reference.iter());
+    let mut apart: Vec<f64> = both.map(|(x, r)| x - r).filter(|d| d.is_finite()).collect();
+    if apart.is_empty() {
+        return false;
     }
-    let message = format!(
-        "position wrapped {}, first at sample {first}; unwrapped with a period of {period} {unit}",
-        count(wraps, "time")
-    );
-    Finding::new(Code::PositionWrap, Severity::Note, message).at(first)
+    let middle = apart.len() / 2;
+    let (_, median, _) = apart.select_nth_unstable_by(middle, f64::total_cmp);
+    let turns = (*median / period).round();
+    reference.iter_mut().for_each(|r| *r += turns * period);
+    turns != 0.0
 }

@@ -6,7 +6,7 @@ use super::enable::{self, Enable};
 use super::flags::is_flag;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
-use super::{Detected, Mapping, bases, describe};
+use super::{Detected, Mapping, bases, describe, endings, motion};
 use crate::findings::{Finding, Severity, median, short};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -166,6 +166,11 @@ pub(crate) fn clear(table: &Table) -> Mapping {
             out.position = Some(Channel { unit, ..channel });
         }
     }
+    let known = Role::ALL.into_iter().filter_map(|role| {
+        let channel = out.channel(role)?;
+        Some((role, channel.unit.as_ref()?.dimension()))
+    });
+    out.motion = motion::from_units(&known.collect::<Vec<_>>()).map(|(motion, _)| motion);
     out
 }
 
@@ -228,8 +233,18 @@ impl<'a> Scan<'a> {
         let units = table.columns.iter();
         let mut scan = Self {
             table,
-            hints: table.columns.iter().map(|c| names::hint(&c.name)).collect(),
-            units: units.map(|c| c.unit.as_ref().and_then(unit)).collect(),
+            hints: (0..table.columns.len())
+                .map(|c| endings::hint(table, c))
+                .collect(),
+            units: units
+                .enumerate()
+                .map(|(c, own)| {
+                    own.unit
+                        .as_ref()
+                        .and_then(unit)
+                        .or_else(|| endings::unit(table, c))
+                })
+                .collect(),
             flags: (0..table.columns.len())
                 .map(|c| is_flag(table, c))
                 .collect(),
@@ -244,7 +259,7 @@ impl<'a> Scan<'a> {
     /// letters that of one axis of several.
     fn hint_axes(&mut self) {
         let of_axis = |c: usize| {
-            names::hint_of_axis(&self.table.columns[c].name)
+            names::hint_of_axis(endings::stem(self.table, c))
                 .filter(|hint| self.unit_allows(c, hint.role))
         };
         let hints: Vec<_> = (0..self.hints.len()).map(of_axis).collect();

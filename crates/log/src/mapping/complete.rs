@@ -3,7 +3,7 @@
 use super::channel::{Channel, Motion, Role};
 use super::convert::{Source, is_force};
 use super::select::select;
-use super::{Detected, Mapping, choose, describe, motion, names, understood};
+use super::{Detected, Mapping, choose, describe, endings, motion, names, understood};
 use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -101,6 +101,9 @@ fn written_unit(
         let place = |e: Error| e.in_column(describe::place(table, column));
         return Unit::parse(text).map(Some).map_err(place);
     }
+    if let Some(unit) = endings::of_channel(table, column, channel, role) {
+        return Ok(Some(unit));
+    }
     let counts = channel.scale.as_ref().is_some_and(|scale| {
         [Motion::Linear, Motion::Rotary].into_iter().any(|kind| {
             [kind.position(), kind.velocity(), kind.force()]
@@ -121,10 +124,13 @@ fn refuse_half_labelled(table: &Table, parts: &[Part], labelled: bool) -> Result
         return Ok(());
     };
     let role = part.role;
-    let unit = match role {
-        Role::Position => "mm",
-        Role::Velocity => "mm/s",
-        _ => "N",
+    let unit = match (role, likely(table, parts)) {
+        (Role::Position, Motion::Linear) => "mm",
+        (Role::Position, Motion::Rotary) => "deg",
+        (Role::Velocity, Motion::Linear) => "mm/s",
+        (Role::Velocity, Motion::Rotary) => "deg/s",
+        (_, Motion::Linear) => "N",
+        (_, Motion::Rotary) => "N m",
     };
     let line = describe::line_with(table, part.column, role, &format!("unit = \"{unit}\""));
     Err(Error::new(
@@ -133,6 +139,18 @@ fn refuse_half_labelled(table: &Table, parts: &[Part], labelled: bool) -> Result
         format!("give it in axis.toml under [columns], as in: {line}"),
     )
     .in_column(describe::place(table, part.column)))
+}
+
+/// The kind of motion that the units tell, else the names; linear where nothing tells it.
+fn likely(table: &Table, parts: &[Part]) -> Motion {
+    let known = parts.iter().filter_map(|part| {
+        let unit = part.unit.as_ref()?;
+        Some((part.role, unit.dimension()))
+    });
+    let names = parts.iter().map(|p| table.columns[p.column].name.as_str());
+    let told = motion::from_units(&known.collect::<Vec<_>>()).map(|(motion, _)| motion);
+    told.or_else(|| motion::from_names(names).ok())
+        .unwrap_or(Motion::Linear)
 }
 
 fn settle_motion(out: &mut Detected, table: &Table, parts: &[Part]) -> Result<Motion, Error> {

@@ -140,13 +140,15 @@ const PASSED_OVER: &[&str] = &[
 /// Those of them that say nothing of what a group holds: `joint_state.position` is a position.
 const GROUPS: &[&str] = &["state", "status", "id", "index"];
 /// Words that may be beside a letter or two without changing its meaning.
-const HARMLESS_NEIGHBOURS: &[&str] = &["axis", "motor", "joint", "drive", "m", "achse", "wert"];
+const HARMLESS_NEIGHBOURS: &[&str] =
+    &["axis", "motor", "joint", "j", "drive", "m", "achse", "wert"];
 /// What German names are put together of: `Istposition`, `Lagesollwert`, `Schleppfehler`.
 const GERMAN: &[&str] = &[
     "soll",
     "ist",
     "wert",
     "position",
+    "pos",
     "lage",
     "winkel",
     "geschwindigkeit",

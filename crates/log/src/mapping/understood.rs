@@ -5,7 +5,7 @@ use super::complete::Part;
 use super::enable::Enable;
 use super::flags::{has_zeros, is_flag};
 use super::names;
-use super::{Mapping, describe};
+use super::{Mapping, describe, endings};
 use crate::{Table, Unit};
 
 /// A column of the file and what became of it.
@@ -44,12 +44,13 @@ pub(super) fn all(table: &Table, given: &Mapping, parts: &[Part]) -> Vec<Underst
 
 fn used(table: &Table, given: &Mapping, part: &Part) -> Understood {
     let Part { role, column, .. } = *part;
-    let name = &table.columns[column].name;
     let by = if given.channel(role).is_some() {
         "named in the axis file"
-    } else if names::hint(name).is_some_and(|hint| hint.role == role) {
+    } else if endings::hint(table, column).is_some_and(|hint| hint.role == role) {
         "by its name"
-    } else if names::hint_of_axis(name).is_some_and(|hint| hint.role == role) {
+    } else if names::hint_of_axis(endings::stem(table, column))
+        .is_some_and(|hint| hint.role == role)
+    {
         "by the name of its axis"
     } else {
         "the only column in such a unit"
@@ -60,6 +61,9 @@ fn used(table: &Table, given: &Mapping, part: &Part) -> Understood {
         (_, true, _) => "its unit is given nowhere and assumed",
         (Some(_), ..) => "its unit from the axis file",
         (None, _, true) => "its unit as the file has it",
+        (None, ..) if endings::of_channel(table, column, &part.channel, role).is_some() => {
+            "its unit from the ending of its name"
+        }
         (None, ..) => "its unit from the scale",
     };
     let assumed = part.assumed.then(|| Assumed {
@@ -96,7 +100,7 @@ fn flag(table: &Table, column: usize) -> String {
 
 fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Understood {
     let name = &table.columns[column].name;
-    let hint = names::hint(name);
+    let hint = endings::hint(table, column);
     let taken = hint.and_then(|hint| parts.iter().find(|part| part.role == hint.role));
     let named = Role::ALL.iter().any(|role| given.channel(*role).is_some());
     let enables = matches!(Enable::of(given, table), Ok(Some(own)) if own == column);

@@ -4,7 +4,7 @@
 
 use super::channel::{Role, Selector};
 use super::convert::of_role;
-use super::{Mapping, choose, names};
+use super::{Mapping, choose, endings, names};
 use crate::{Table, Unit};
 
 /// Roles that a mapping which names none of them leaves open.
@@ -71,12 +71,13 @@ fn means(heads: &Table, selector: &Selector, index: usize) -> bool {
 fn may_be(heads: &Table, index: usize, role: Role) -> bool {
     let column = &heads.columns[index];
     let unit = column.unit.as_ref().and_then(|unit| Unit::parse(unit).ok());
+    let unit = unit.or_else(|| endings::unit(heads, index));
     let dimension = unit.map(|unit| of_role(&unit, role).dimension());
     if dimension.is_some_and(|dimension| !choose::allows(role, dimension)) {
         return false;
     }
-    let hint = names::hint(&column.name);
-    let of_axis = names::hint_of_axis(&column.name);
+    let hint = endings::hint(heads, index);
+    let of_axis = names::hint_of_axis(endings::stem(heads, index));
     hint.is_none_or(|hint| hint.role == role)
         && (hint.is_some() || dimension.is_some() || of_axis.is_some_and(|hint| hint.role == role))
 }

@@ -115,6 +115,37 @@ fn german_names_are_taken_apart() {
     ]));
 }
 
+/// A unit at the end of a name counts as one in brackets, where it is none of a motor, a phase or a load.
+#[test]
+fn units_at_the_end_of_names_are_read() {
+    insta::assert_snapshot!(pick_each(&[
+        &["T_us", "J3_q_act_deg", "J3_q_cmd_deg", "J3_M_mot_Nm"],
+        &["Zeit_ms", "AchseY.Istpos", "AchseY.Sollpos", "Motorstrom_A"],
+        &["t_s", "pos_mm", "force_N"],
+        &["t_s", "position_m", "i_mA"],
+        // No units: a motor beside a load, a measured angle, an axis.
+        &["t", "pos_m", "pos_l", "tau"],
+        &["t", "q_m", "tau_m"],
+        &["t", "x_A", "F_A"],
+    ]));
+    let line = |headers: &[&str], column: &str, role: &str| {
+        let mapping = Mapping {
+            time: Some(Channel::named(column)),
+            ..Mapping::default()
+        };
+        let found = mapping.complete(&headed(headers)).unwrap();
+        let told = found
+            .columns
+            .into_iter()
+            .find(|c| c.role.is_some_and(|r| r.to_string() == role));
+        told.unwrap().reason
+    };
+    assert_eq!(
+        line(&["Zeit_ms", "pos_mm", "F_N"], "Zeit_ms", "time"),
+        "named in the axis file; its unit from the ending of its name"
+    );
+}
+
 #[test]
 fn what_is_refused_with_the_choices() {
     insta::assert_snapshot!(pick_each(&[

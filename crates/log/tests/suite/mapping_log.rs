@@ -250,6 +250,7 @@ fn a_wrapping_position_is_put_together() {
         assert!((a - b).abs() < 1e-12);
     }
     assert_eq!(warnings(&log), [""; 0]);
+    assert_eq!(log.wrap, Some(0.04));
     let stated = message(&log, "position-wrap").to_string();
     // Not stated, it is seen as jumps and the record is split at them.
     let log = read(&table);
@@ -261,6 +262,8 @@ fn a_wrapping_position_is_put_together() {
         .count();
     assert_eq!(log.segments.len(), jumps + 1);
     insta::assert_snapshot!([&stated, message(&log, "position-jump")].join("\n"));
+    // A jump is no motion: no work is done in it.
+    assert!(!codes(&log).contains(&"force-sign"), "{}", told(&log));
     // A wrap that is never reached is said, too.
     let wrap = Some(Wrap::at(20.0));
     let mapping = Mapping {
@@ -272,6 +275,48 @@ fn a_wrapping_position_is_put_together() {
         message(&log, "position-wrap"),
         "position never wraps: no step is longer than half the wrap of 40 m; nothing was unwrapped"
     );
+}
+
+/// A reference that wraps too, and later than the position, ends up in its turns; so does one that does not wrap, however many it
+/// counts.
+#[test]
+fn a_reference_is_in_the_turns_of_its_position() {
+    let position = axis(4000).position;
+    let wrapped = |x: &f64| x - 0.04 * (x / 0.04).round();
+    let ahead = |x: &f64| x + 1e-4;
+    for (reference, likewise) in [
+        (
+            position
+                .iter()
+                .map(|x| wrapped(&ahead(x)))
+                .collect::<Vec<_>>(),
+            true,
+        ),
+        (
+            position.iter().map(|x| ahead(x) - 7.0 * 0.04).collect(),
+            true,
+        ),
+        (position.iter().map(ahead).collect(), false),
+    ] {
+        let mut table = axis(4000).table();
+        table.columns[1].values = position.iter().map(wrapped).collect();
+        table.columns.push(column("reference [m]", reference));
+        let mapping = Mapping {
+            wrap: Some(Wrap::Travel(0.04)),
+            ..Mapping::default()
+        };
+        let log = Log::from_table(&table, &mapping).unwrap();
+        let [x, r] = [&log.position, &log.reference].map(|x| x.as_ref().unwrap());
+        for (x, r) in x.iter().zip(r) {
+            assert!((r - x - 1e-4).abs() < 1e-9, "{x} {r}");
+        }
+        let said = message(&log, "position-wrap");
+        assert_eq!(
+            said.ends_with("; the reference likewise"),
+            likewise,
+            "{said}"
+        );
+    }
 }
 
 /// A counter of 16 bits, signed or not, starts again while the axis goes on.

@@ -1,0 +1,98 @@
+//! Units at the end of names: `Zeit_ms`, `J3_q_act_deg`.
+
+use super::channel::{Channel, Motion, Role};
+use super::choose::allows;
+use super::convert::of_role;
+use super::names::{self, Hint};
+use crate::{Dimension, Table, Unit};
+
+/// The endings that are units. Those of one letter are other things too: a motor, a phase, an axis, a sample.
+const UNITS: &[&str] = &[
+    "ms", "us", "s", "deg", "rad", "mm", "um", "m", "Nm", "N", "mA", "A",
+];
+
+/// A name without the unit at its end, and that; `None` where it ends in none.
+fn apart(name: &str) -> Option<(&str, &'static str)> {
+    let (stem, ending) = name.trim().rsplit_once('_')?;
+    let unit = UNITS.iter().find(|unit| **unit == ending)?;
+    (!stem.is_empty()).then_some((stem, unit))
+}
+
+/// Whether the ending of a name is one of several letters that tell columns apart: `pos_m` and `pos_l`, motor and load.
+fn counts_columns(table: &Table, index: usize, stem: &str) -> bool {
+    let others = table
+        .columns
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| *i != index);
+    let mut others = others.filter_map(|(_, other)| other.name.trim().rsplit_once('_'));
+    others.any(|(other, ending)| other == stem && !UNITS.contains(&ending))
+}
+
+/// What a name without its ending says of the role that the unit fits, if anything; `None` where the ending is no unit.
+fn read(table: &Table, index: usize) -> Option<(&str, Unit, Option<Hint>)> {
+    let column = &table.columns[index];
+    if column.unit.as_deref().is_some_and(|u| !u.trim().is_empty()) {
+        return None;
+    }
+    let (stem, ending) = apart(&column.name)?;
+    let unit = Unit::parse(ending).ok()?;
+    let hint = names::hint(stem);
+    let one_letter = ending.len() == 1;
+    let fits = match hint {
+        Some(hint) => {
+            let dimension = of_role(&unit, hint.role).dimension();
+            // An angle in metres: the letter is that of a motor.
+            let angle = names::motion(stem) == Some(Motion::Rotary);
+            let turned = angle && dimension == Dimension::LENGTH;
+            allows(hint.role, dimension) && !turned && !(ending == "m" && hint.weak)
+        }
+        None => !one_letter,
+    };
+    let told_apart = one_letter && counts_columns(table, index, stem);
+    (fits && !told_apart).then_some((stem, unit, hint))
+}
+
+/// The unit at the end of a column's name, where nothing else gives one.
+pub(super) fn unit(table: &Table, index: usize) -> Option<Unit> {
+    read(table, index).map(|(_, unit, _)| unit)
+}
+
+/// The name of a column without the unit at its end.
+pub(super) fn stem(table: &Table, index: usize) -> &str {
+    match read(table, index) {
+        Some((stem, ..)) => stem,
+        None => &table.columns[index].name,
+    }
+}
+
+/// What a column's name says.
+pub(super) fn hint(table: &Table, index: usize) -> Option<Hint> {
+    match read(table, index) {
+        Some((.., hint)) => hint,
+        None => names::hint(&table.columns[index].name),
+    }
+}
+
+/// The unit at the end of the name of a column that has a role.
+pub(super) fn of_channel(
+    table: &Table,
+    index: usize,
+    channel: &Channel,
+    role: Role,
+) -> Option<Unit> {
+    let unit = unit(table, index).or_else(|| {
+        // Whoever gave the role said what the letter could be; metres may be a motor still.
+        let (stem, ending) = apart(&table.columns[index].name)?;
+        let open = names::hint(stem).is_none() && ending != "m";
+        let open = open && !counts_columns(table, index, stem);
+        Unit::parse(ending).ok().filter(|_| open)
+    })?;
+    let own = of_role(&unit, role).dimension();
+    let scaled = match &channel.scale {
+        None => Some(own),
+        Some(scale) => own.times(scale.unit.dimension()),
+    };
+    let fits = |dimension: Dimension| allows(role, dimension) || role == Role::Load;
+    scaled.is_some_and(fits).then_some(unit)
+}
