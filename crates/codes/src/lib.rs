@@ -154,6 +154,7 @@ codes! {
     ExportSimplified = "export-simplified": "the joint of a simulation has Coulomb and viscous friction only",
     ExportSupported = "export-supported": "parameters that the log leaves open make no more force than it supports",
     ExportTerms = "export-terms": "terms other than friction are not in the compensator",
+    ExportWrap = "export-wrap": "the position of the log wraps, and friction or a force depends on it without that period",
     ExportSource = "export-source": "FMUs were written without a binary",
     ExportedDiffers = "exported-differs": "exported C gives another force than the compensator of its model",
     LongSteps = "long-steps": "the bristles are too stiff for the steps of the simulation",

@@ -217,28 +217,33 @@ fn released(model: &Model, law: &LuGre<f64>, target: Target) -> Option<Advice> {
             &mut low
         } = middle;
     }
-    let outcome = match target {
-        Target::Mujoco => {
-            "MuJoCo keeps it constant; if the joint trembles where it should stand still, take a smaller one"
-        }
-        _ => {
-            "The exported code limits sigma1 to the passive value at each speed, so its force differs from that of the identified law where the speed changes suddenly"
-        }
-    };
     let whose = match model.top_speed {
         Some(_) => "the largest speed of the log",
         None => "a hundred Stribeck velocities",
     };
+    let at = format!(
+        "{} {speed} ({whose})",
+        short(top),
+        speed = model.speed_unit()
+    );
+    let unit = format!("{} s/{}", model.force_unit(), model.length_unit());
+    let outcome = match target {
+        Target::Mujoco => format!(
+            "{} {unit} would be at {at}; MuJoCo keeps it constant: if the joint trembles where it should stand still, take a smaller one",
+            short(least)
+        ),
+        _ => format!(
+            "the code has at most {} {unit} at {at}: nothing to do",
+            short(least)
+        ),
+    };
     Some(Advice {
         code: Code::ExportDamping,
         message: format!(
-            "sigma1 = {} {unit} as a constant would release energy: it is not passive above {} {speed}, and at {} {speed} ({whose}) no more than {} {unit} is. {outcome}",
+            "sigma1 = {} {unit} is passive up to {} {} only; {outcome}",
             short(sigma1),
             short(high),
-            short(top),
-            short(least),
-            unit = format_args!("{} s/{}", model.force_unit(), model.length_unit()),
-            speed = model.speed_unit(),
+            model.speed_unit(),
         ),
     })
 }

@@ -103,9 +103,10 @@ fn literal(terms: &Terms<f64>) -> String {
     let both = |x: [f64; 2]| format!("[{}, {}]", number(x[0]), number(x[1]));
     let channel = |c: Channel<f64>| {
         format!(
-            "Channel {{ reference: {}, range: {} }}",
+            "Channel {{ reference: {}, range: {}, turns: {} }}",
             number(c.reference),
-            both(c.range)
+            both(c.range),
+            c.turns
         )
     };
     let wave = |w: &Wave<f64>| match w.rate > 0.0 {

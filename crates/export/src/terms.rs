@@ -3,6 +3,7 @@
 use crate::Model;
 use crate::number::Literal;
 use crate::template::Fill;
+use std::f64::consts::TAU;
 use stiction_friction::Real;
 use stiction_friction::compensator::{
     Channel, Channels, Input, Levels, Terms, WAVES, Wave, Weight,
@@ -107,6 +108,7 @@ pub(crate) fn cast<T: Real>(terms: &Terms<f64>) -> Terms<T> {
     let channel = |c: &Channel<f64>| Channel {
         reference: to(c.reference),
         range: both(c.range),
+        turns: c.turns,
     };
     let wave = |w: Wave<f64>| Wave {
         rate: to(w.rate),
@@ -260,6 +262,9 @@ pub(crate) fn fill<T: Literal>(fill: &mut Fill, terms: &Terms<T>, syntax: &Synta
         fill.flag(flag, extras.contains(&extra));
     }
     let c = &terms.channels;
+    fill.flag("turns", c.position.turns)
+        .set("position_middle", (syntax.number)(c.position.middle()))
+        .set("turn", (syntax.number)(T::from_f64(TAU)));
     for (keys, channel) in [
         (["load_reference", "load_low", "load_high"], c.load),
         (
@@ -352,10 +357,10 @@ pub(crate) fn interface(model: &Model) -> (Vec<String>, Vec<String>) {
                 extra.name(),
                 model.length_unit(),
                 ends(*extra),
-                if any_whole(terms) {
-                    ", and beyond for waves that repeat"
-                } else {
-                    ""
+                match (terms.channels.position.turns, any_whole(terms)) {
+                    (true, _) => "; whole turns do not count",
+                    (false, true) => ", and beyond for waves that repeat",
+                    (false, false) => "",
                 },
             ),
             Extra::Load => format!(

@@ -53,6 +53,8 @@ pub trait Real:
     fn min(self, other: Self) -> Self;
     /// Neither infinite nor NaN.
     fn is_finite(self) -> bool;
+    /// The largest whole number that is not above self.
+    fn floor(self) -> Self;
     /// Square root.
     fn sqrt(self) -> Self;
     /// e to the power of self.
@@ -72,7 +74,7 @@ pub trait Real:
 }
 
 macro_rules! real {
-    ($t:ident, $series_below:literal, $sqrt:ident, $exp:path, $expm1:path, $ln:ident, $sin:ident, $cos:ident, $tanh:ident, $pow:ident) => {
+    ($t:ident, $series_below:literal, $floor:ident, $sqrt:ident, $exp:path, $expm1:path, $ln:ident, $sin:ident, $cos:ident, $tanh:ident, $pow:ident) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -102,6 +104,10 @@ macro_rules! real {
             #[inline]
             fn is_finite(self) -> bool {
                 $t::is_finite(self)
+            }
+            #[inline]
+            fn floor(self) -> Self {
+                libm::$floor(self)
             }
             #[inline]
             fn sqrt(self) -> Self {
@@ -142,6 +148,7 @@ macro_rules! real {
 real!(
     f32,
     0.2,
+    floorf,
     sqrtf,
     libm::expf,
     libm::expm1f,
@@ -151,4 +158,4 @@ real!(
     tanhf,
     powf
 );
-real!(f64, 0.01, sqrt, exp, expm1, log, sin, cos, tanh, pow);
+real!(f64, 0.01, floor, sqrt, exp, expm1, log, sin, cos, tanh, pow);

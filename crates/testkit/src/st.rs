@@ -54,6 +54,8 @@ enum Function {
     Expt,
     Min,
     Max,
+    ToDint,
+    OfDint,
 }
 
 #[derive(Clone)]
@@ -206,6 +208,10 @@ impl Instance {
                     Function::Sqrt => self.arithmetic(x.sqrt()),
                     Function::Cos => self.arithmetic(x.cos()),
                     Function::Expt => self.arithmetic(x.powf(self.eval(&arguments[1]))),
+                    // A conversion rounds to the nearest, and to the even one of two.
+                    Function::ToDint if x.abs() < 2147483648.0 => x.round_ties_even(),
+                    Function::ToDint => panic!("{x} as a DINT"),
+                    Function::OfDint => self.arithmetic(x),
                     Function::Min => x.min(self.eval(&arguments[1])),
                     Function::Max => x.max(self.eval(&arguments[1])),
                 }
@@ -418,6 +424,8 @@ impl<'l> Loader<'l> {
                     "SQRT" => (Function::Sqrt, 1),
                     "COS" => (Function::Cos, 1),
                     "EXPT" => (Function::Expt, 2),
+                    "LREAL_TO_DINT" | "REAL_TO_DINT" => (Function::ToDint, 1),
+                    "DINT_TO_LREAL" | "DINT_TO_REAL" => (Function::OfDint, 1),
                     "MIN" => (Function::Min, 2),
                     "MAX" => (Function::Max, 2),
                     other => return Err(format!("function {other}")),

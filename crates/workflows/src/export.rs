@@ -1,6 +1,9 @@
 //! `stiction export`: a model file to the compensator's code.
 
+mod adapting;
+mod reserve;
 mod terms;
+mod wrapped;
 
 use crate::compile;
 use crate::error::Error;
@@ -85,6 +88,8 @@ pub struct Exported {
     pub target: &'static str,
     /// Beginning of the names in the code.
     pub name: String,
+    /// Whether nothing gave that name: it is the file name of the log.
+    pub named_after_log: bool,
     /// Law.
     pub law: String,
     /// Time between two calls, s.
@@ -105,6 +110,19 @@ pub struct Exported {
     pub warnings: Vec<Warning>,
     /// Whether the identification found that the law may be used to compensate.
     pub trustworthy: bool,
+    /// Where the default gain leaves more of the friction than the identification leaves open: that gain, and how well friction is
+    /// known, percent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reserve: Option<Reserve>,
+}
+
+/// A gain with a margin that the identification does not need.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
+pub struct Reserve {
+    /// Fraction of the friction that is compensated.
+    pub gain: f64,
+    /// Half of the widest 95 % interval of the levels of friction, or how far friction was from its mean in the log, percent.
+    pub known_within_percent: f64,
 }
 
 /// Longest ramp and window, and longest time in which the slew limit lets friction at standstill through, s.
@@ -281,9 +299,11 @@ fn code(read: &ReadModel, options: &ExportOptions) -> Result<Exported, Error> {
         }
         target => stiction_export::export(&model, target).map_err(|e| place(e, read, options))?,
     };
+    let gain = model.settings.gain;
     Ok(Exported {
         target: options.target.name(),
         name: model.identifier,
+        named_after_log: options.name.is_none() && read.model.name.is_none(),
         law: read.model.law.clone(),
         cycle_time: model.settings.cycle_time,
         limit: model.settings.limit,
@@ -292,6 +312,7 @@ fn code(read: &ReadModel, options: &ExportOptions) -> Result<Exported, Error> {
         written: files.iter().map(|f| f.path.clone()).collect(),
         files,
         trustworthy: read.model.trustworthy,
+        reserve: reserve::of(&read.model, options, gain),
         warnings,
     })
 }
@@ -323,7 +344,7 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
             e.allowed,
         ),
     })?;
-    let title = file.name.clone().unwrap_or_else(|| "axis".into());
+    let title = title(file);
     let identifier = match &options.name {
         Some(name) => name.clone(),
         None => stiction_export::identifier(&title),
@@ -392,6 +413,7 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         taken.extend(quadratic(file));
     }
     let mut warnings = doubts(file, beside.as_ref(), &taken);
+    warnings.extend(beside.as_ref().and_then(|b| wrapped::doubt(file, b)));
     if options.adapt {
         // What a smaller gain guards against, levels that are wrong, is found; what it leaves would stay.
         settings.gain = options.gain.unwrap_or(1.0);
@@ -400,7 +422,11 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
             mass: mass.unwrap_or(0.0),
             ..Adaptation::default()
         });
-        warnings.extend(taken_for_friction(file, mass, options.feedforward));
+        warnings.extend(adapting::taken_for_friction(
+            file,
+            mass,
+            options.feedforward,
+        ));
     }
     warnings.extend(less(&lowered, options.limit.is_none()));
     if options.name.is_none() && !stiction_export::is_whole(&title) {
@@ -451,6 +477,19 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         },
     };
     Ok((model, warnings))
+}
+
+/// The name of the axis, else that of its first log, so that two axes have two names.
+fn title(file: &ModelFile) -> String {
+    let log = file
+        .source
+        .inputs
+        .first()
+        .map(|input| Path::new(&input.path));
+    let stem = log
+        .and_then(Path::file_stem)
+        .map(|stem| stem.to_string_lossy().into_owned());
+    file.name.clone().or(stem).unwrap_or_else(|| "axis".into())
 }
 
 /// Refuses a limit that the weight alone exceeds: an axis that is held by less falls.
@@ -665,33 +704,6 @@ fn known_mass(file: &ModelFile) -> Option<f64> {
     let mass = file.parameter.iter().find(|p| p.name == "mass")?;
     let known = mass.value > 0.0 && (mass.identifiable || mass.origin == "given");
     known.then_some(mass.value)
-}
-
-/// What levels that follow the force of the drive would take for friction.
-fn taken_for_friction(file: &ModelFile, mass: Option<f64>, fed: Feedforward) -> Option<Warning> {
-    let has = |stem: &str| file.parameter.iter().any(|p| p.name.starts_with(stem));
-    let taken = [
-        (
-            mass.is_none(),
-            "what accelerates the axis, since the model has no mass that the log determines",
-        ),
-        (has("gravity_") && !fed.gravity, "gravity"),
-        (has("cogging") && !fed.cogging, "cogging"),
-    ];
-    let taken: Vec<&str> = taken
-        .into_iter()
-        .filter_map(|(is, what)| is.then_some(what))
-        .collect();
-    (!taken.is_empty()).then(|| {
-        Warning::new(
-            Code::ExportAdaptation,
-            format!(
-                "levels that follow the force of the drive take for friction: {}. Subtract it from the force that goes in, or let them \
-                 learn only where it is small",
-                taken.join("; ")
-            ),
-        )
-    })
 }
 
 /// Where less is used than was identified; `limited` where the limit follows from it.

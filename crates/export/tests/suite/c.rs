@@ -461,6 +461,21 @@ int main(void)
         damaged.number[k] += (damaged.number[k] == memory.number[k]) ? 1e-300 : 0.0;
         taken += x_axis_recall(&params, &morning, &damaged) ? 1 : 0;
     }
+    /* levels beyond their band, and a mean square beyond the square of the peak */
+    const int at[] = { 1, 2, 2, 3 };
+    const double no[] = { 5.0, -5.0, 0.4, 1e9 };
+    for (int k = 0; k < 4; k++) {
+        x_axis_memory_t strange_one = memory;
+        strange_one.number[at[k]] = no[k];
+        strange_one.number[at[k] + 6] = -no[k];
+        taken += x_axis_recall(&params, &morning, &strange_one) ? 1 : 0;
+    }
+    /* while force is let out */
+    const x_axis_input_t moving = { 0.05, 1e-9, true, 1.0, false };
+    (void)x_axis_step(&params, &morning, &moving);
+    taken += (morning.share > 0.0) ? 0 : 10;
+    taken += x_axis_recall(&params, &morning, &memory) ? 1 : 0;
+    (void)x_axis_init(&params, &morning);
     const x_axis_memory_t none = { { 0.0 } };
     taken += x_axis_recall(&params, &morning, &none) ? 1 : 0;
     other_params_t strange;

@@ -178,7 +178,7 @@ fn advice_is_given_where_it_applies() {
         (
             2e3,
             0.03,
-            "it is not passive above 0.02784 m/s, and at 0.03 m/s (the largest speed of the log) no more than 1860 N s/m is",
+            "is passive up to 0.02784 m/s only; the code has at most 1860 N s/m at 0.03 m/s (the largest speed of the log): nothing to do",
         ),
     ] {
         let mut model = change(2e6, Damping::Constant(sigma1));
@@ -265,6 +265,7 @@ fn a_limit_is_held_against_the_sum() {
     model.terms.channels.temperature = Channel {
         reference: 300.0,
         range: [290.0, 304.0],
+        turns: false,
     };
     model.terms.levels = Some(Levels {
         temperature: [-0.05, -0.05],

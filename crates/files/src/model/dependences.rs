@@ -145,9 +145,15 @@ impl ModelFile {
         self.source.top_speed.or(self.range.speed)
     }
 
-    /// The positions that the log has seen.
+    /// The positions that the log has seen. Of a rotary axis that it saw within less than a turn whole turns do not count: an encoder
+    /// may begin anywhere, and wrap.
     pub fn place(&self) -> Option<Channel<f64>> {
-        self.channel(self.range.position, "position_reference")
+        let place = self.channel(self.range.position, "position_reference")?;
+        let [low, high] = place.range;
+        Some(Channel {
+            turns: self.kind == "rotary" && high - low < TAU,
+            ..place
+        })
     }
 
     /// A channel with the reference of the model, within the range that the log saw.
@@ -159,6 +165,7 @@ impl ModelFile {
         (low <= reference && reference <= high).then_some(Channel {
             reference,
             range: [low, high],
+            turns: false,
         })
     }
 }

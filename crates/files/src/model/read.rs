@@ -403,6 +403,7 @@ fn range(table: &Table<'_>) -> Result<RangeEntry, Error> {
     };
     let range = RangeEntry {
         position: ends("position")?,
+        wrap: largest("wrap")?,
         load: ends("load")?,
         temperature: ends("temperature")?,
         transmitted: ends("transmitted")?,

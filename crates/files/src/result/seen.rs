@@ -8,6 +8,9 @@ pub struct RangeEntry {
     /// Position, m or rad.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub position: Option<[f64; 2]>,
+    /// Travel after which the position of the log wraps, m or rad; the positions are unwrapped.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub wrap: Option<f64>,
     /// Normal load, in its unit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load: Option<[f64; 2]>,

@@ -10,7 +10,7 @@ use crate::Real;
 /// What is known of the forces beside the law.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Beside<T> {
-    /// Load, temperature, position and what is transmitted as they came in last.
+    /// Load, temperature, position (where whole turns do not count, in its turn) and what is transmitted as they came in last.
     pub seen: [T; 4],
     /// What these add to the force of the law, N (N m).
     pub changed: T,
@@ -94,7 +94,7 @@ impl<T: Real> Terms<T> {
         let came = [
             input.load,
             input.temperature,
-            input.position,
+            self.channels.position.turned(input.position),
             input.transmitted,
         ];
         for (seen, came) in beside.seen.iter_mut().zip(came) {

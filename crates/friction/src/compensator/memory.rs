@@ -15,14 +15,18 @@ const VERSION: u64 = 1;
 /// Keys are whole numbers below this: single precision holds each of them exactly, and so do tools that write six digits.
 const KEYS: u64 = 1_000_000;
 
-/// A memory that was not taken: of another law, mass or version, or damaged.
+/// Part of the rms error that the peak is at least, but for rounding.
+const LEAST_PEAK: f64 = 0.999;
+
+/// A memory that was not taken: of another law, mass or version, damaged, beyond what can be learnt, or too late.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ForeignMemory;
 
 impl fmt::Display for ForeignMemory {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(
-            "the memory is of another model or version, or damaged; nothing was taken from it",
+            "the memory is of another model or version, damaged or beyond what can be learnt, or force is let out already; \
+             nothing was taken from it",
         )
     }
 }
@@ -52,12 +56,12 @@ impl<T: Real> Compensator<T> {
         core::array::from_fn(|k| if k < KEPT { kept[k] } else { -kept[k - KEPT] })
     }
 
-    /// Takes what [`memory`](Self::memory) gave before: levels, held within the range of the adaptation, and what the watchdog
-    /// had learnt, so that compensation may come in at once. A watchdog that had switched off still has. To be called before the
-    /// first step.
+    /// Takes what [`memory`](Self::memory) gave before: levels, and what the watchdog had learnt, so that compensation may come in
+    /// at once. A watchdog that had switched off still has. To be called before the first step.
     ///
     /// # Errors
-    /// Where the memory is of another law, mass or version, or damaged; nothing is taken then.
+    /// Where the memory is of another law, mass or version, damaged, has a level beyond the range of the adaptation or a mean square
+    /// beyond the square of the peak, or where force is let out already; nothing is taken then.
     ///
     /// ```
     /// # use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
@@ -85,13 +89,15 @@ impl<T: Real> Compensator<T> {
             _ => return Err(ForeignMemory),
         };
         let own = key == T::from_f64(f64::from(self.key()));
-        let credible = forward > T::ZERO && back > T::ZERO && peak >= T::ZERO;
+        let running = self.state.share > T::ZERO;
+        let rms = without.max(T::ZERO).sqrt();
+        let possible = peak >= T::ZERO && T::from_f64(LEAST_PEAK) * rms <= peak;
+        let credible = !running && possible && self.takes([forward, back]);
         if !(whole && own && credible && (known || without == -T::ONE)) {
             return Err(ForeignMemory);
         }
-        if let Some(Adaptation { range, .. }) = self.settings.adaptation {
-            let held = |level: T| level.max(T::ONE - range).min(T::ONE + range);
-            self.state.learnt.recall([held(forward), held(back)]);
+        if self.settings.adaptation.is_some() {
+            self.state.learnt.recall([forward, back]);
         }
         // One that has switched off since is not armed again.
         let trip = self.state.watch.trip.or(trip);
@@ -103,6 +109,15 @@ impl<T: Real> Compensator<T> {
             },
         };
         Ok(())
+    }
+
+    /// Whether levels are within the range of the adaptation; without one they count for nothing, and are above 0.
+    fn takes(&self, levels: [T; 2]) -> bool {
+        let within = |level: T| match self.settings.adaptation {
+            Some(Adaptation { range, .. }) => level >= T::ONE - range && level <= T::ONE + range,
+            None => level > T::ZERO,
+        };
+        levels.into_iter().all(within)
     }
 
     /// A whole number below 10^6 that another law or mass hardly shares; the code that is exported has it as a constant.

@@ -14,6 +14,8 @@ pub struct Channel<T> {
     pub reference: T,
     /// Least and largest value that the identification saw: what comes in is held within them.
     pub range: [T; 2],
+    /// An angle, rad, of which whole turns do not count: what comes in is taken in the turn nearest to the middle of the range.
+    pub turns: bool,
 }
 
 /// What comes in beside the motion.
@@ -155,14 +157,37 @@ pub(super) struct Away<T> {
     pub driven: [T; 2],
 }
 
-/// A position as it came in last, and within the range of the identification, m (rad).
+/// A position as it came in last, in its turn where whole turns do not count, and within the range of the identification, m (rad).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place<T> {
     pub came: T,
     pub within: T,
 }
 
+/// Turns away from the middle of a range up to which an angle is taken back; what is farther away is held at the end.
+const MOST_TURNS: f64 = 1e6;
+
 impl<T: Real> Channel<T> {
+    /// Middle of the range.
+    pub fn middle(&self) -> T {
+        let [low, high] = self.range;
+        low + T::from_f64(0.5) * (high - low)
+    }
+
+    /// An angle of which whole turns do not count, in the turn nearest to the middle of the range; anything else as it is.
+    #[inline]
+    pub(super) fn turned(&self, x: T) -> T {
+        if !self.turns {
+            return x;
+        }
+        let turn = T::from_f64(core::f64::consts::TAU);
+        let turns = (x - self.middle()) / turn;
+        match turns.abs() <= T::from_f64(MOST_TURNS) {
+            true => x - turn * nearest(turns),
+            false => x,
+        }
+    }
+
     #[inline]
     pub(super) fn within(&self, x: T) -> T {
         x.max(self.range[0]).min(self.range[1])
@@ -185,6 +210,16 @@ impl<T: Real> Channel<T> {
     fn reach(&self) -> T {
         let [low, high] = self.range;
         (high - self.reference).max(self.reference - low)
+    }
+}
+
+/// The nearest whole number, between two the upper one.
+#[inline]
+fn nearest<T: Real>(x: T) -> T {
+    let below = x.floor();
+    match x - below >= T::from_f64(0.5) {
+        true => below + T::ONE,
+        false => below,
     }
 }
 
@@ -288,11 +323,12 @@ impl<T: Real> Levels<T> {
     /// N s/m (N m s/rad).
     pub fn changes(&self, channels: &Channels<T>, seen: [T; 3], sigma2: [T; 2]) -> Changes<T> {
         let [load, temperature, position] = seen;
+        let position = channels.position.turned(position);
         let away = Away {
             driven: [T::ZERO; 2],
             ..channels.away([load, temperature, position, channels.transmitted.reference])
         };
-        let place = channels.place(seen[2]);
+        let place = channels.place(position);
         Changes {
             level: [0, 1].map(|side| self.factor(side, &away, place)),
             viscous: self.viscous.map(|slope| slope * away.temperature),
@@ -417,10 +453,18 @@ impl<T: Real> Terms<T> {
         slopes.into_iter().flatten().for_each(&mut *take);
         take(levels.top_speed);
         let c = &self.channels;
-        for Channel { reference, range } in [c.load, c.temperature, c.position, c.transmitted] {
+        for channel in [c.load, c.temperature, c.position, c.transmitted] {
+            let Channel {
+                reference,
+                range,
+                turns,
+            } = channel;
             [reference, range[0], range[1]]
                 .into_iter()
                 .for_each(&mut *take);
+            if turns {
+                take(T::ONE);
+            }
         }
         [weight.constant, self.mass]
             .into_iter()

@@ -115,9 +115,10 @@ fn foreign_memories_are_refused() {
     assert!(own.recall(&[f64::NAN; MEMORY]).is_err());
 }
 
-/// Levels beyond the range of the adaptation are held within it; without adaptation there are none.
+/// What cannot have been learnt is refused whole: a level beyond the range of the adaptation, a mean square beyond the square of the
+/// peak; and so is a memory that comes while force is let out. Without adaptation levels count for nothing.
 #[test]
-fn levels_are_held_in_range() {
+fn what_cannot_be_is_refused() {
     let memory = learnt(false).memory();
     let narrow = Settings {
         adaptation: Some(Adaptation {
@@ -128,8 +129,26 @@ fn levels_are_held_in_range() {
     };
     let law = bristles(Shape::Gaussian);
     let mut held = Compensator::new(law, Source::Reference, narrow).unwrap();
-    held.recall(&memory).unwrap();
-    assert_eq!(held.state().learnt.levels, [1.1, 1.1]);
+    assert!(held.recall(&memory).is_err());
+    assert_eq!(held.state().learnt.levels, [1.0, 1.0]);
+    let mut own = Compensator::new(law, Source::Reference, settings(0.0)).unwrap();
+    for (at, value) in [(1, 5.0), (2, -5.0), (2, 0.0), (3, 1e9)] {
+        let mut foreign = memory;
+        (foreign[at], foreign[at + MEMORY / 2]) = (value, -value);
+        let was = own;
+        assert!(own.recall(&foreign).is_err(), "{at}: {value}");
+        assert_eq!(own, was);
+    }
+    own.recall(&memory).unwrap();
+    let running = Input {
+        reference_velocity: 0.05,
+        tracking_error: 1e-9,
+        enable: true,
+        ..Input::default()
+    };
+    own.step(running);
+    assert!(own.state().share > 0.0);
+    assert!(own.recall(&memory).is_err());
     let without = Settings {
         adaptation: None,
         ..narrow

@@ -14,6 +14,7 @@ fn channel(reference: f64, low: f64, high: f64) -> Channel<f64> {
     Channel {
         reference,
         range: [low, high],
+        turns: false,
     }
 }
 
@@ -454,6 +455,86 @@ fn no_terms_are_no_change() {
         assert_eq!(plain.step(input), other.step(input));
     }
     assert_eq!(plain.state().share, 0.75);
+}
+
+/// A joint that was identified within 5.28 to 7.48 rad, whose encoder wraps at a turn, gets the same weight and the same level from
+/// the signal that wraps as from the one that does not; beyond the range the end that is nearer by the turn.
+#[test]
+fn whole_turns_of_an_angle_do_not_count() {
+    let turn = core::f64::consts::TAU;
+    let place = Channel {
+        reference: 6.4,
+        range: [5.283, 7.483],
+        turns: true,
+    };
+    let gravity = Wave {
+        rate: 1.0,
+        whole: false,
+        sine: 7.0,
+        cosine: -2.0,
+    };
+    let ripple = Wave {
+        rate: 7.0,
+        whole: true,
+        ..gravity
+    };
+    let terms = Terms {
+        channels: Channels {
+            position: place,
+            ..Channels::default()
+        },
+        levels: Some(Levels {
+            position: [0.05, 0.02],
+            ..Levels::default()
+        }),
+        weight: Some(Weight {
+            constant: 0.0,
+            wave: gravity,
+        }),
+        cogging: waves(ripple),
+        ..Terms::default()
+    };
+    let force = |q: f64| {
+        let mut compensator = bare(terms);
+        (0..400).fold(0.0, |_, _| compensator.step(at(0.2, 0.0, 0.0, q)));
+        let parts = compensator.state().beside.parts;
+        [parts.gravity, parts.cogging, parts.friction]
+    };
+    for q in [5.3, 6.0, 6.283, 6.4, 1.19 + turn] {
+        let due = force(q);
+        assert!((due[0] - (7.0 * q.sin() - 2.0 * q.cos())).abs() < 1e-12);
+        for turns in [-1000.0, -2.0, -1.0, 1.0, 30.0] {
+            let found = force(q + turns * turn);
+            for (a, b) in due.iter().zip(found) {
+                assert!((a - b).abs() < 1e-9, "{q} {turns}: {a} {b}");
+            }
+        }
+    }
+    // Half a turn from the middle the nearer end changes; what is farther than any turn is the end.
+    let gravity = |q: f64| force(q)[0];
+    assert!((gravity(6.383 + 3.1) - gravity(7.483)).abs() < 1e-12);
+    assert!((gravity(6.383 + 3.2) - gravity(5.283)).abs() < 1e-12);
+    assert!((gravity(1e300) - gravity(7.483)).abs() < 1e-12);
+    // An axis that was moved by more than a turn is where its position says.
+    let wide = Channel {
+        range: [0.0, 8.0],
+        turns: false,
+        ..place
+    };
+    let mut open = terms;
+    open.channels.position = wide;
+    open.weight = Some(Weight {
+        constant: 0.0,
+        wave: Wave {
+            whole: true,
+            ..terms.weight.unwrap().wave
+        },
+    });
+    let mut compensator = bare(open);
+    let q = 25.0_f64;
+    compensator.step(at(0.2, 0.0, 0.0, q));
+    let parts = compensator.state().beside;
+    assert!((parts.parts.gravity - parts.held * (7.0 * q.sin() - 2.0 * q.cos())).abs() < 1e-12);
 }
 
 /// What cannot be is refused by name.

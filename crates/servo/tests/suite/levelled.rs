@@ -24,7 +24,11 @@ fn law() -> Law {
 
 /// 20 % more a metre and 1 % less a kelvin, a wave of 3 % with a pitch of 20 mm, and half as much again of the load.
 fn depends() -> Depends {
-    let channel = |reference: f64, range: [f64; 2]| Channel { reference, range };
+    let channel = |reference: f64, range: [f64; 2]| Channel {
+        reference,
+        range,
+        turns: false,
+    };
     let mut levels = Levels {
         load: [0.004, 0.005],
         temperature: [-0.01; 2],

@@ -623,7 +623,7 @@ fn what_is_said() {
         ("beyond REAL", &beyond, |o| o.target = Target::St),
         ("nothing in REAL", &tiny, |o| o.target = Target::St),
         ("too stiff for the cycle", &stiff, |_| {}),
-        ("not passive", &active, |_| {}),
+        ("is passive up to", &active, |_| {}),
         ("asymmetric in MuJoCo", &asymmetric, |o| {
             o.target = Target::Mujoco
         }),
@@ -722,6 +722,117 @@ fn settings_follow_from_the_law_or_are_given() {
     options.target = Target::Mujoco;
     let error = bench.export_to("none", &options).unwrap_err().to_string();
     assert!(error.contains("a ramp for the target mujoco"), "{error}");
+}
+
+/// A model without a name is that of its log, so that two axes have two names in one program.
+#[test]
+fn an_export_without_a_name_is_called_after_its_log() {
+    let model = text("lugre", &LUGRE).replace("name = \"X axis */ (left)\"\n", "");
+    let bench = Bench::new();
+    for (path, name) in [
+        ("logs/lin 2.csv", "lin_2"),
+        ("J3.axis.parquet", "J3_axis"),
+        ("4711.csv", "axis_4711"),
+    ] {
+        let exported = bench.export_to(name, &bench.options(&model.replace("log.csv", path)));
+        let exported = exported.unwrap();
+        assert_eq!(
+            (exported.name.as_str(), exported.named_after_log),
+            (name, true)
+        );
+        let said = text::exported(&exported, &bench.path(name));
+        assert!(
+            said.contains(&format!(
+                "compensator `{name}`, named after its log (--name gives another), for a cycle"
+            )),
+            "{said}"
+        );
+    }
+    let named = bench.export_to("named", &bench.options(&text("lugre", &LUGRE)));
+    assert!(!named.unwrap().named_after_log);
+}
+
+/// Where friction is known better than the default gain needs, the step after it is named; not where the log leaves more open, or
+/// where a gain was asked for.
+#[test]
+fn the_whole_force_is_named_where_it_is_warranted() {
+    let known = |percent: f64, level: f64| {
+        let mut out = text("lugre", &LUGRE);
+        for (_, value, _) in LUGRE {
+            let [low, high] = [-1.0, 1.0].map(|sign| value + sign * 0.1 * value);
+            let [less, more] = [-1.0, 1.0].map(|sign| value * (1.0 + sign * 0.01 * percent));
+            out = out.replace(
+                &format!("ci95 = [{low:?}, {high:?}]"),
+                &format!("ci95 = [{less:?}, {more:?}]"),
+            );
+        }
+        out + &format!(
+            "\n[remaining]\nlevel = {level:?}\nplace = 0.1\nplace_length = 0.01\nwandering = 0.1\nmemory = 1.0\n"
+        )
+    };
+    let bench = Bench::new();
+    let said = |model: &str, change: &dyn Fn(&mut ExportOptions)| {
+        let mut options = bench.options(model);
+        change(&mut options);
+        let exported = export_file(bench.path("model.toml"), &options).unwrap();
+        text::exported(&exported, &bench.path("out"))
+    };
+    let line = "a gain of 0.75 leaves 25 % of the friction, and the levels of friction are known within 0.8 %: where it runs well, \
+                export again with --gain 1, or --adapt where friction changes\n";
+    let well = known(0.8, 0.005);
+    let out = said(&well, &|_| {});
+    assert!(out.contains(line), "{out}");
+    let silent: [(&str, &dyn Fn(&mut ExportOptions)); 5] = [
+        (&known(8.0, 0.005), &|_| {}),
+        (&known(0.8, 0.2), &|_| {}),
+        (&text("lugre", &LUGRE), &|_| {}),
+        (&well, &|o| o.gain = Some(0.5)),
+        (&well, &|o| o.adapt = true),
+    ];
+    for (model, change) in silent {
+        let out = said(model, change);
+        assert!(!out.contains("export again"), "{out}");
+    }
+}
+
+/// What levels would take for friction has its remedy in the message.
+#[test]
+fn what_is_taken_for_friction_has_a_remedy() {
+    let model = text("lugre", &beside()) + SEEN;
+    let bench = Bench::new();
+    let mut options = bench.options(&model);
+    options.adapt = true;
+    let exported = bench.export_to("adapt", &options).unwrap();
+    let warned = exported
+        .warnings
+        .iter()
+        .find(|w| w.code.as_str() == "export-adaptation");
+    assert_eq!(
+        warned.unwrap().message,
+        "levels that follow the force of the drive take for friction: cogging. Export with --feedforward friction,cogging, and the \
+         block takes it off by itself; or subtract it from drive_force; or let them learn only where it is small"
+    );
+}
+
+/// The check lists look for a peak where `stiction check` does.
+#[test]
+fn check_lists_have_the_same_peak() {
+    let pages = std::fs::read_dir("../../docs/deploy").unwrap();
+    let mut lists = 0;
+    for page in pages.map(|page| page.unwrap().path()) {
+        let Ok(text) = std::fs::read_to_string(&page) else {
+            continue;
+        };
+        assert!(!text.contains("within 20 ms"), "{}", page.display());
+        lists += text.matches("20 ms before").count();
+        assert_eq!(
+            text.matches("20 ms before").count(),
+            text.matches("to 150 ms after").count(),
+            "{}",
+            page.display()
+        );
+    }
+    assert!(lists >= 8, "{lists}");
 }
 
 /// LuGre with all that friction may depend on, and mass, weight and cogging beside it.

@@ -20,6 +20,7 @@ pub(super) fn range(sources: &[Source], series: &Series, terms: &Terms) -> Range
     };
     RangeEntry {
         position: of(|log| log.position.as_ref()),
+        wrap: sources.iter().find_map(|source| source.log.wrap),
         load: of(|log| log.load.as_ref()),
         temperature: of(|log| log.temperature.as_ref()),
         transmitted: transmitted(sources, terms),

@@ -376,6 +376,7 @@ pub fn single(terms: &Terms<f64>) -> Terms<f32> {
     let channel = |c: Channel<f64>| Channel {
         reference: to(c.reference),
         range: both(c.range),
+        turns: c.turns,
     };
     let wave = |w: Wave<f64>| Wave {
         rate: to(w.rate),

@@ -12,6 +12,7 @@ fn channel(reference: f64, low: f64, high: f64) -> Channel<f64> {
     Channel {
         reference,
         range: [low, high],
+        turns: false,
     }
 }
 
@@ -71,8 +72,10 @@ pub fn bends() -> Terms<f64> {
 
 /// Everything that is fed forward beside friction.
 pub fn feeds() -> Terms<f64> {
+    let mut channels = depends().channels;
+    channels.position.turns = true;
     Terms {
-        channels: depends().channels,
+        channels,
         mass: 4.6,
         weight: Some(Weight {
             constant: 3.5,
@@ -178,7 +181,9 @@ pub fn surround(samples: &mut [Sample], random: &mut impl Rng) {
         x = if x.abs() < 0.5 { x } else { 0.0 };
         load += random.random_range(-2.0..2.0) - 0.01 * (load - 120.0);
         temperature += random.random_range(-0.3..0.3) - 0.01 * (temperature - 300.0);
-        input.position = x;
+        // An angle that wraps, or has gone on for some turns: half a turn from the middle of the range too.
+        let turns = [0.0, 0.0, 1.0, -1.0, 0.5, -3.5, 200.0];
+        input.position = x + std::f64::consts::TAU * turns[k % turns.len()];
         input.load = load;
         input.temperature = temperature;
         input.transmitted = match k % 23 {

@@ -1,0 +1,35 @@
+//! Whether the default gain leaves more than the identification leaves open.
+
+use super::{ExportOptions, Reserve, Target};
+use stiction_files::ModelFile;
+use stiction_parameters::{Name, Quantity};
+
+/// Half width of an interval, percent, up to which the whole force may be let out in the end (decision 0020: some percent).
+const KNOWN_WITHIN: f64 = 5.0;
+
+/// The gain of an export that asked for none, where friction is known better than it needs.
+pub(super) fn of(file: &ModelFile, options: &ExportOptions, gain: f64) -> Option<Reserve> {
+    let has_gain = !options.target.is_simulated() && options.target != Target::DriveTable;
+    if !has_gain || options.gain.is_some() || gain >= 1.0 || !file.trustworthy {
+        return None;
+    }
+    let levels = file.parameter.iter().filter(|p| {
+        let quantity = p.name.parse::<Name>().map(|name| name.quantity);
+        matches!(quantity, Ok(Quantity::Coulomb | Quantity::Static))
+    });
+    // What the log shows of the level at other places and times counts as what is open.
+    let moved = 100.0 * file.remaining.as_ref()?.level;
+    let mut within = Some(moved);
+    for p in levels.filter(|p| p.origin != "given") {
+        let half = p.ci95.filter(|_| p.identifiable).map(|[low, high]| {
+            let far = (high - p.value).max(p.value - low);
+            100.0 * far / p.value.abs()
+        });
+        within = within.zip(half).map(|(a, b)| a.max(b));
+    }
+    let within = within.filter(|within| *within <= KNOWN_WITHIN)?;
+    Some(Reserve {
+        gain,
+        known_within_percent: within,
+    })
+}

@@ -1,0 +1,56 @@
+//! A log that wrapped, and what depends on the place without having that period.
+
+use super::terms::Beside;
+use std::f64::consts::TAU;
+use stiction_codes::Code;
+use stiction_files::{ModelFile, Warning};
+use stiction_friction::compensator::Wave;
+use stiction_parameters::{Name, Quantity};
+
+/// Part of a period by which a wrap may miss a whole number of them: beyond, a wave is a degree off after three turns.
+const MISSED: f64 = 1e-3;
+
+/// What cannot be told from a position that wraps as that of the log did, if anything.
+pub(super) fn doubt(file: &ModelFile, beside: &Beside) -> Option<Warning> {
+    let wrap = file.range.wrap.filter(|wrap| *wrap > 0.0)?;
+    let place = beside.terms.channels.position;
+    if place.turns && repeats(wrap, TAU) {
+        return None;
+    }
+    let told = |wave: &Wave<f64>| wave.rate == 0.0 || wave.whole && repeats(wrap, TAU / wave.rate);
+    let levels = beside.terms.levels.unwrap_or_default();
+    let weight = beside.terms.weight.unwrap_or_default();
+    let waves_told = levels.waves.iter().flatten().all(told);
+    let lost = |name: &String| match name.parse::<Name>().ok()?.quantity {
+        Quantity::CoulombPosition => Some(name.clone()),
+        Quantity::CoulombPitch(..) => (!waves_told).then(|| name.clone()),
+        Quantity::Cogging(..) => (!beside.terms.cogging.iter().all(told)).then(|| name.clone()),
+        Quantity::Gravity(_) => (!told(&weight.wave)).then(|| name.clone()),
+        _ => None,
+    };
+    let lost: Vec<String> = beside.taken.iter().filter_map(lost).collect();
+    if lost.is_empty() {
+        return None;
+    }
+    let unit = match file.kind.as_str() {
+        "rotary" => "rad",
+        _ => "m",
+    };
+    let number = stiction_number::four_digits;
+    let [low, high] = place.range.map(number);
+    Some(Warning::new(
+        Code::ExportWrap,
+        format!(
+            "the position of the log wraps after {} {unit}, and {} depend on it without that period: feed position unwrapped, {low} to {high} {unit} \
+             as identified, not the signal that wraps; beyond that range it counts as its end",
+            number(wrap),
+            lost.join(", ")
+        ),
+    ))
+}
+
+/// Whether a travel is a whole number of periods.
+fn repeats(travel: f64, period: f64) -> bool {
+    let times = travel / period;
+    times.round() >= 1.0 && (times - times.round()).abs() <= MISSED
+}
