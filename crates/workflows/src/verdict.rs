@@ -37,9 +37,11 @@ impl Outcome {
 }
 
 impl Check {
-    /// Whether each log determines a law that may be trusted.
+    /// Whether each log determines a law that may be trusted, and no log follows its reference worse than the first.
     pub fn verdict(&self) -> Verdict {
-        Verdict::new(false, self.logs.iter().all(|log| log.refused.is_none()))
+        let trusted = self.logs.iter().all(|log| log.refused.is_none());
+        let worse = self.tracking.iter().any(|change| change.worse);
+        Verdict::new(false, trusted && !worse)
     }
 }
 

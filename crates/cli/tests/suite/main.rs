@@ -17,6 +17,7 @@ mod resumed;
 mod rows;
 mod searches;
 mod study;
+mod wrapped;
 
 /// What a command said on standard error, without the lines that tell how far long work is: how many there are depends on the
 /// machine.

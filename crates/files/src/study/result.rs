@@ -133,6 +133,9 @@ pub struct PromiseEntry {
     pub left90_percent: [f64; 2],
     /// Axes that were drawn.
     pub draws: usize,
+    /// Fraction of the force that is let through, of a compensator of a law with a given level.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub gain: Option<f64>,
 }
 
 /// A change of the axis while it runs.

@@ -16,8 +16,12 @@ pub fn check(check: &Check) -> String {
     let kind = check.logs.first().map_or("", |log| log.kind.as_str());
     let logs = check.logs.iter().map(|log| log_check(log, axis));
     let changes = check.tracking.iter().map(|change| tracking(change, kind));
-    // Where one log follows a reference, whoever gives several compares them.
-    let compares = check.logs.len() > 1 && check.logs.iter().any(|log| log.tracking.is_some());
+    // Where one log has a reference, whoever gives several compares them.
+    let has_reference = |log: &LogCheck| {
+        let mut roles = log.columns.iter().map(|c| c.role.as_deref());
+        roles.any(|role| role == Some("reference"))
+    };
+    let compares = check.logs.len() > 1 && check.logs.iter().any(has_reference);
     let silent = check.logs.iter().filter(|_| compares).filter_map(|log| {
         let why = log.not_tracked.as_ref()?;
         Some(format!(
@@ -91,9 +95,15 @@ fn tracking(change: &TrackingChange, kind: &str) -> String {
         if log.offset.abs() > log.largest {
             let _ = writeln!(
                 out,
-                "  the errors of {} are without their median of {}: an encoder whose zero is elsewhere",
+                "  the errors of {} are without their median of {}: {}",
                 log.log,
-                micro(log.offset)
+                micro(log.offset),
+                match turns(log.offset).filter(|_| kind == "rotary") {
+                    Some(turns) => format!(
+                        "{turns} between position and reference, of which one wraps; wrap = \"360 deg\" under [log] in the axis file puts both together"
+                    ),
+                    None => "an encoder whose zero is elsewhere".into(),
+                }
             );
         }
         if log.left_out > 0 {
@@ -124,7 +134,7 @@ fn tracking(change: &TrackingChange, kind: &str) -> String {
         if log.largest > 0.5 * log.range {
             let _ = writeln!(
                 out,
-                "  the errors of {} are as large as its motion: look at sign and unit of the reference",
+                "  the errors of {} are as large as its motion: look at sign and unit of the reference, and whether the position wraps (wrap under [log] in the axis file)",
                 log.log
             );
         }
@@ -140,18 +150,33 @@ fn tracking(change: &TrackingChange, kind: &str) -> String {
         Some((time, a, b)) => {
             let _ = writeln!(
                 out,
-                "  worse at {} of {} reversals, most at {} s: {} before, {} after",
+                "  worse at {} of {} reversals, most at {} s: {} before, {} after{}",
                 change.grown.len(),
                 after.peaks.len(),
                 short(*time),
                 micro(*a),
-                micro(*b)
+                micro(*b),
+                match change.worse {
+                    true => "; exit code 1, since that is half of them or more",
+                    false => "",
+                }
             );
         }
         None if change.differs.is_empty() => out.push_str("  worse at no reversal\n"),
         None => {}
     }
     out
+}
+
+/// Part of a turn by which a difference of whole turns may be off.
+const ABOUT_A_TURN: f64 = 0.01;
+
+/// An angle, rad, in whole turns, where it is some.
+fn turns(angle: f64) -> Option<String> {
+    let turns = (angle / std::f64::consts::TAU).abs();
+    let whole = turns.round();
+    let is = whole >= 1.0 && (turns - whole).abs() < ABOUT_A_TURN;
+    is.then(|| counted(whole as usize, "turn"))
 }
 
 /// What an axis file was begun with, and what to type next.

@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 use std::path::Path;
-use stiction_number::four_digits as short;
-use stiction_workflows::export::{Exported, Platform};
+use stiction_number::{Percent, four_digits as short};
+use stiction_workflows::export::{Exported, Platform, Reserve};
 
 /// The files of an export, what it assumed, and what to know before it runs.
 pub fn exported(exported: &Exported, dir: &Path) -> String {
@@ -24,9 +24,13 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
         "drive-table" => "as numbers of drives".into(),
         _ => format!("for a cycle of {} s, {most}", exported.cycle_time),
     };
+    let named = match exported.named_after_log {
+        true => ", named after its log (--name gives another),",
+        false => "",
+    };
     let _ = writeln!(
         out,
-        "{} compensator `{}` {what}; put into operation as in docs/deploy/{}.md",
+        "{} compensator `{}`{named} {what}; put into operation as in docs/deploy/{}.md",
         exported.law, exported.name, exported.target
     );
     let _ = writeln!(
@@ -35,10 +39,28 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
         dir.display(),
         listed(&exported.written).join(", ")
     );
+    if let Some(reserve) = exported.reserve {
+        let _ = writeln!(out, "{}", whole(&reserve, exported.target));
+    }
     if exported.target == "fmu" {
         let _ = writeln!(out, "{}", binaries(&exported.binaries));
     }
     out
+}
+
+/// What a gain with a margin leaves, and the step after it has run well.
+fn whole(reserve: &Reserve, target: &str) -> String {
+    let adapt = match target {
+        "tf5200" => "",
+        _ => ", or --adapt where friction changes",
+    };
+    format!(
+        "a gain of {} leaves {} of the friction, and the levels of friction are known within {}: where it runs well, export again with \
+         --gain 1{adapt}",
+        reserve.gain,
+        Percent::error(100.0 * (1.0 - reserve.gain)).short(),
+        Percent::error(reserve.known_within_percent).digits(2)
+    )
 }
 
 /// Which platforms an FMU runs on as it is, and what is needed for the others.

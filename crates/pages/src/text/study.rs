@@ -9,9 +9,9 @@ use crate::report::study::sweep::{groups, label, lines};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::shell::quoted_path;
-use stiction_files::study::result::{ResultRow, StudyFile};
+use stiction_files::study::result::{PromiseEntry, ResultRow, StudyFile};
 use stiction_files::study::{Started, Study, results};
-use stiction_number::{bytes, counted, quantity, short};
+use stiction_number::{Percent, bytes, counted, quantity, short};
 use stiction_workflows::study::{StudyOutcome, memory};
 
 /// Rows of a study up to which all are shown; of more, the best of each path and controller.
@@ -187,8 +187,12 @@ fn promised(file: &StudyFile) -> String {
     let _ = writeln!(
         out,
         "90 % interval of {draws} draws of what the identification leaves open, each compared with itself without \
-         compensation\n"
+         compensation, under the controller of the study; that of the machine may leave another part"
     );
+    if let Some(line) = whole(&best) {
+        let _ = writeln!(out, "{line}");
+    }
+    out.push('\n');
     let mut lines = vec![
         ["path", "controller", "compensator", "left"]
             .map(String::from)
@@ -216,6 +220,23 @@ fn promised(file: &StudyFile) -> String {
         );
     }
     out
+}
+
+/// Points, percent, by which what is left may go beyond what the gain leaves, where the whole force is the next step.
+const KNOWN_WITHIN: f64 = 5.0;
+
+/// What a gain below 1 leaves whatever is known, where little more is left, and the next step.
+fn whole(best: &[&PromiseEntry]) -> Option<String> {
+    let entry = best.iter().find(|entry| {
+        let kept = entry.gain.map(|gain| 100.0 * (1.0 - gain));
+        kept.is_some_and(|kept| kept > 0.0 && entry.left90_percent[1] <= kept + KNOWN_WITHIN)
+    })?;
+    let gain = entry.gain?;
+    Some(format!(
+        "of what is left, {} is the gain of {gain}: gain = 1 under [[compensator]] in the study shows what the whole force leaves, and \
+         stiction export --gain 1 lets it out (or --adapt, where friction changes)",
+        Percent::error(100.0 * (1.0 - gain)).short()
+    ))
 }
 
 /// What is said of speed and standing still; nothing where the motion shows nothing of them.

@@ -8,7 +8,7 @@ use stiction_codes::Code;
 use stiction_log::{Gap, Log};
 use stiction_signal::{Travel, noise_deviation};
 
-/// A peak at a reversal is sought from so long before the reference turns, s.
+/// A peak at a reversal is sought from so long before the reference turns, s; so do the check lists of `docs/deploy`.
 const BEFORE: f64 = 0.02;
 /// To so long after, s, or until just before the next turn.
 const AFTER: f64 = 0.15;
@@ -89,6 +89,8 @@ pub struct TrackingChange {
     /// The reversals at which the error has grown, largest growth first: time in the later log, error before and after. Only
     /// where the motions are the same.
     pub grown: Vec<(f64, f64, f64)>,
+    /// Whether it has grown at half of the reversals of the same motion or more.
+    pub worse: bool,
 }
 
 impl Tracking {
@@ -103,7 +105,13 @@ impl Tracking {
         let range = ends(f64::max, f64::NEG_INFINITY) - ends(f64::min, f64::INFINITY);
         let jumps = |pair: &[f64]| (pair[1] - pair[0]).abs() > JUMP * range;
         if reference.windows(2).any(jumps) {
-            return Err("its reference jumps; one that wraps has to be unwrapped in the log");
+            return Err(match log.wrap {
+                Some(_) => "its reference jumps, not by the wrap of the axis file",
+                None => {
+                    "its reference jumps; where it wraps as the position does, give that travel under [log] in the axis file: \
+                     wrap = \"360 deg\""
+                }
+            });
         }
         let mut error: Vec<f64> = reference.iter().zip(position).map(|(r, x)| r - x).collect();
         let mut sorted = error.clone();
@@ -276,13 +284,14 @@ impl TrackingChange {
             }
         }
         let slack = STEPS * before.step.unwrap_or(0.0).max(after.step.unwrap_or(0.0));
-        let mut grown = Vec::new();
+        let (mut grown, mut compared) = (Vec::new(), 0);
         if differs.is_empty() {
             for (number, b) in after.numbers.iter().zip(&after.peaks) {
                 let Ok(there) = before.numbers.binary_search(number) else {
                     continue;
                 };
                 let a = before.peaks[there];
+                compared += 1;
                 if b.error > (1.0 + GROWN) * a.error && b.error > a.error + slack {
                     grown.push((b.time, a.error, b.error));
                 }
@@ -294,6 +303,7 @@ impl TrackingChange {
             after: after.clone(),
             thinned_to_hz: apart.then_some(lower),
             differs,
+            worse: compared > 0 && 2 * grown.len() >= compared,
             grown,
         })
     }

@@ -1,4 +1,4 @@
-//! What the axis file lacks where a law explains little: the sign of the force, or gravity.
+//! What the axis file lacks where a law explains little: the travel after which the position wraps, the sign of the force, or gravity.
 
 use super::trust::{Evidence, LEAST_R2, Reasons};
 use crate::source::Source;
@@ -16,20 +16,25 @@ const BEYOND_BRISTLES: f64 = 0.1;
 /// Part of what friction and inertia leave that follows gravity from which it is named there.
 const LIKE_BRISTLES: f64 = 0.3;
 
-/// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the sign of the force, or
-/// gravity. Whether it is gravity.
+/// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the wrap of the position, the sign of
+/// the force, or gravity. Whether it is gravity.
 pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     let law = evidence.law;
     let much = law.fit.relative_error_percent;
     let held = law.stays_in_presliding() && evidence.sources.iter().any(swings_widely);
     let poor = much.is_nan() || much > MUCH_LEFT_PERCENT || held;
     let least = if held { LIKE_BRISTLES } else { LEAST_R2 };
-    let braked = evidence
-        .sources
-        .iter()
-        .flat_map(|source| &source.log.findings);
-    let mut braked = braked.filter(|finding| finding.code == Code::ForceSign);
-    if let Some(finding) = braked.next() {
+    let found = |code: Code| {
+        let each = evidence.sources.iter();
+        let mut each = each.flat_map(|source| &source.log.findings);
+        each.find(|finding| finding.code == code)
+    };
+    // Where the position jumps, all else is seen in pieces.
+    let jumps = found(Code::PositionJump).filter(|_| poor || found(Code::ForceSign).is_some());
+    if let Some(finding) = jumps {
+        reasons.push(finding.message.clone(), Next::AxisFile);
+    }
+    if let Some(finding) = found(Code::ForceSign) {
         reasons.push(finding.message.clone(), Next::AxisFile);
     } else if poor && evidence.motion == Motion::Rotary && !law.terms.gravity {
         let swings = evidence.sources.iter().filter_map(swing);

@@ -4,7 +4,7 @@ use super::done::Done;
 use super::machine::unit;
 use super::metrics::metrics;
 use stiction_files::study::result::{MetricEntry, PromiseEntry, ResultRow};
-use stiction_files::study::{Job, PROMISE_DRAWS, Study};
+use stiction_files::study::{Job, PROMISE_DRAWS, Scheme, Study};
 
 /// Rows in the order of the grid, of what is done.
 pub(super) fn rows(study: &Study, done: &[Done]) -> Vec<ResultRow> {
@@ -101,7 +101,14 @@ fn promise(row: &mut ResultRow, cell: &[Done], bare: &[Done], names: &[&str]) {
 }
 
 /// What the rows promise of the largest error.
-pub(super) fn promises(rows: &[ResultRow]) -> Vec<PromiseEntry> {
+pub(super) fn promises(study: &Study, rows: &[ResultRow]) -> Vec<PromiseEntry> {
+    let gain = |name: &str| {
+        let named = study.compensators.iter().find(|c| c.name == name)?;
+        match &named.value {
+            Scheme::Model(model) if model.adaptation.is_none() => Some(model.gain),
+            _ => None,
+        }
+    };
     let promised = rows.iter().filter_map(|row| {
         let metric = row.judged()?;
         Some(PromiseEntry {
@@ -112,6 +119,7 @@ pub(super) fn promises(rows: &[ResultRow]) -> Vec<PromiseEntry> {
             metric: metric.name.clone(),
             left90_percent: metric.left90_percent?,
             draws: row.runs,
+            gain: gain(&row.compensator),
         })
     });
     promised.collect()

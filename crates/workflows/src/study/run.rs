@@ -112,7 +112,7 @@ fn simulated(study: &Study, runs: Option<&Runs>, observer: &mut dyn Observer) ->
     let sweeps = sweeps::entries(study, &kept[1..]);
     let kept = kept.swap_remove(0);
     let results = rows(study, &kept);
-    let promise = promises(&results);
+    let promise = promises(study, &results);
     let lacking =
         (promise.is_empty() && !drawn.is_empty()).then(|| not_promised::reason(study, &drawn));
     warnings.extend(doubt::warnings(study, &results));

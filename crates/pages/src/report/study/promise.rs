@@ -72,7 +72,7 @@ pub(super) fn blocks(file: &StudyFile) -> Vec<Block> {
         return Vec::new();
     };
     let text = format!(
-        "{}{} (90 % interval of {} draws).",
+        "{}{} (90 % interval of {} draws, under the controller of the study).",
         match first.left90_percent[1] >= 100.0 {
             true => capital(&said(first)),
             false => format!("{} of that without compensation", capital(&said(first))),
