@@ -181,8 +181,8 @@ pub fn surround(samples: &mut [Sample], random: &mut impl Rng) {
         x = if x.abs() < 0.5 { x } else { 0.0 };
         load += random.random_range(-2.0..2.0) - 0.01 * (load - 120.0);
         temperature += random.random_range(-0.3..0.3) - 0.01 * (temperature - 300.0);
-        // An angle that wraps, or has gone on for some turns: half a turn from the middle of the range too.
-        let turns = [0.0, 0.0, 1.0, -1.0, 0.5, -3.5, 200.0];
+        // An angle that wraps, or has gone on for some turns.
+        let turns = [0.0, 0.0, 1.0, -1.0, 2.0, -3.0, 200.0];
         input.position = x + std::f64::consts::TAU * turns[k % turns.len()];
         input.load = load;
         input.temperature = temperature;
