@@ -740,7 +740,7 @@ fn an_export_without_a_name_is_called_after_its_log() {
             (exported.name.as_str(), exported.named_after_log),
             (name, true)
         );
-        let said = text::exported(&exported, &bench.path(name));
+        let said = stiction::commands::text::exported(&exported, &bench.path(name));
         assert!(
             said.contains(&format!(
                 "compensator `{name}`, named after its log (--name gives another), for a cycle"
@@ -775,7 +775,7 @@ fn the_whole_force_is_named_where_it_is_warranted() {
         let mut options = bench.options(model);
         change(&mut options);
         let exported = export_file(bench.path("model.toml"), &options).unwrap();
-        text::exported(&exported, &bench.path("out"))
+        stiction::commands::text::exported(&exported, &bench.path("out"))
     };
     let line = "a gain of 0.75 leaves 25 % of the friction, and the levels of friction are known within 0.8 %: where it runs well, \
                 export again with --gain 1, or --adapt where friction changes\n";

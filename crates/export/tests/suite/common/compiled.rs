@@ -195,7 +195,7 @@ pub fn surrounded(friction: Friction<f64>, seed: usize) -> Vec<(Model, Vec<Sampl
     runs.into_iter()
         .chain(guarded)
         .map(|(settings, mut samples, kind)| {
-            surround(&mut samples, random);
+            surround(&mut samples, true, random);
             let mut model = with_terms(friction, kind);
             model.settings = settings;
             (model, samples)
@@ -296,7 +296,7 @@ pub fn agree_single(target: &str, through: impl Fn(&Model, &[Sample]) -> Vec<[f6
             false => adversarial(each, true, random),
         };
         if follows {
-            surround(&mut samples, random);
+            surround(&mut samples, true, random);
             model = with_terms(friction, seed);
         }
         let friction = model.friction;

@@ -173,7 +173,8 @@ const HOSTILE: [f64; 7] = [
 ];
 
 /// Puts load, temperature, place, acceleration and what is transmitted into samples: within their ranges and beyond, huge, and none.
-pub fn surround(samples: &mut [Sample], random: &mut impl Rng) {
+/// The position goes on for `turns`, or stays near its range.
+pub fn surround(samples: &mut [Sample], turns: bool, random: &mut impl Rng) {
     let [mut x, mut load, mut temperature] = [0.0_f64, 120.0, 300.0];
     for (k, (_, input)) in samples.iter_mut().enumerate() {
         let step = 1e-3 * input.reference_velocity;
@@ -182,8 +183,9 @@ pub fn surround(samples: &mut [Sample], random: &mut impl Rng) {
         load += random.random_range(-2.0..2.0) - 0.01 * (load - 120.0);
         temperature += random.random_range(-0.3..0.3) - 0.01 * (temperature - 300.0);
         // An angle that wraps, or has gone on for some turns.
-        let turns = [0.0, 0.0, 1.0, -1.0, 2.0, -3.0, 200.0];
-        input.position = x + std::f64::consts::TAU * turns[k % turns.len()];
+        let away = [0.0, 0.0, 1.0, -1.0, 2.0, -3.0, 200.0];
+        let away = away.map(|n| if turns { n } else { 0.0 });
+        input.position = x + std::f64::consts::TAU * away[k % away.len()];
         input.load = load;
         input.temperature = temperature;
         input.transmitted = match k % 23 {
