@@ -767,7 +767,7 @@ fn the_whole_force_is_named_where_it_is_warranted() {
             );
         }
         out + &format!(
-            "\n[remaining]\nlevel = {level:?}\nplace = 0.1\nplace_length = 0.01\nwandering = 0.1\nmemory = 1.0\n"
+            "\n[remaining]\nshapes = []\nlevel = {level:?}\nplace = 0.1\nplace_length = 0.01\nwandering = 0.1\nmemory = 1.0\n"
         )
     };
     let bench = Bench::new();
@@ -777,7 +777,7 @@ fn the_whole_force_is_named_where_it_is_warranted() {
         let exported = export_file(bench.path("model.toml"), &options).unwrap();
         stiction::commands::text::exported(&exported, &bench.path("out"))
     };
-    let line = "a gain of 0.75 leaves 25 % of the friction, and the levels of friction are known within 0.8 %: where it runs well, \
+    let line = "a gain of 0.75 leaves 25 % of the friction, and the levels of friction are known within 0.80 %: where it runs well, \
                 export again with --gain 1, or --adapt where friction changes\n";
     let well = known(0.8, 0.005);
     let out = said(&well, &|_| {});
