@@ -500,7 +500,7 @@ fn whole_turns_of_an_angle_do_not_count() {
         let parts = compensator.state().beside.parts;
         [parts.gravity, parts.cogging, parts.friction]
     };
-    for q in [5.3, 6.0, 6.283, 6.4, 1.19 + turn] {
+    for q in [5.3, 6.0, turn, 6.4, 1.19 + turn] {
         let due = force(q);
         assert!((due[0] - (7.0 * q.sin() - 2.0 * q.cos())).abs() < 1e-12);
         for turns in [-1000.0, -2.0, -1.0, 1.0, 30.0] {

@@ -782,7 +782,8 @@ fn the_whole_force_is_named_where_it_is_warranted() {
     let well = known(0.8, 0.005);
     let out = said(&well, &|_| {});
     assert!(out.contains(line), "{out}");
-    let silent: [(&str, &dyn Fn(&mut ExportOptions)); 5] = [
+    type Change<'a> = &'a dyn Fn(&mut ExportOptions);
+    let silent: [(&str, Change<'_>); 5] = [
         (&known(8.0, 0.005), &|_| {}),
         (&known(0.8, 0.2), &|_| {}),
         (&text("lugre", &LUGRE), &|_| {}),
