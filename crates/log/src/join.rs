@@ -76,6 +76,8 @@ pub struct Joined {
     pub table: Table,
     /// The mapping, with those columns by their numbers.
     pub mapping: Mapping,
+    /// How many columns are of the recording itself.
+    pub(crate) own: usize,
     /// Rows that not all files have.
     pub(crate) outside: Vec<bool>,
     pub(crate) findings: Vec<Finding>,
@@ -94,6 +96,7 @@ impl Joined {
         Self {
             outside: vec![false; table.rows()],
             mapping: mapping.clone(),
+            own: table.columns.len(),
             table,
             findings: Vec::new(),
         }

@@ -44,6 +44,7 @@ mod open;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod sniff;
+mod stamps;
 #[cfg(feature = "svb")]
 mod svb;
 mod table;

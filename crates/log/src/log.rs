@@ -138,7 +138,7 @@ impl Log {
     /// Those of [`Mapping::complete`]; [`Kind::Time`] for time stamps that no rule mends, with the
     /// row; [`Kind::Value`] where too little is left or too much is missing.
     pub fn from_table(table: &Table, mapping: &Mapping) -> Result<Self, Error> {
-        Self::of_rows(Cow::Borrowed(table), mapping, &[])
+        Self::of_rows(Cow::Borrowed(table), mapping, (&[], table.columns.len()))
     }
 
     /// As [`Log::from_table`], and lets go of every column as soon as it is not needed: half of the memory.
@@ -146,7 +146,8 @@ impl Log {
     /// # Errors
     /// As [`Log::from_table`].
     pub fn of_table(table: Table, mapping: &Mapping) -> Result<Self, Error> {
-        Self::of_rows(Cow::Owned(table), mapping, &[])
+        let own = table.columns.len();
+        Self::of_rows(Cow::Owned(table), mapping, (&[], own))
     }
 
     /// The same of a table to which columns of other files were joined.
@@ -157,17 +158,17 @@ impl Log {
         let mut log = Self::of_rows(
             Cow::Borrowed(&joined.table),
             &joined.mapping,
-            &joined.outside,
+            (&joined.outside, joined.own),
         )?;
         log.findings.splice(0..0, joined.findings.iter().cloned());
         Ok(log)
     }
 
-    /// A log of the rows of a table that are not `outside`.
+    /// A log of the rows of a table that are not `outside`, whose first `own` columns are of one file.
     fn of_rows(
         mut table: Cow<'_, Table>,
         mapping: &Mapping,
-        outside: &[bool],
+        (outside, own): (&[bool], usize),
     ) -> Result<Self, Error> {
         let completed = mapping.complete(&table)?;
         let mapping = completed.mapping;
@@ -185,6 +186,7 @@ impl Log {
         same_force(&sources, mapping.drive.map(|_| motion.force()))?;
         let enable = Enable::of(&mapping, &table)?;
         let length = common_length(&table, &mapping, &sources, &mut findings)?;
+        refuse_mixed(&table, &mapping, own)?;
         keep_columns(&mut table, |column| {
             enable == Some(column) || sources.iter().any(|(_, source)| source.column == column)
         });
@@ -497,6 +499,28 @@ fn same_force(sources: &[(Role, Source)], made: Option<Dimension>) -> Result<(),
         "both in one unit, such as external = {{ column = \"...\", scale = \"0.1 {wanted}/{own}\" }}"
     );
     Err(Error::new(Kind::Unit, found, allowed).in_column(Role::External.name()))
+}
+
+/// Refuses columns that stand behind other time stamps than those of the log: their rows have nothing to do with each other.
+/// Columns from `joined` on were joined by their stamps already.
+fn refuse_mixed(table: &Table, mapping: &Mapping, joined: usize) -> Result<(), Error> {
+    let own = mapping.own_stamps(table);
+    let own: Vec<_> = own.iter().filter(|own| own.column < joined).collect();
+    let Some(first) = own.first() else {
+        return Ok(());
+    };
+    let found = format!(
+        "{} stands behind the time stamps of {}, which are others than those of the log",
+        first.role,
+        first.place(table)
+    );
+    let lines: Vec<&str> = own.iter().map(|own| own.line.as_str()).collect();
+    let allowed = format!(
+        "say in axis.toml under [columns] which it has, and it is joined by them: {}; or the same with the time of the log, where \
+         it belongs to that",
+        lines.join(" and ")
+    );
+    Err(Error::new(Kind::Ambiguous, found, allowed))
 }
 
 /// The length of the shortest column in use, if that costs little.

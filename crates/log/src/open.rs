@@ -6,8 +6,7 @@ use std::path::Path;
 
 use crate::sniff::{Format, sniff};
 use crate::text::{self, TextOptions};
-use crate::watch;
-use crate::{Error, Kind, Limits, Table};
+use crate::{Error, Kind, Limits, Table, stamps, watch};
 
 /// How a file is to be read, where that does not follow from the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -134,7 +133,9 @@ fn read<'a>(
         }),
     };
     watch::tell(path, bytes, bytes);
-    table
+    let mut table = table?;
+    stamps::join(&mut table);
+    Ok(table)
 }
 
 /// The file of a text, of which every byte is handed on as it is read.

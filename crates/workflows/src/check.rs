@@ -232,7 +232,11 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
         shows: Vec::new(),
         parameters: Vec::new(),
         refused: None,
-        next: Lead::Record,
+        // A force that is not recognised may well be there, or in another file.
+        next: match log.force {
+            Some(_) => Lead::Record,
+            None => Lead::AxisFile,
+        },
         line: None,
     };
     match Tracking::of(&source.path.display().to_string(), log) {

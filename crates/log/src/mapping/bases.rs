@@ -1,26 +1,43 @@
 //! Columns that have other time stamps than the rest, as a robot's state and its efforts in one file.
+//!
+//! They are of another length, or, in a text whose rows hold what has nothing to do with each other, stand behind a time column
+//! that runs at another rate.
 
 use super::channel::{Role, Selector};
 use super::select::select;
 use super::{Mapping, describe, names};
-use crate::{Dimension, Table, Unit};
+use crate::{Column, Dimension, Table, Unit};
 
 /// Part of the samples by which columns of one base may differ in length.
 pub(crate) const MAX_CUT_SHARE: f64 = 0.01;
+/// Part of a log's duration by which two time columns may drift from each other and still be stamps of the same rows.
+const MAX_DRIFT: f64 = 0.01;
 
 /// A column with other time stamps than the rows of a log.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OwnStamps {
     /// What it is.
     pub role: Role,
+    /// Its place in the table.
+    pub(crate) column: usize,
+    /// That of its time stamps.
+    stamps: usize,
     /// Its time stamps.
     pub time: Selector,
     /// The line of the axis file that says so: `force = { column = "effort.tau", time = "effort.t" }`.
     pub line: String,
 }
 
+impl OwnStamps {
+    /// Its time stamps as the place of an error.
+    pub(crate) fn place(&self, table: &Table) -> String {
+        describe::column(table, self.stamps)
+    }
+}
+
 impl Mapping {
-    /// Columns of this mapping that are of another length than its time column, each with a time column of its own length.
+    /// Columns of this mapping that are of another length than its time column, each with a time column of its own length, and
+    /// those that stand behind a time column with other stamps.
     pub fn own_stamps(&self, table: &Table) -> Vec<OwnStamps> {
         let length = |column: usize| table.columns[column].values.len();
         let place = |role: Role| {
@@ -31,9 +48,17 @@ impl Mapping {
             return Vec::new();
         };
         let others = Role::ALL.into_iter().filter(|role| *role != Role::Time);
+        // Where nothing stands behind the time of the log itself, the other stamps say nothing of what belongs to it.
+        let behind =
+            |role: &Role| place(*role).is_some_and(|c| stamps_before(table, c) == Some(time));
+        let told_by_place = others.clone().any(|role| behind(&role));
         let of = |role: Role| {
-            let column = place(role).filter(|column| differ(length(*column), length(time)))?;
-            let stamps = stamps_of(table, column)?;
+            let column = place(role)?;
+            let stamps = match differ(length(column), length(time)) {
+                true => stamps_of(table, column)?,
+                false => stamps_before(table, column)
+                    .filter(|own| told_by_place && *own != time && run_apart(table, *own, time))?,
+            };
             let name = &table.columns[stamps].name;
             let unique = table.columns.iter().filter(|c| c.name == *name).count() == 1;
             let time = match unique && name.trim() == name && !name.is_empty() {
@@ -42,6 +67,8 @@ impl Mapping {
             };
             let rest = describe::line(table, stamps, Role::Time);
             Some(OwnStamps {
+                column,
+                stamps,
                 line: describe::line_with(table, column, role, &rest),
                 role,
                 time,
@@ -61,13 +88,9 @@ fn differ(a: usize, b: usize) -> bool {
 fn stamps_of(table: &Table, column: usize) -> Option<usize> {
     let own = &table.columns[column];
     let is_time = |index: &usize| {
-        let other = &table.columns[*index];
-        let unit = other.unit.as_ref().and_then(|unit| Unit::parse(unit).ok());
-        let named = names::hint(&other.name).is_some_and(|hint| hint.role == Role::Time);
         *index != column
-            && other.values.len() == own.values.len()
-            && named
-            && unit.is_none_or(|unit| unit.dimension() == Dimension::TIME)
+            && table.columns[*index].values.len() == own.values.len()
+            && is_time(table, *index)
     };
     let alike = |index: &usize| {
         let other = table.columns[*index].name.chars();
@@ -80,7 +103,62 @@ fn stamps_of(table: &Table, column: usize) -> Option<usize> {
     times.max_by_key(|index| (alike(index), std::cmp::Reverse(*index)))
 }
 
-/// Of columns that could be the time, those as long as the motion, where some are and others are not.
+/// Whether a column is time by its name, in a unit of time or none.
+pub(super) fn is_time(table: &Table, index: usize) -> bool {
+    let column = &table.columns[index];
+    let unit = column.unit.as_ref().and_then(|unit| Unit::parse(unit).ok());
+    names::hint(&column.name).is_some_and(|hint| hint.role == Role::Time)
+        && unit.is_none_or(|unit| unit.dimension() == Dimension::TIME)
+}
+
+/// The last time column before a column: tables of several clocks are written as time, values, time, values.
+fn stamps_before(table: &Table, column: usize) -> Option<usize> {
+    (0..column).rev().find(|index| is_time(table, *index))
+}
+
+/// Whether two time columns of one length are stamps of different samples: one ends earlier, or they run at different rates.
+/// Two clocks that stamp the same rows differ by an offset and little more.
+fn run_apart(table: &Table, own: usize, other: usize) -> bool {
+    let (own, other) = (&table.columns[own], &table.columns[other]);
+    let increases = |values: &[f64]| {
+        let mut known = values.iter().filter(|t| t.is_finite());
+        let first = known.next();
+        let ends = first.zip(values.iter().rfind(|t| t.is_finite()));
+        known.is_sorted() && ends.is_some_and(|(first, last)| last > first)
+    };
+    if own.values.len() != other.values.len()
+        || !increases(&own.values)
+        || !increases(&other.values)
+    {
+        return false;
+    }
+    let known = |values: &[f64]| values.iter().filter(|t| t.is_finite()).count();
+    if differ(known(&own.values), known(&other.values)) {
+        return true;
+    }
+    let factor = |column: &Column| {
+        let unit = column.unit.as_ref().and_then(|unit| Unit::parse(unit).ok());
+        unit.map(|unit| unit.factor())
+    };
+    let (a, b) = match (factor(own), factor(other)) {
+        (None, None) => (1.0, 1.0),
+        (Some(a), Some(b)) => (a, b),
+        _ => return false,
+    };
+    let pairs = own.values.iter().zip(&other.values);
+    let rows: Vec<(f64, f64)> = pairs
+        .map(|(x, y)| (a * x, b * y))
+        .filter(|(x, y)| x.is_finite() && y.is_finite())
+        .collect();
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else {
+        return false;
+    };
+    let (own, other) = (last.0 - first.0, last.1 - first.1);
+    (own - other).abs() > MAX_DRIFT * own.max(other)
+}
+
+/// Of columns that could be the time, those as long as the motion, where some are and others are not; of several that are stamps
+/// of different samples, the one that the motion stands behind.
 pub(super) fn as_long(table: &Table, times: Vec<usize>, motion: usize) -> Vec<usize> {
     let length = |column: usize| table.columns[column].values.len();
     let fits: Vec<usize> = times
@@ -88,5 +166,10 @@ pub(super) fn as_long(table: &Table, times: Vec<usize>, motion: usize) -> Vec<us
         .copied()
         .filter(|time| !differ(length(*time), length(motion)))
         .collect();
-    if fits.is_empty() { times } else { fits }
+    let fits = if fits.is_empty() { times } else { fits };
+    let own = stamps_before(table, motion).filter(|own| fits.contains(own));
+    match own {
+        Some(own) if fits.iter().all(|t| *t == own || run_apart(table, *t, own)) => vec![own],
+        _ => fits,
+    }
 }

@@ -29,6 +29,8 @@ struct Scan<'a> {
     used: Vec<bool>,
     /// Letter of the axis whose columns are named so far.
     axis: Option<char>,
+    /// Group in the file in which they are: `elbow` of `elbow.position`.
+    group: Option<&'a str>,
 }
 
 /// Fills in the columns that are left open.
@@ -68,6 +70,7 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
                 scan.axis = scan
                     .axis
                     .or(names::axis_letter(&table.columns[column].name));
+                scan.group = scan.group.or(names::group(&table.columns[column].name));
             }
         }
     }
@@ -108,6 +111,7 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
         for role in [Role::Position, Role::Velocity] {
             if let Some(column) = scan.pick(role)? {
                 scan.refuse_other_axis(&out.mapping, role, column)?;
+                scan.group = scan.group.or(names::group(&table.columns[column].name));
                 *out.mapping.slot(role) = Some(scan.take(column));
             }
         }
@@ -121,7 +125,7 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
                 scan.refuse_other_axis(&out.mapping, Role::Force, column)?;
                 out.mapping.force = Some(scan.take(column));
             }
-            None => out.findings.push(no_force(table)),
+            None => out.findings.push(scan.no_force()),
         }
     }
     if none_named {
@@ -217,16 +221,6 @@ fn nameless(table: &Table) -> Error {
     )
 }
 
-fn no_force(table: &Table) -> Finding {
-    let message = format!(
-        "no column was recognised as force, torque or current; friction needs one; {}; name \
-         it in axis.toml under [columns], as in: force = {{ column = {}, unit = \"N\" }}",
-        describe::columns(table),
-        table.columns.len()
-    );
-    Finding::new(Code::NoForce, Severity::Warning, message)
-}
-
 impl<'a> Scan<'a> {
     fn new(table: &'a Table) -> Self {
         let unit = |text: &String| Unit::parse(text).ok();
@@ -250,6 +244,7 @@ impl<'a> Scan<'a> {
                 .collect(),
             used: vec![false; table.columns.len()],
             axis: None,
+            group: None,
         };
         scan.hint_axes();
         scan
@@ -366,6 +361,11 @@ impl<'a> Scan<'a> {
         let letter = |c: &usize| names::axis_letter(&self.table.columns[*c].name);
         if MOVED_AND_MOVING.contains(&role) && fits.iter().any(|c| self.axis == letter(c)) {
             fits.retain(|c| self.axis.is_none() || self.axis == letter(c));
+        }
+        // Of several groups that of what is named.
+        let group = |c: &usize| names::group(&self.table.columns[*c].name);
+        if self.group.is_some() && fits.iter().any(|c| group(c) == self.group) {
+            fits.retain(|c| group(c) == self.group);
         }
         match fits.as_slice() {
             [] => Ok(None),
@@ -534,6 +534,37 @@ impl<'a> Scan<'a> {
             "say which in axis.toml under [columns], by name or by number counted from 1, as in: {example}"
         );
         Error::new(Kind::Missing, found, allowed)
+    }
+
+    /// That friction needs a force, and the line that names one.
+    fn no_force(&self) -> Finding {
+        let open = |c: &usize| {
+            let named =
+                self.hints[*c].is_some() || names::passed_over(&self.table.columns[*c].name);
+            !self.used[*c] && !self.flags[*c] && !named && self.unit_allows(*c, Role::Force)
+        };
+        let how = match (0..self.units.len()).rev().find(open) {
+            Some(column) => {
+                let line = match &self.units[column] {
+                    Some(_) => describe::line(self.table, column, Role::Force),
+                    None => {
+                        describe::line_with(self.table, column, Role::Force, "unit = \"A\"")
+                    }
+                };
+                format!(
+                    "name it in axis.toml under [columns], as in: {line} (docs/axis.md tells what makes a force of the voltage, \
+                     the duty or the current of a motor: [drive])"
+                )
+            }
+            None => "one of another file is joined by its time stamps, in axis.toml under [columns]: force = { file = \
+                     \"FILE\", column = \"NAME\", unit = \"UNIT\" }"
+                .to_string(),
+        };
+        let message = format!(
+            "no column was recognised as force, torque or current; friction needs one; {}; {how}",
+            describe::columns(self.table)
+        );
+        Finding::new(Code::NoForce, Severity::Warning, message)
     }
 
     fn is_hinted(&self, column: usize, role: Role) -> bool {

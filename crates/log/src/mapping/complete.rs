@@ -117,26 +117,35 @@ fn written_unit(
 /// Refuses a motion or force column without a unit in a file where others have one.
 fn refuse_half_labelled(table: &Table, parts: &[Part], labelled: bool) -> Result<(), Error> {
     let core = [Role::Position, Role::Velocity, Role::Force];
-    let bare = parts
+    let mut bare = parts
         .iter()
-        .find(|p| p.unit.is_none() && core.contains(&p.role));
-    let Some(part) = bare.filter(|_| labelled) else {
+        .filter(|p| p.unit.is_none() && core.contains(&p.role))
+        .peekable();
+    let Some(part) = bare.peek().copied().filter(|_| labelled) else {
         return Ok(());
     };
-    let role = part.role;
-    let unit = match (role, likely(table, parts)) {
-        (Role::Position, Motion::Linear) => "mm",
-        (Role::Position, Motion::Rotary) => "deg",
-        (Role::Velocity, Motion::Linear) => "mm/s",
-        (Role::Velocity, Motion::Rotary) => "deg/s",
-        (_, Motion::Linear) => "N",
-        (_, Motion::Rotary) => "N m",
+    let motion = likely(table, parts);
+    let line = |part: &Part| {
+        let current = names::says_current(&table.columns[part.column].name);
+        let unit = match (part.role, motion) {
+            (Role::Position, Motion::Linear) => "mm",
+            (Role::Position, Motion::Rotary) => "deg",
+            (Role::Velocity, Motion::Linear) => "mm/s",
+            (Role::Velocity, Motion::Rotary) => "deg/s",
+            _ if current => "A",
+            (_, Motion::Linear) => "N",
+            (_, Motion::Rotary) => "N m",
+        };
+        describe::line_with(table, part.column, part.role, &format!("unit = \"{unit}\""))
     };
-    let line = describe::line_with(table, part.column, role, &format!("unit = \"{unit}\""));
+    let lines: Vec<String> = bare.map(line).collect();
     Err(Error::new(
         Kind::Unit,
-        format!("{role} has no unit while other columns have one"),
-        format!("give it in axis.toml under [columns], as in: {line}"),
+        format!("{} has no unit while other columns have one", part.role),
+        format!(
+            "give it in axis.toml under [columns], as in: {}",
+            lines.join(" and ")
+        ),
     )
     .in_column(describe::place(table, part.column)))
 }
@@ -277,18 +286,46 @@ fn seconds(table: &Table, part: &Part) -> Result<Unit, Error> {
         .map(|w| w[1] - w[0])
         .filter(|d| d.is_finite());
     let median = crate::findings::median(&mut steps.collect::<Vec<_>>());
+    let plausible =
+        |unit: &Unit| median.is_some_and(|dt| PLAUSIBLE_SPACING.contains(&(unit.factor() * dt)));
+    // A name such as `t_us` and the spacing have to say the same.
+    let named = names::time_unit(&table.columns[part.column].name);
+    let named = named.and_then(|unit| Unit::parse(unit).ok());
+    if let Some(unit) = named.filter(plausible) {
+        return Ok(unit);
+    }
     if median.is_some_and(|dt| PLAUSIBLE_SPACING.contains(&dt)) {
         return Unit::parse("s");
     }
+    let numbers = match median == Some(1.0) {
+        true => "; where it numbers the samples, above [columns] in place of it: rate = \"1 kHz\"",
+        false => "",
+    };
     let median = median.map_or("no two samples".to_string(), |dt| {
         format!("a median spacing of {}", full(dt))
     });
-    let milli = describe::line_with(table, part.column, Role::Time, "unit = \"ms\"");
-    let seconds = describe::line_with(table, part.column, Role::Time, "unit = \"s\"");
+    let line = |unit: &str| {
+        describe::line_with(
+            table,
+            part.column,
+            Role::Time,
+            &format!("unit = \"{unit}\""),
+        )
+    };
+    // Those that would do; of none of them milliseconds and seconds, which are most usual.
+    let fits = |unit: &&str| Unit::parse(unit).is_ok_and(|unit| plausible(&unit));
+    let mut units: Vec<&str> = ["ms", "us", "ns", "min"].into_iter().filter(fits).collect();
+    if units.is_empty() {
+        units = vec!["ms", "s"];
+    }
+    let lines: Vec<String> = units.into_iter().map(line).collect();
     Err(Error::new(
         Kind::Unit,
         format!("time has no unit and {median}, which is implausible in seconds for a motion log"),
-        format!("say which in axis.toml under [columns]: {milli} or {seconds}"),
+        format!(
+            "say which in axis.toml under [columns]: {}{numbers}",
+            lines.join(" or ")
+        ),
     )
     .in_column(describe::place(table, part.column)))
 }
@@ -329,8 +366,12 @@ fn judge(findings: &mut Vec<Finding>, part: &Part, unit: &Unit, source: &Source,
     } else {
         let message = format!(
             "the force is in {is}; parameters come out in {is} too, unless a scale in {wanted}/{} is \
-             given",
-            unit.text()
+             given{}",
+            unit.text(),
+            match [Dimension::VOLTAGE, Dimension::ONE].contains(&source.dimension) {
+                true => ", or the motor under [drive]: docs/axis.md#drive",
+                false => "",
+            }
         );
         Finding::new(Code::ForceNotCalibrated, Severity::Note, message)
     });

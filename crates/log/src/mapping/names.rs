@@ -58,9 +58,14 @@ const ACCELERATION: &[&str] = &[
 ];
 const FORCE: &[&str] = &[
     "force",
+    "forces",
     "torque",
+    "torques",
     "trq",
     "tau",
+    // Of ROS: the torque or force of a joint.
+    "effort",
+    "efforts",
     "moment",
     "current",
     "cur",
@@ -142,6 +147,36 @@ const GROUPS: &[&str] = &["state", "status", "id", "index"];
 /// Words that may be beside a letter or two without changing its meaning.
 const HARMLESS_NEIGHBOURS: &[&str] =
     &["axis", "motor", "joint", "j", "drive", "m", "achse", "wert"];
+/// Groups whose letters are directions or parts of something else: `orientation.x` is no position.
+const VECTORS: &[&str] = &[
+    "orientation",
+    "quaternion",
+    "rotation",
+    "linear",
+    "angular",
+    "gyro",
+    "magnetic",
+    "mag",
+    "imu",
+    "translation",
+    "point",
+];
+/// Units that a name of time may end with: `t_us`, `time_ms`.
+const TIME_UNITS: &[(&str, &str)] = &[
+    ("s", "s"),
+    ("sec", "s"),
+    ("secs", "s"),
+    ("seconds", "s"),
+    ("ms", "ms"),
+    ("msec", "ms"),
+    ("millis", "ms"),
+    ("us", "us"),
+    ("usec", "us"),
+    ("micros", "us"),
+    ("ns", "ns"),
+    ("nsec", "ns"),
+    ("nanos", "ns"),
+];
 /// What German names are put together of: `Istposition`, `Lagesollwert`, `Schleppfehler`.
 const GERMAN: &[&str] = &[
     "soll",
@@ -203,9 +238,25 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
         }
     };
     let weak = || {
+        // A letter may stand alone in its group: `run.t`.
+        let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
+        let own = match group.is_empty()
+            || self::words(group)
+                .iter()
+                .any(|w| VECTORS.contains(&w.as_str()))
+        {
+            true => words.clone(),
+            false => self::words(own),
+        };
+        let stands = |words: &[String], word: &str, role: Role| {
+            let unit =
+                |w: &String| role == Role::Time && TIME_UNITS.iter().any(|(unit, _)| unit == w);
+            let others: Vec<String> = words.iter().filter(|w| !unit(w)).cloned().collect();
+            others.iter().any(|w| w == word) && alone(&others, word)
+        };
         let (_, role) = WEAK
             .iter()
-            .find(|(word, _)| words.iter().any(|w| w == word) && alone(&words, word))?;
+            .find(|(word, role)| stands(&words, word, *role) || stands(&own, word, *role))?;
         Some(*role)
     };
     // The last word is the noun: `encoder_velocity` is a velocity. Except `time of ...`, as the
@@ -237,6 +288,16 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
         measured,
         weak: is_weak,
     })
+}
+
+/// The unit that the name of a time column ends with: `us` of `t_us`.
+pub(super) fn time_unit(name: &str) -> Option<&'static str> {
+    let words = words(name);
+    let last = words.last().filter(|_| words.len() > 1)?;
+    let (_, unit) = TIME_UNITS.iter().find(|(word, _)| word == last)?;
+    hint(name)
+        .is_some_and(|hint| hint.role == Role::Time)
+        .then_some(*unit)
 }
 
 /// Letters that a machine's axes are called by where they stand alone.
@@ -297,6 +358,18 @@ fn alone(words: &[String], word: &str) -> bool {
             .any(|l| l.contains(&w.as_str()));
         harmless || w.chars().all(|c| c.is_ascii_digit())
     })
+}
+
+/// The group that a name is in: `elbow` of `elbow.position`.
+pub(super) fn group(name: &str) -> Option<&str> {
+    name.rsplit_once('.').map(|(group, _)| group)
+}
+
+/// Whether a name speaks of a mode or a state of the drive.
+pub(super) fn says_mode(name: &str) -> bool {
+    let own = name.rsplit_once('.').map_or(name, |(_, own)| own);
+    let says = |w: &String| ["mode", "state", "status"].contains(&w.as_str());
+    words(own).iter().any(says)
 }
 
 /// Whether a name speaks of current.

@@ -6,7 +6,7 @@ use super::enable::Enable;
 use super::flags::{has_zeros, is_flag};
 use super::names;
 use super::{Mapping, describe, endings};
-use crate::{Table, Unit};
+use crate::{Dimension, Table, Unit};
 
 /// A column of the file and what became of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -98,6 +98,19 @@ fn flag(table: &Table, column: usize) -> String {
     format!("a flag: 0 and 1 alone{how}")
 }
 
+/// The line of the axis file for a force that acts beside that of the motor.
+fn beside(table: &Table, column: usize, what: &str) -> String {
+    let line = describe::line(table, column, Role::External);
+    format!("if it is {what}: {line} under [columns]")
+}
+
+/// Whether the unit of a column is one of force or torque.
+fn is_force_by_unit(table: &Table, column: usize) -> bool {
+    let unit = table.columns[column].unit.as_ref();
+    let unit = unit.and_then(|unit| Unit::parse(unit).ok());
+    unit.is_some_and(|unit| [Dimension::FORCE, Dimension::TORQUE].contains(&unit.dimension()))
+}
+
 fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Understood {
     let name = &table.columns[column].name;
     let hint = endings::hint(table, column);
@@ -111,17 +124,34 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
         }
         _ if is_flag(table, column) => flag(table, column),
         (_, Some(part)) => format!(
-            "could be the {} too, which is column {}",
+            "could be the {} too, which is column {}{}",
             part.role,
-            describe::place(table, part.column)
+            describe::place(table, part.column),
+            match part.role == Role::Force && given.external.is_none() {
+                true => format!("; {}", beside(table, column, "a second motor of the axis")),
+                false => String::new(),
+            }
         ),
         _ if named => "not named in the axis file".into(),
+        _ if names::says_mode(name) => format!(
+            "a mode or a state by its name; to leave out rows where it is another than 8: enable = {{ column = {}, equals = 8 \
+             }} under [columns]",
+            describe::line(table, column, "").trim_start_matches(" = ")
+        ),
         _ if names::passed_over(name) => "an error, a limit or a state by its name".into(),
         (Some(hint), None) => format!(
             "could be the {}, but its unit or others speak against it",
             hint.role
         ),
         (None, None) if name.is_empty() => "has no name".into(),
+        (None, None) if is_force_by_unit(table, column) => format!(
+            "its name says nothing known; {}",
+            beside(
+                table,
+                column,
+                "a force on the axis beside that of the motor"
+            )
+        ),
         (None, None) => "its name says nothing known".into(),
     };
     Understood {

@@ -4,7 +4,7 @@
 
 use super::channel::{Role, Selector};
 use super::convert::of_role;
-use super::{Mapping, choose, endings, names};
+use super::{Mapping, bases, choose, endings, names};
 use crate::{Table, Unit};
 
 /// Roles that a mapping which names none of them leaves open.
@@ -31,6 +31,13 @@ pub(super) fn by_mapping(mapping: &Mapping, heads: &Table) -> Vec<bool> {
     let mut selectors: Vec<&Selector> = named.map(|channel| &channel.column).collect();
     selectors.extend(mapping.enable.as_ref().map(|enable| &enable.column));
     let mut out = wanted(heads, &selectors, &open);
+    // Time stamps of others than the rows of the log, which nothing else would show.
+    if given(Role::Time) {
+        let stamps = (0..out.len()).map(|index| bases::is_time(heads, index));
+        out.iter_mut()
+            .zip(stamps)
+            .for_each(|(out, own)| *out |= own);
+    }
     if !motion {
         // Where nothing tells the columns apart, what they count is said.
         let nameless = heads.columns.iter().map(|column| column.name.is_empty());

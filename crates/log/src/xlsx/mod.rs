@@ -1,8 +1,8 @@
 //! Workbooks of Excel (`.xlsx`).
 //!
 //! Format: ISO/IEC 29500-1. The rows of a sheet are read as the rows of a text table are: titles above, a header or none, units
-//! in it or in a row below it, empty cells, columns of text. The first sheet with a table is taken, and the others are named in
-//! [`Table::skipped`]. Cells that are shown as dates or times become seconds from the first; of a formula its last result counts.
+//! in it or in a row below it, empty cells, columns of text. The first sheet with a table of two columns of numbers and three rows is
+//! taken (of smaller ones the first, where there is nothing else), and the others are named in [`Table::skipped`]. Cells that are shown as dates or times become seconds from the first; of a formula its last result counts.
 
 mod book;
 mod sheet;
@@ -19,6 +19,9 @@ use crate::binary::guard;
 use crate::limits::Budget;
 use crate::text::{self, Decimal, Separator, TextOptions};
 use crate::{Error, Kind, Limits, Table};
+
+/// Fewest columns of numbers and rows of a table; what is smaller is a title or a list of settings.
+const LEAST_TABLE: (usize, usize) = (2, 3);
 
 type Archive = ZipArchive<BufReader<File>>;
 
@@ -44,6 +47,7 @@ pub(crate) fn read(file: File, limits: Limits) -> Result<Table, Error> {
         part(&mut archive, "xl/styles.xml", |reader| book.styles(reader))?;
         let mut first = None;
         let mut found: Option<Table> = None;
+        let mut small: Option<(String, Table)> = None;
         let mut skipped = Vec::new();
         for (name, id) in sheets {
             if found.is_some() {
@@ -53,7 +57,17 @@ pub(crate) fn read(file: File, limits: Limits) -> Result<Table, Error> {
             match table(&mut archive, &book, &id, limits) {
                 Ok(mut table) => {
                     table.detected.insert(0, format!("sheet {name}"));
-                    found = Some(table);
+                    let (columns, rows) = (table.columns.len(), table.rows());
+                    if columns >= LEAST_TABLE.0 && rows >= LEAST_TABLE.1 {
+                        found = Some(table);
+                    } else {
+                        let said =
+                            format!("sheet {name}: {columns} columns of numbers in {rows} rows");
+                        match small {
+                            None => small = Some((said, table)),
+                            Some(_) => skipped.push(said),
+                        }
+                    }
                 }
                 Err(error) => {
                     skipped.push(format!("sheet {name}: {}", error.found));
@@ -61,6 +75,13 @@ pub(crate) fn read(file: File, limits: Limits) -> Result<Table, Error> {
                 }
             }
         }
+        let found = match (found, small) {
+            (Some(found), Some((said, _))) => {
+                skipped.insert(0, said);
+                Some(found)
+            }
+            (found, small) => found.or(small.map(|(_, table)| table)),
+        };
         match found {
             Some(mut table) => {
                 table.skipped.extend(skipped);

@@ -55,11 +55,14 @@ def table(name, write_only):
 
 
 def titled(name):
-    """A sheet of words, then one with titles, units in a row, an error, a formula, and columns that begin late."""
+    """A sheet of words, one of settings, then one with titles, units in a row, an error, a formula, and columns that begin late."""
     truth = Truth(name)
     book = Workbook()
     book.active.title = "about"
     book.active.append(["a drive"])
+    settings = book.create_sheet("settings")
+    for row in (["test stand", 7], ["operator", "B"], ["force constant", 35.5], ["stroke", 120]):
+        settings.append(row)
     sheet = book.create_sheet("data")
     sheet["A1"] = "Recorded on axis 3"
     sheet.append(["Time", "Position", "Force"])
@@ -69,6 +72,7 @@ def titled(name):
     book.save(truth.path)
     check(truth, "data", 4, ["Time", "Position", "Force"])
     truth.skipped("sheet about")
+    truth.skipped("sheet settings")
     truth.write()
 
 

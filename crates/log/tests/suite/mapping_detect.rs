@@ -2,7 +2,10 @@
 
 use crate::mapping_common::{axis, codes, column, message, table, told};
 use stiction_log::text::{TextOptions, read};
-use stiction_log::{Channel, Kind, Log, Mapping, Motion, Selector, Table, Unit, Value};
+use stiction_log::{
+    Channel, Elsewhere, Joined, Kind, Log, Mapping, Motion, Offset, Role, Selector, Table, Unit,
+    Value,
+};
 
 /// A table with these headers; samples that move, each column its own.
 fn headed(headers: &[&str]) -> Table {
@@ -82,6 +85,17 @@ fn what_is_recognised() {
         &["t [s]", "Axis 1 [mm]", "Load cell [kN]"],
         &["t [s]", "position [m]", "desired_force [N]"],
         &["t [s]", "position [m]", "noise [V/s]"],
+        &["t [s]", "angle [rad]", "pwm duty [%]"],
+        &["rec.t", "rec.q", "rec.tau", "rec.q_ref"],
+        &["t_s", "joint.position", "joint.effort"],
+        &["t [s]", "orientation.x", "orientation.w", "force [N]"],
+        &[
+            "header.stamp [s]",
+            "elbow.position [rad]",
+            "elbow.effort [N m]",
+            "elbow.velocity [rad/s]",
+            "wrist.effort [N m]"
+        ],
     ]));
 }
 
@@ -267,6 +281,76 @@ fn a_time_without_unit_is_seconds_only_where_that_is_plausible() {
     let log = Log::from_table(&table, &mapping).unwrap();
     assert_eq!(log.rate_hz, 1000.0);
     assert_eq!(log.time[999], 0.999);
+}
+
+#[test]
+fn a_name_may_tell_the_unit_of_time_where_the_spacing_agrees() {
+    let read = |name: &str, step: f64| {
+        let mut table = headed(&[name, "x [m]", "F [N]"]);
+        table.columns[0].values = (0..1000).map(|i| step * f64::from(i)).collect();
+        Log::from_table(&table, &Mapping::default()).map(|log| log.rate_hz)
+    };
+    for (name, step) in [
+        ("t_us", 1e3),
+        ("time_ns", 1e6),
+        ("Time ms", 1.0),
+        ("t_s", 1e-3),
+    ] {
+        assert_eq!(read(name, step).unwrap(), 1000.0, "{name}");
+    }
+    // Nanoseconds would be a hundredth of a microsecond, and nothing says what else it is.
+    let error = read("t_ns", 10.0).unwrap_err().to_string();
+    assert!(
+        error.contains("unit = \"ms\"") && error.contains("unit = \"us\""),
+        "{error}"
+    );
+}
+
+/// A text whose rows hold two bases: nothing in the samples shows that the rows have nothing to do with each other.
+#[test]
+fn columns_behind_other_time_stamps_are_not_mixed() {
+    let table = |own: f64, rows: usize| {
+        let mut table = headed(&["t1 [ms]", "position [deg]", "t2 [ms]", "torque [N m]"]);
+        table.columns[0].values = (0..1000).map(f64::from).collect();
+        let stamp = |i: usize| match i < rows {
+            true => 7.0 + own * i as f64,
+            false => f64::NAN,
+        };
+        table.columns[2].values = (0..1000).map(stamp).collect();
+        table
+    };
+    let given = Mapping {
+        time: Some(Channel::named("t1")),
+        ..Mapping::default()
+    };
+    for (table, mapping) in [
+        (table(2.0, 500), &given),
+        (table(2.0, 1000), &given),
+        // The time of the log is that which the position stands behind.
+        (table(2.0, 500), &Mapping::default()),
+    ] {
+        let error = Log::from_table(&table, mapping).unwrap_err();
+        insta::allow_duplicates! { insta::assert_snapshot!(error.to_string()) };
+    }
+    // Two clocks of the same rows, which is which has to be said and no more.
+    assert!(Log::from_table(&table(1.0001, 1000), &given).is_ok());
+    assert!(Log::from_table(&table(1.0001, 1000), &Mapping::default()).is_err());
+    // Joined by their stamps, or by those of the log, they are what the axis file says.
+    for stamps in ["t1", "t2"] {
+        let table = table(2.0, 500);
+        let mapping = Mapping {
+            force: Some(Channel::named("torque")),
+            ..given.clone()
+        };
+        let mut joined = Joined::new(table.clone(), &mapping);
+        let from = Elsewhere {
+            role: Role::Force,
+            time: Some(Channel::named(stamps)),
+            offset: Offset::Given(0.0),
+        };
+        joined.join("the log itself", &table, &from).unwrap();
+        Log::from_joined(&joined).unwrap();
+    }
 }
 
 #[test]
@@ -616,6 +700,23 @@ fn every_column_is_accounted_for() {
             },
         ),
         accounts(&["t [s]", "ActPos", "Iq", "Id"], &torque),
+        accounts(
+            &[
+                "t [s]",
+                "x [m]",
+                "motor force [N]",
+                "disturbance [N]",
+                "mode",
+            ],
+            &Mapping::default(),
+        ),
+        accounts(
+            &["t [s]", "x [m]", "current 1 [A]", "current 2 [A]"],
+            &Mapping {
+                force: Some(Channel::named("current 1")),
+                ..Mapping::default()
+            },
+        ),
     ];
     insta::assert_snapshot!(found.join("\n\n"));
 }

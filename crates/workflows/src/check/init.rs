@@ -47,6 +47,15 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
             let log = Log::from_table(&table, &Mapping::default());
             let mut found = log.as_ref().map(found).unwrap_or_default();
             found.own_stamps = detected.mapping.own_stamps(&table);
+            let lacks = |f: &&stiction_log::Finding| f.code == Code::NoForce;
+            if let Some(lacking) = detected.findings.iter().find(lacks) {
+                found.columns = described(&table);
+                return Ok(Started {
+                    text: template(&table, Err((&detected.mapping, &lacking.message)), &found),
+                    changes: filled_in(&detected.mapping, &found),
+                    undecided: Some(lacking.message.clone()),
+                });
+            }
             Started {
                 text: template(&table, Ok(&detected.mapping), &found),
                 changes: filled_in(&detected.mapping, &found),
