@@ -113,8 +113,10 @@ impl Joined {
             return Ok(());
         };
         if self.mapping.rate_hz.is_some() {
-            let found = format!("{role} is from another file, and the rate is given");
-            let allowed = "time stamps in both files, which join them: take rate out, and give time under [columns]";
+            let found =
+                format!("{role} is joined from {name} by time stamps, and the rate is given");
+            let allowed =
+                "time stamps in the log too: take rate out, and give time under [columns]";
             return Err(Error::new(Kind::Time, found, allowed).of_setting("rate"));
         }
         let own = time_source(&self.table, self.mapping.time.as_ref())?;

@@ -205,6 +205,10 @@ struct Sums {
 impl Pair {
     /// On the coarse (0) or the fine grid (1).
     fn new(motion: (&Course, Is), target: (&Course, Is), grid: usize) -> Option<Self> {
+        // Straight lines between a few samples go with anything.
+        if motion.0.time.len().min(target.0.time.len()) < FEWEST {
+            return None;
+        }
         let most = POINTS[grid];
         let longest = motion.0.span().max(target.0.span());
         let step = motion

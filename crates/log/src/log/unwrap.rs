@@ -1,6 +1,6 @@
 //! Unwrapping a position.
 
-use crate::findings::{Finding, Severity, count, full, quantum, short};
+use crate::findings::{Finding, Severity, count, full, median, quantum, short};
 use crate::mapping::{Source, Wrap};
 use crate::{Dimension, Error, Kind};
 use stiction_codes::Code;
@@ -9,6 +9,11 @@ use stiction_codes::Code;
 const LEAST_STEPS: f64 = 2.0;
 /// Part of a counter that an axis may move within a sample, where a jump is taken for its overflow.
 const NEARLY_WHOLE: f64 = 0.1;
+
+/// Part of the wrap by which the numbers of a position may go beyond it by rounding.
+const ROUNDING: f64 = 1e-3;
+/// How many times as long as all others the steps that are left at wraps may be.
+const LEFT: f64 = 3.0;
 
 /// The travel after which a position from this column repeats, m or rad.
 pub(crate) fn period(wrap: Wrap, source: Option<&Source>) -> Result<f64, Error> {
@@ -75,6 +80,7 @@ pub(super) fn unwrap(
     period: f64,
     unit: &str,
 ) -> Finding {
+    let wrong = wrong(position, period, unit);
     let wraps = straighten(position, period);
     let likewise = reference.is_some_and(|reference| {
         let followed = straighten(reference, period).is_some();
@@ -97,7 +103,49 @@ pub(super) fn unwrap(
         "position wrapped {}, first at sample {first}; unwrapped with a period of {period} {unit}{likewise}",
         count(wraps, "time")
     );
-    Finding::new(Code::PositionWrap, Severity::Note, message).at(first)
+    let finding = match wrong {
+        None => Finding::new(Code::PositionWrap, Severity::Note, message),
+        Some(wrong) => {
+            let message = format!("{message}, but {wrong}");
+            Finding::new(Code::PositionWrap, Severity::Warning, message)
+        }
+    };
+    finding.at(first)
+}
+
+/// Why a position as it is logged does not begin again after this period, if so.
+fn wrong(position: &[f64], period: f64, unit: &str) -> Option<String> {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    // Steps where it wraps, as they are logged and as they are left, and the longest of the others.
+    let (mut logged, mut left, mut longest) = (Vec::new(), Vec::new(), 0.0_f64);
+    let mut before: Option<f64> = None;
+    for x in position.iter().copied().filter(|x| x.is_finite()) {
+        (low, high) = (low.min(x), high.max(x));
+        if let Some(before) = before {
+            let turns = ((x - before) / period).round();
+            if turns != 0.0 {
+                logged.push((x - before).abs());
+                left.push((x - before - turns * period).abs());
+            } else {
+                longest = longest.max((x - before).abs());
+            }
+        }
+        before = Some(x);
+    }
+    let left = median(&mut left)?;
+    let how = if high - low > period * (1.0 + ROUNDING) {
+        let covered = short(high - low);
+        format!("its numbers cover {covered} {unit}, which is more")
+    } else if left > LEFT * longest {
+        format!("jumps of {} {unit} are left there", short(left))
+    } else {
+        return None;
+    };
+    let jump = short(median(&mut logged).unwrap_or(0.0));
+    Some(format!(
+        "{how}: it does not begin again after that; it jumps by {jump} {unit}, so correct wrap under [log] in axis.toml, or leave \
+         it out"
+    ))
 }
 
 /// How often a column wrapped, and at which sample first; `None` where it never did.

@@ -61,7 +61,9 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
         let source = Source::new(table, part.column, &unit, &part.channel, part.role)?;
         source.check(table, part.role, kind)?;
         out.phrases.push(phrase(table, part, &unit));
-        judge(&mut out.findings, part, &unit, &source, kind);
+        // A motor makes a force of its current, voltage or duty.
+        let driven = part.role == Role::Force && out.mapping.drive.is_some();
+        judge(&mut out.findings, part, (&unit, driven), &source, kind);
         *out.mapping.slot(part.role) = Some(Channel {
             unit: Some(unit),
             ..part.channel.clone()
@@ -288,12 +290,6 @@ fn seconds(table: &Table, part: &Part) -> Result<Unit, Error> {
     let median = crate::findings::median(&mut steps.collect::<Vec<_>>());
     let plausible =
         |unit: &Unit| median.is_some_and(|dt| PLAUSIBLE_SPACING.contains(&(unit.factor() * dt)));
-    // A name such as `t_us` and the spacing have to say the same.
-    let named = names::time_unit(&table.columns[part.column].name);
-    let named = named.and_then(|unit| Unit::parse(unit).ok());
-    if let Some(unit) = named.filter(plausible) {
-        return Ok(unit);
-    }
     if median.is_some_and(|dt| PLAUSIBLE_SPACING.contains(&dt)) {
         return Unit::parse("s");
     }
@@ -346,12 +342,22 @@ fn phrase(table: &Table, part: &Part, unit: &Unit) -> String {
 }
 
 /// What a reader should know about the unit of a channel.
-fn judge(findings: &mut Vec<Finding>, part: &Part, unit: &Unit, source: &Source, kind: Motion) {
+fn judge(
+    findings: &mut Vec<Finding>,
+    part: &Part,
+    (unit, driven): (&Unit, bool),
+    source: &Source,
+    kind: Motion,
+) {
     if let Some(note) = unit.note() {
         let message = format!("{}: {unit} is {note}", part.role);
         findings.push(Finding::new(Code::UnitConvention, Severity::Note, message));
     }
-    if part.role != Role::Force || !is_force(source.dimension) || source.dimension == kind.force() {
+    if part.role != Role::Force
+        || driven
+        || !is_force(source.dimension)
+        || source.dimension == kind.force()
+    {
         return;
     }
     let is = source.dimension.si_text();

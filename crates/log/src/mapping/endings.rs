@@ -8,7 +8,7 @@ use crate::{Dimension, Table, Unit};
 
 /// The endings that are units. Those of one letter are other things too: a motor, a phase, an axis, a sample.
 const UNITS: &[&str] = &[
-    "ms", "us", "s", "deg", "rad", "mm", "um", "m", "Nm", "N", "mA", "A",
+    "ms", "us", "ns", "s", "deg", "rad", "mm", "um", "m", "Nm", "N", "mA", "A",
 ];
 
 /// A name without the unit at its end, and that; `None` where it ends in none.

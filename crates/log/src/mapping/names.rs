@@ -161,22 +161,6 @@ const VECTORS: &[&str] = &[
     "translation",
     "point",
 ];
-/// Units that a name of time may end with: `t_us`, `time_ms`.
-const TIME_UNITS: &[(&str, &str)] = &[
-    ("s", "s"),
-    ("sec", "s"),
-    ("secs", "s"),
-    ("seconds", "s"),
-    ("ms", "ms"),
-    ("msec", "ms"),
-    ("millis", "ms"),
-    ("us", "us"),
-    ("usec", "us"),
-    ("micros", "us"),
-    ("ns", "ns"),
-    ("nsec", "ns"),
-    ("nanos", "ns"),
-];
 /// What German names are put together of: `Istposition`, `Lagesollwert`, `Schleppfehler`.
 const GERMAN: &[&str] = &[
     "soll",
@@ -248,15 +232,11 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
             true => words.clone(),
             false => self::words(own),
         };
-        let stands = |words: &[String], word: &str, role: Role| {
-            let unit =
-                |w: &String| role == Role::Time && TIME_UNITS.iter().any(|(unit, _)| unit == w);
-            let others: Vec<String> = words.iter().filter(|w| !unit(w)).cloned().collect();
-            others.iter().any(|w| w == word) && alone(&others, word)
-        };
+        let stands =
+            |words: &[String], word: &str| words.iter().any(|w| w == word) && alone(words, word);
         let (_, role) = WEAK
             .iter()
-            .find(|(word, role)| stands(&words, word, *role) || stands(&own, word, *role))?;
+            .find(|(word, _)| stands(&words, word) || stands(&own, word))?;
         Some(*role)
     };
     // The last word is the noun: `encoder_velocity` is a velocity. Except `time of ...`, as the
@@ -288,16 +268,6 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
         measured,
         weak: is_weak,
     })
-}
-
-/// The unit that the name of a time column ends with: `us` of `t_us`.
-pub(super) fn time_unit(name: &str) -> Option<&'static str> {
-    let words = words(name);
-    let last = words.last().filter(|_| words.len() > 1)?;
-    let (_, unit) = TIME_UNITS.iter().find(|(word, _)| word == last)?;
-    hint(name)
-        .is_some_and(|hint| hint.role == Role::Time)
-        .then_some(*unit)
 }
 
 /// Letters that a machine's axes are called by where they stand alone.

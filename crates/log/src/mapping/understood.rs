@@ -98,6 +98,16 @@ fn flag(table: &Table, column: usize) -> String {
     format!("a flag: 0 and 1 alone{how}")
 }
 
+/// What a column is where it comes again further on under the same name: those that are joined by time stamps stand behind the
+/// others.
+fn joined_from<'a>(table: &Table, parts: &'a [Part], column: usize) -> Option<&'a Part> {
+    let own = &table.columns[column];
+    parts.iter().find(|part| {
+        let other = &table.columns[part.column];
+        part.column > column && (&other.name, &other.unit) == (&own.name, &own.unit)
+    })
+}
+
 /// The line of the axis file for a force that acts beside that of the motor.
 fn beside(table: &Table, column: usize, what: &str) -> String {
     let line = describe::line(table, column, Role::External);
@@ -118,6 +128,19 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
     let named = Role::ALL.iter().any(|role| given.channel(*role).is_some());
     let enables = matches!(Enable::of(given, table), Ok(Some(own)) if own == column);
     let kept = given.enable.as_ref().map_or(1.0, Enable::kept);
+    if let Some(part) = joined_from(table, parts, column) {
+        return Understood {
+            column: describe::place(table, column),
+            role: None,
+            unit: String::new(),
+            reason: format!(
+                "comes again as column {}, which is the {}",
+                describe::place(table, part.column),
+                part.role
+            ),
+            assumed: None,
+        };
+    }
     let reason = match (hint, taken) {
         _ if enables => {
             format!("named in the axis file as enable: rows where it is not {kept} are left out")

@@ -148,6 +148,12 @@ fn what_cannot_be_told_is_refused_with_the_line_to_write() {
     still.columns[1].values.fill(3.0);
     let mut short = other.clone();
     short.columns.iter_mut().for_each(|c| c.values.truncate(80));
+    // Two samples that are a second apart go with anything.
+    let mut two = other.clone();
+    let rows = [0, two.rows() - 1];
+    two.columns
+        .iter_mut()
+        .for_each(|c| c.values = rows.map(|row| c.values[row]).to_vec());
     let mut oil = other.clone();
     oil.columns[1] = column("oil [degC]", vec![30.0; other.rows()]);
     let repeats = |motion| apart(&wave(&screw, motion), kept);
@@ -160,6 +166,7 @@ fn what_cannot_be_told_is_refused_with_the_line_to_write() {
         ([log.clone(), noisy], Role::Force),
         ([log.clone(), still], Role::Force),
         ([log.clone(), short], Role::Force),
+        ([log.clone(), two], Role::Force),
         ([log, oil], Role::Temperature),
     ] {
         let error = estimated(&log, &other, role).unwrap_err();

@@ -283,29 +283,6 @@ fn a_time_without_unit_is_seconds_only_where_that_is_plausible() {
     assert_eq!(log.time[999], 0.999);
 }
 
-#[test]
-fn a_name_may_tell_the_unit_of_time_where_the_spacing_agrees() {
-    let read = |name: &str, step: f64| {
-        let mut table = headed(&[name, "x [m]", "F [N]"]);
-        table.columns[0].values = (0..1000).map(|i| step * f64::from(i)).collect();
-        Log::from_table(&table, &Mapping::default()).map(|log| log.rate_hz)
-    };
-    for (name, step) in [
-        ("t_us", 1e3),
-        ("time_ns", 1e6),
-        ("Time ms", 1.0),
-        ("t_s", 1e-3),
-    ] {
-        assert_eq!(read(name, step).unwrap(), 1000.0, "{name}");
-    }
-    // Nanoseconds would be a hundredth of a microsecond, and nothing says what else it is.
-    let error = read("t_ns", 10.0).unwrap_err().to_string();
-    assert!(
-        error.contains("unit = \"ms\"") && error.contains("unit = \"us\""),
-        "{error}"
-    );
-}
-
 /// A text whose rows hold two bases: nothing in the samples shows that the rows have nothing to do with each other.
 #[test]
 fn columns_behind_other_time_stamps_are_not_mixed() {

@@ -344,6 +344,13 @@ fn a_counter_that_overflows_is_put_together() {
         let split = Log::from_table(&table, &mapping(None)).unwrap();
         let told = message(&split, "position-jump");
         assert!(told.contains("write wrap = \"65536 counts\""), "{told}");
+        // A wrap that is none of this counter puts the position together wrongly, which is said.
+        for counts in [256.0, 70000.0] {
+            let log = Log::from_table(&table, &mapping(Some(Wrap::Counts(counts)))).unwrap();
+            assert!(warnings(&log).contains(&"position-wrap"), "{counts}");
+            let told = message(&log, "position-wrap");
+            assert!(told.contains("correct wrap under [log]"), "{told}");
+        }
         let log = Log::from_table(&table, &mapping(Some(Wrap::Counts(65536.0)))).unwrap();
         let shift = log.position.as_ref().unwrap()[0] - 1e-6 * whole[0];
         for (a, b) in log.position.as_ref().unwrap().iter().zip(&whole) {
