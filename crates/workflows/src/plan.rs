@@ -14,8 +14,9 @@ pub use known::Known;
 pub use outcome::Planned;
 
 use crate::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use stiction_files::Axis;
+use stiction_files::plan::InputEntry;
 use stiction_search::Observer;
 
 /// What is to be planned.
@@ -67,8 +68,17 @@ pub fn plan(
         (Some(known), Some(kind)) => Some(known::told(known, axis_file, kind, observer)?),
         _ => None,
     };
+    // Of exactly what was read: the files may change while it is planned.
+    let mut inputs = Vec::new();
+    let known = options.known.as_ref().zip(told.as_ref());
+    let known = known.map(|(known, told)| (known.file(), told.sha256.clone()));
+    let own = axis.sha256().map(|sha256| (axis_file, sha256.to_string()));
+    for (path, sha256) in own.into_iter().chain(known) {
+        inputs.push(InputEntry {
+            path: stiction_files::shell::text(path),
+            sha256,
+        });
+    }
     let given = assume::given(&axis, told, options)?;
-    let mut inputs = vec![PathBuf::from(axis_file)];
-    inputs.extend(options.known.iter().map(|known| known.file().to_path_buf()));
     design::design(&axis, given, inputs, options, observer)
 }

@@ -34,8 +34,10 @@ impl Axis {
     /// With file, line, column and key, what was found and what is allowed.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
         let file = file.as_ref();
-        let mut axis = resolve(&crate::config::read(file, "an axis file")?, file)?;
+        let text = crate::config::read(file, "an axis file")?;
+        let mut axis = resolve(&text, file)?;
         axis.read_from = Some(file.into());
+        axis.sha256 = Some(crate::hash::sha256_of(text.as_bytes()));
         Ok(axis)
     }
 

@@ -78,6 +78,8 @@ pub struct Axis {
     pub(super) file: PathBuf,
     /// The file that it was read from.
     pub(super) read_from: Option<PathBuf>,
+    /// SHA-256 of the text that it was read from.
+    pub(super) sha256: Option<String>,
     /// Where each key stands.
     pub(super) places: Places,
 }
@@ -109,6 +111,7 @@ impl Default for Axis {
             tied: Vec::new(),
             file: PathBuf::new(),
             read_from: None,
+            sha256: None,
             places: Places::default(),
         }
     }
@@ -158,6 +161,11 @@ impl Axis {
     /// The file that it was read from.
     pub fn file(&self) -> Option<&Path> {
         self.read_from.as_deref()
+    }
+
+    /// SHA-256 of the text that it was read from; `None` where that was no file.
+    pub fn sha256(&self) -> Option<&str> {
+        self.sha256.as_deref()
     }
 
     /// Whether nothing is said of a constant force beside the law.

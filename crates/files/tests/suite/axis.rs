@@ -789,3 +789,16 @@ fn a_column_of_the_log_may_have_time_stamps_of_its_own() {
     assert_eq!((&joined.file, joined.from.role), (&None, Role::Force));
     assert_eq!(joined.from.time, Some(Channel::named("effort.t")));
 }
+
+/// Of the text that was read, whatever becomes of the file afterwards.
+#[test]
+fn an_axis_file_has_the_hash_of_what_was_read() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("axis.toml");
+    std::fs::write(&file, "kind = \"linear\"\n").unwrap();
+    let axis = Axis::read(&file).unwrap();
+    let before = stiction_files::sha256(&file).unwrap();
+    std::fs::write(&file, "kind = \"rotary\"\n").unwrap();
+    assert_eq!(axis.sha256(), Some(before.as_str()));
+    assert_eq!(parse("kind = \"linear\"\n").unwrap().sha256(), None);
+}

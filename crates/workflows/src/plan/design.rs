@@ -8,12 +8,11 @@ use super::outcome::Planned;
 use super::possible::{beyond, no_piece, peaks, tells_nothing};
 use crate::error::Error;
 use rayon::prelude::*;
-use std::path::PathBuf;
+use stiction_files::Axis;
 use stiction_files::plan::{
     AbortEntry, AtomEntry, ComparedEntry, ExpectedEntry, InputEntry, LargestEntry, LimitsEntry,
     PlanFile, RangeEntry, RigEntry, SCHEMA,
 };
-use stiction_files::{Axis, sha256};
 use stiction_friction::ParamError;
 use stiction_plan::{
     Aim, Atom, Candidate, Choice, Entry, HandMade, Limits, Motion, NAMES, Nameplate, Peaks, Spread,
@@ -43,7 +42,7 @@ const FAST: f64 = 0.5;
 pub(super) fn design(
     axis: &Axis,
     given: Given,
-    inputs: Vec<PathBuf>,
+    inputs: Vec<InputEntry>,
     options: &PlanOptions,
     observer: &mut dyn Observer,
 ) -> Result<Option<Planned>, Error> {
@@ -103,13 +102,6 @@ pub(super) fn design(
     let Some((name, best)) = best else {
         return Err(beyond(axis, &given, &whole));
     };
-    let mut hashed = Vec::new();
-    for path in &inputs {
-        hashed.push(InputEntry {
-            path: stiction_files::shell::text(path),
-            sha256: sha256(path)?,
-        });
-    }
     let largest = best.expected.peaks;
     let file = PlanFile {
         schema: SCHEMA.into(),
@@ -130,7 +122,7 @@ pub(super) fn design(
         evaluations: choice.evaluations,
         trust: TRUST,
         assumed: given.assumed.clone(),
-        inputs: hashed,
+        inputs,
         limits: LimitsEntry {
             stroke: limits.stroke,
             end_zone: limits.end_zone,

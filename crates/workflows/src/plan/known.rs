@@ -4,6 +4,7 @@ use crate::error::Error;
 use crate::identify::{Files, Options, identify};
 use std::path::{Path, PathBuf};
 use stiction_files::ModelFile;
+use stiction_files::model::ReadModel;
 use stiction_identify::{LawKind, Observer};
 use stiction_plan::{Belief, Candidate, NAMES, PARAMETERS};
 use stiction_signal::noise_deviation;
@@ -29,6 +30,8 @@ impl Known {
 /// What it says.
 pub(super) struct Told {
     pub belief: Belief,
+    /// SHA-256 of what it was read from.
+    pub sha256: String,
     /// Rate of the log, Hz, one encoder step, m (rad), and noise of the force, N (N m), where a log shows them.
     pub rate: Option<f64>,
     pub step: Option<f64>,
@@ -43,12 +46,16 @@ pub(super) fn told(
     observer: &mut dyn Observer,
 ) -> Result<Told, Error> {
     match known {
-        Known::Model(file) => Ok(Told {
-            belief: belief(&ModelFile::read(file)?, file, kind)?,
-            rate: None,
-            step: None,
-            force_noise: None,
-        }),
+        Known::Model(file) => {
+            let model = ReadModel::read(file)?;
+            Ok(Told {
+                belief: belief(&model.model, file, kind)?,
+                sha256: model.sha256,
+                rate: None,
+                step: None,
+                force_noise: None,
+            })
+        }
         Known::Log(file) => {
             let files = Files {
                 logs: vec![file.clone()],
@@ -61,12 +68,15 @@ pub(super) fn told(
                 ..Options::default()
             };
             let outcome = identify(&files, &options, observer)?;
-            let log = outcome.sources.first().map(|source| &source.log);
+            let source = outcome.sources.first();
+            let sha256 = source.map(|source| source.sha256.clone());
+            let log = source.map(|source| &source.log);
             let force = log.and_then(|log| log.force.as_deref());
             let noise = force.map(|force| noise_deviation(std::iter::once(force)));
             let model = ModelFile::from_result(&outcome.result);
             Ok(Told {
                 belief: belief(&model, file, kind)?,
+                sha256: sha256.unwrap_or_default(),
                 rate: log.map(|log| log.rate_hz),
                 step: log.and_then(|log| log.quantum),
                 force_noise: noise.filter(|noise| *noise > 0.0),
