@@ -43,6 +43,8 @@ pub enum Command {
     Check(Check),
     /// Identify a friction law from logs of one axis.
     Identify(Identify),
+    /// Identify every log of a folder or a list by itself, on all cores, into one table.
+    Batch(Batch),
     /// The motion to record, within the limits of an axis, with the intervals to expect of its log.
     Plan(Plan),
     /// Searches beside each other, many seeds of each, on a log or a problem with a known answer.
@@ -104,10 +106,11 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 /// The names of all commands.
-pub const COMMANDS: [&str; 10] = [
+pub const COMMANDS: [&str; 11] = [
     "demo",
     "check",
     "identify",
+    "batch",
     "plan",
     "compare",
     "simulate",
@@ -202,6 +205,46 @@ pub struct Identify {
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
     pub seed: u64,
     /// Folder for result.json, model.toml, report.html and fit.csv.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write into a folder that holds something else.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Batch {
+    /// Folders (with those below them), logs, patterns such as 'logs/**/*.csv', or lists: CSV with a column path, and where they
+    /// are known machine, time, temperature and axis.
+    #[arg(required = true, value_name = "LOGS")]
+    pub inputs: Vec<PathBuf>,
+    /// What is known of the axis and its columns, for logs to which a list gives no axis file.
+    #[arg(long, value_name = "AXIS.toml")]
+    pub axis: Option<PathBuf>,
+    /// Friction law; methods other than separable take lugre for auto. Name one for results that are followed over time.
+    #[arg(long, value_enum, default_value_t = Law::Auto)]
+    pub law: Law,
+    /// Parameters of its own for each direction of motion.
+    #[arg(long)]
+    pub asymmetric: bool,
+    /// How the parameters are found.
+    #[arg(long, value_enum, default_value_t = Method::Separable)]
+    pub method: Method,
+    /// Fit the first part of the samples of each log and validate on the rest: a share between 0 and 1 [default: all are
+    /// fitted].
+    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
+    pub split: Option<f64>,
+    /// Seed of the searches.
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
+    pub seed: u64,
+    /// Write the report and the model of each log as well, into DIR/reports.
+    #[arg(long)]
+    pub reports: bool,
+    /// Take the logs that an earlier call has left in the folder, whether it was finished or not: those with the same bytes, axis
+    /// file and options are not identified again.
+    #[arg(long)]
+    pub resume: bool,
+    /// Folder for results.parquet and batch.json.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Write into a folder that holds something else.

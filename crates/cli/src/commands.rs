@@ -1,6 +1,7 @@
 //! One function a command: arguments to a workflow, its outcome to the terminal and to disk.
 
 use crate::arguments::{self, Arguments, Command, Common};
+use crate::batch;
 use crate::brought;
 use crate::exit::Exit;
 use crate::interrupt;
@@ -35,11 +36,15 @@ pub fn run(arguments: &Arguments) -> Exit {
     if let Some(bytes) = common.max_memory {
         stiction::allow_memory(bytes);
     }
-    progress::watch_readings(common.json || common.quiet);
+    // Logs of a batch are read all the time; how many are done is what is told of it.
+    if !matches!(arguments.command, Command::Batch(_)) {
+        progress::watch_readings(common.json || common.quiet);
+    }
     let result = match &arguments.command {
         Command::Demo(demo) => self::demo(demo, common),
         Command::Check(check) => self::check(check, common),
         Command::Identify(identify) => self::identify(identify, common),
+        Command::Batch(typed) => batch::run(typed, common),
         Command::Plan(plan) => self::plan(plan, common),
         Command::Compare(compare) => self::compare(compare, common),
         Command::Simulate(simulate) => self::simulate(simulate, common),
@@ -507,7 +512,7 @@ fn compare(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
 }
 
 /// The law under the name that it has on the command line; none where the data choose it.
-fn law(typed: arguments::Law) -> Option<LawKind> {
+pub fn law(typed: arguments::Law) -> Option<LawKind> {
     match typed {
         arguments::Law::Auto => None,
         arguments::Law::CoulombViscous => Some(LawKind::CoulombViscous),
@@ -521,7 +526,7 @@ fn law(typed: arguments::Law) -> Option<LawKind> {
 }
 
 /// The method under the name that it has on the command line.
-fn method(typed: arguments::Method) -> Method {
+pub fn method(typed: arguments::Method) -> Method {
     let name = typed.to_possible_value().expect("no method is hidden");
     Method::from_name(name.get_name()).expect("the engine knows every method of the command line")
 }

@@ -49,18 +49,21 @@ pub fn kept(runs: Runs, whole: bool) {
     let said = match (whole, fault) {
         (true, _) => return runs.end(),
         (false, Some(fault)) => format!("what was done could not be kept: {fault}"),
-        (false, None) => {
-            let arguments = std::env::args_os().skip(1);
-            let arguments = arguments.map(|a| path_text(Path::new(&a)));
-            let others = arguments.filter(|a| a != "--resume");
-            let all = others.chain(["--resume".into()]);
-            format!(
-                "next: {} goes on where it was stopped",
-                stiction::commands::text::command(all)
-            )
-        }
+        (false, None) => return how_to_resume(),
     };
     // As above.
+    let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
+}
+
+/// Says how to go on with work that was stopped.
+pub fn how_to_resume() {
+    let arguments = std::env::args_os().skip(1);
+    let arguments = arguments.map(|a| path_text(Path::new(&a)));
+    let others = arguments.filter(|a| a != "--resume");
+    let all = others.chain(["--resume".into()]);
+    let command = stiction::commands::text::command(all);
+    let said = format!("next: {command} goes on where it was stopped");
+    // With standard error closed there is nowhere to say it.
     let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
 }
 

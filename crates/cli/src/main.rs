@@ -1,6 +1,7 @@
 //! The `stiction` command line: arguments, progress, exit codes. All work is done by the library of the same name.
 
 mod arguments;
+mod batch;
 mod brought;
 mod commands;
 mod exit;

@@ -15,6 +15,8 @@ use stiction::{Control, Observer, Progress, Reading, Stage};
 pub struct Bar {
     bar: ProgressBar,
     stage: Option<Stage>,
+    /// When the present stage was first told of, and what of it was done then.
+    first: (Instant, f64),
     /// Where there is no terminal.
     lines: Option<Lines>,
 }
@@ -26,6 +28,7 @@ impl Bar {
         Self {
             bar: bar(1000, hidden || !terminal),
             stage: None,
+            first: (Instant::now(), 0.0),
             lines: (!hidden && !terminal).then(Lines::default),
         }
     }
@@ -169,8 +172,11 @@ impl Lines {
                 .insert(first.unwrap_or((progress.stage, elapsed, progress.fraction)));
         if self.due(elapsed) {
             // With standard error closed there is nowhere to say it.
-            let ahead = ahead(progress.fraction, before, elapsed.saturating_sub(since));
-            let line = output::line(&format!("{}{ahead}", line(progress, elapsed)));
+            let took = elapsed.saturating_sub(since);
+            let ahead = ahead(progress.fraction, before, took);
+            let rate =
+                rate(progress, before, took).map_or(String::new(), |said| format!(", {said}"));
+            let line = output::line(&format!("{}{rate}{ahead}", line(progress, elapsed)));
             let _ = writeln!(std::io::stderr(), "stiction: {line}");
         }
     }
@@ -182,6 +188,19 @@ fn ahead(done: f64, before: f64, took: Duration) -> String {
     match Duration::try_from_secs_f64(left) {
         Ok(left) => format!(", left {:#}", HumanDuration(left)),
         Err(_) => String::new(),
+    }
+}
+
+/// How many logs a second, or a minute, are done, `before` of all before the time that it took.
+fn rate(progress: &Progress, before: f64, took: Duration) -> Option<String> {
+    let Stage::Logs { all, .. } = progress.stage else {
+        return None;
+    };
+    let each_second = (progress.fraction - before) * all as f64 / took.as_secs_f64();
+    match each_second {
+        x if x >= 1.0 => Some(format!("{x:.1} logs/s")),
+        x if x > 0.0 => Some(format!("{:.1} logs/min", 60.0 * x)),
+        _ => None,
     }
 }
 
@@ -202,6 +221,7 @@ fn name(stage: Stage) -> &'static str {
         Stage::Coarse => "first descents",
         Stage::Fine | Stage::Finish => "least squares",
         Stage::CrossValidation => "comparing laws",
+        Stage::Logs { .. } => "identifying",
         Stage::Experiments { .. } => "simulating",
     }
 }
@@ -213,7 +233,9 @@ fn message(progress: &Progress) -> Option<String> {
         return Some(format!("error {error}"));
     }
     match progress.stage {
-        Stage::Experiments { done, all } => Some(format!("{done} of {all}")),
+        Stage::Experiments { done, all } | Stage::Logs { done, all } => {
+            Some(format!("{done} of {all}"))
+        }
         _ => None,
     }
 }
@@ -227,14 +249,18 @@ impl Observer for Bar {
             self.stage = Some(progress.stage);
             self.bar.reset();
             self.bar.set_prefix(name(progress.stage));
+            self.first = (Instant::now(), progress.fraction);
         }
         self.bar.set_position((1000.0 * progress.fraction) as u64);
         if new {
             // What was done before says nothing of the time that is left.
             self.bar.reset_eta();
         }
-        if let Some(message) = message(progress) {
-            self.bar.set_message(message);
+        let (began, before) = self.first;
+        let said = [message(progress), rate(progress, before, began.elapsed())];
+        let said: Vec<String> = said.into_iter().flatten().collect();
+        if !said.is_empty() {
+            self.bar.set_message(said.join(", "));
         }
         if let Some(lines) = &mut self.lines {
             lines.tell(progress);
@@ -249,7 +275,7 @@ impl Observer for Bar {
 
 #[cfg(test)]
 mod tests {
-    use super::{Lines, left, line};
+    use super::{Lines, left, line, rate};
     use std::time::Duration;
     use stiction::{Progress, Stage};
 
@@ -266,6 +292,27 @@ mod tests {
         let mut lines = Lines::default();
         let due = (0..60).filter(|s| lines.due(Duration::from_secs(*s)));
         assert_eq!(due.collect::<Vec<_>>(), [20, 40]);
+    }
+
+    #[test]
+    fn a_rate_is_said_of_logs_in_words_that_fit_it() {
+        let stage = Stage::Logs { done: 30, all: 120 };
+        let said = |before, seconds| {
+            rate(
+                &Progress::of(stage, 0.25),
+                before,
+                Duration::from_secs(seconds),
+            )
+        };
+        assert_eq!(said(0.0, 10).as_deref(), Some("3.0 logs/s"));
+        assert_eq!(said(0.125, 10).as_deref(), Some("1.5 logs/s"));
+        assert_eq!(said(0.0, 100).as_deref(), Some("18.0 logs/min"));
+        assert_eq!(said(0.25, 0), None);
+        let other = Stage::Experiments { done: 3, all: 12 };
+        assert_eq!(
+            rate(&Progress::of(other, 0.25), 0.0, Duration::from_secs(9)),
+            None
+        );
     }
 
     #[test]

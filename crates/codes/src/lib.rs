@@ -135,6 +135,7 @@ codes! {
     TooLarge = "too-large": "a study or a comparison would simulate more than is allowed at once",
     BadCheckpoint = "bad-checkpoint": "a checkpoint is damaged or belongs to another search",
     Usage = "usage": "the command as typed cannot be carried out",
+    Internal = "internal": "stiction failed by a fault of its own",
     Output = "output": "the output folder or file cannot be used",
     ModelInDoubt = "model-in-doubt": "the model of a study is not trustworthy",
     NotInStudy = "not-in-study": "the model has terms that a study does not simulate",

@@ -6,6 +6,7 @@
 //! - [`Study`](study::Study): `study.toml`, resolved to the types of the simulation; [`study::result`]: `study.json`.
 //! - [`CompareFile`](compare_file::CompareFile): `compare.json`. [`ReproduceFile`](reproduce_file::ReproduceFile):
 //!   `reproduce.json`.
+//! - [`batch`]: lists of logs, `results.parquet` and `batch.json`.
 //! - [`Bundle`]: files that are written together, whole or not at all.
 //!
 //! Begin with [`Axis::read`] or [`ModelFile::read`]. An error names file, line, column, key, what was found and what is allowed:
@@ -21,6 +22,7 @@
 //! Nothing here runs a workflow, and nothing prints.
 
 pub mod axis;
+pub mod batch;
 pub mod compare_file;
 mod config;
 mod error;
@@ -40,6 +42,6 @@ pub use error::{Error, Remedy, Warning};
 pub use hash::{Hash, sha256, sha256_of};
 pub use model::ModelFile;
 pub use output::{
-    Bundle, Kept, Runs, Work, check_folder, check_folder_of, check_inputs, check_writable,
+    Bundle, Journal, Kept, Runs, Work, check_folder, check_folder_of, check_inputs, check_writable,
     has_runs, write_atomic, write_folder, write_into_folder, write_keeping,
 };

@@ -6,6 +6,7 @@
 
 mod bundle;
 mod folder;
+mod journal;
 mod pending;
 mod replace;
 mod runs;
@@ -15,9 +16,11 @@ mod taken;
 
 pub use bundle::Bundle;
 pub use folder::{write_folder, write_into_folder};
+pub use journal::Journal;
 pub(crate) use pending::settle;
 pub use runs::{Runs, Work, has_runs};
 pub use single::{Kept, check_writable, write_atomic, write_keeping};
+pub(crate) use staged::Staged;
 pub use taken::{check_folder, check_folder_of, check_inputs};
 
 /// Why nothing can be written where no room is left.

@@ -59,13 +59,15 @@ mod xlsx;
 pub use error::{Error, Kind, Place};
 pub use findings::{Finding, Severity};
 pub use join::{Elsewhere, Joined, Offset};
-pub use limits::{Limits, allow_memory};
+pub use limits::{Limits, allow_memory, allowed_memory, within_memory};
 pub use log::{Excluded, Gap, Log, NotEnabled};
 pub use mapping::{
     Assumed, Channel, Detected, Drive, Enable, Mapping, Motion, OwnStamps, Parts, Rests, Role,
     Selector, Understood, Wrap,
 };
 pub use open::{ReadOptions, read_table, read_table_with, read_wanted};
+#[cfg(feature = "parquet")]
+pub use parquet::{Cells, read_cells};
 pub use stiction_codes::Code;
 pub use table::{Column, Passed, Scalar, Table};
 pub use unit::{Dimension, Unit, Value};

@@ -1,5 +1,6 @@
 //! How much memory a log may take: what the program allows, what a file asks for, and the refusal.
 
+use std::cell::Cell;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::{Error, Kind};
@@ -18,19 +19,43 @@ static ALLOWED: AtomicU64 = AtomicU64::new(0);
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Bytes that a log may take at its peak, beside some megabytes of buffers: three times its columns, of HDF5 also the file
-    /// itself. By default what [`allow_memory`] said, and half of the memory of this machine, or of its control group, where it
-    /// said nothing.
+    /// itself. By default what [`within_memory`] says, and [`allowed_memory`] outside of it.
     pub memory: u64,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        let memory = match ALLOWED.load(Ordering::Relaxed) {
-            0 => memory_of_machine() / 2,
-            allowed => allowed,
-        };
+        let memory = OF_THREAD.get().unwrap_or_else(allowed_memory);
         Self { memory }
     }
+}
+
+thread_local! {
+    /// What [`within_memory`] said to this thread.
+    static OF_THREAD: Cell<Option<u64>> = const { Cell::new(None) };
+}
+
+/// Bytes that a log of this process may take: what [`allow_memory`] said, and half of the memory of this machine, or of its
+/// control group, where it said nothing.
+pub fn allowed_memory() -> u64 {
+    match ALLOWED.load(Ordering::Relaxed) {
+        0 => memory_of_machine() / 2,
+        allowed => allowed,
+    }
+}
+
+/// Does something during which a log that this thread opens may take that many bytes (1 or more), for whoever reads several at the
+/// same time and shares what is allowed among them.
+pub fn within_memory<T>(bytes: u64, does: impl FnOnce() -> T) -> T {
+    /// Puts back what was allowed before, also where a panic leaves.
+    struct Before(Option<u64>);
+    impl Drop for Before {
+        fn drop(&mut self) {
+            OF_THREAD.set(self.0);
+        }
+    }
+    let _before = Before(OF_THREAD.replace(Some(bytes.max(1))));
+    does()
 }
 
 /// Sets how many bytes (1 or more) a log may take from now on, for all readings of this process that name no limit of their
@@ -135,6 +160,21 @@ impl Budget {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_shared_counts_for_the_thread_and_the_time_that_it_is_said_for() {
+        let before = Limits::default();
+        let inside = within_memory(1000, || {
+            let elsewhere = std::thread::spawn(Limits::default).join().unwrap();
+            assert_eq!(elsewhere, before);
+            within_memory(10, || assert_eq!(Limits::default().memory, 10));
+            Limits::default()
+        });
+        assert_eq!(inside.memory, 1000);
+        let panics = std::panic::catch_unwind(|| within_memory(10, || panic!("inside")));
+        assert!(panics.is_err());
+        assert_eq!(Limits::default(), before);
+    }
 
     #[test]
     fn a_refusal_says_what_is_asked_what_is_allowed_and_how_to_raise_it() {

@@ -1,5 +1,6 @@
 //! What a terminal shows: plain text tables, the same on every width.
 
+mod batch;
 mod check;
 mod comparison;
 mod export;
@@ -16,6 +17,7 @@ use crate::names::{chosen_by, force_noise, law_beside, law_of, simulated_runs, w
 use crate::next;
 pub use crate::next::{axis_file, why};
 use crate::trust::{cause, compensation, constants, why_not};
+pub use batch::batch;
 pub use check::{check, started};
 pub use comparison::{announced_comparison, comparison};
 pub use export::exported;

@@ -177,6 +177,7 @@ fn name(stage: Stage) -> &'static str {
         Stage::Coarse => "first descents",
         Stage::Fine | Stage::Finish => "least squares",
         Stage::CrossValidation => "comparing laws",
+        Stage::Logs { .. } => "identifying",
         Stage::Experiments { .. } => "simulating",
     }
 }

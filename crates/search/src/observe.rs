@@ -127,6 +127,13 @@ pub enum Stage {
     Calibration,
     /// Law comparison on held-out blocks.
     CrossValidation,
+    /// Logs, each identified by itself.
+    Logs {
+        /// How many are done.
+        done: usize,
+        /// Of how many.
+        all: usize,
+    },
     /// Simulations and other experiments.
     Experiments {
         /// How many are done.

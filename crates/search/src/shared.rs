@@ -14,6 +14,8 @@ pub struct Shared<'o> {
     size: u64,
     worked: AtomicU64,
     stopped: AtomicBool,
+    /// The stage in which so many of so many pieces are done.
+    stage: fn(usize, usize) -> Stage,
 }
 
 impl<'o> Shared<'o> {
@@ -31,6 +33,15 @@ impl<'o> Shared<'o> {
             size,
             worked: AtomicU64::new(0),
             stopped: AtomicBool::new(false),
+            stage: |done, all| Stage::Experiments { done, all },
+        }
+    }
+
+    /// For so many logs of the same size, none of which is done.
+    pub fn of_logs(observer: &'o mut dyn Observer, all: usize) -> Self {
+        Self {
+            stage: |done, all| Stage::Logs { done, all },
+            ..Self::new(observer, all)
         }
     }
 
@@ -52,10 +63,8 @@ impl<'o> Shared<'o> {
 
     /// Tells the observer how many pieces are done; false if the work is to stop.
     pub fn go_on(&self) -> bool {
-        let told = |done: usize, fraction: f64| {
-            let all = self.all;
-            Progress::of(Stage::Experiments { done, all }, fraction)
-        };
+        let told =
+            |done: usize, fraction: f64| Progress::of((self.stage)(done, self.all), fraction);
         self.tell(told) == Control::Continue
     }
 

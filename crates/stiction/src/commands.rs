@@ -1,6 +1,14 @@
 //! What the command line is made of: the same work from paths to outcomes, the texts and reports of it, and the rules of
 //! output folders.
 
+/// Many logs, and the table of what was identified of each.
+pub mod batch {
+    pub use stiction_files::batch::{
+        BatchFile, COLUMNS, LogRow, ParameterRow, RESULTS, SCHEMA, read_results,
+    };
+    pub use stiction_workflows::batch::{Batch, Done};
+}
+
 /// Forms of files, and how they are written.
 pub use stiction_files::{
     Bundle, Error as FileError, Kept, Remedy, Runs, axis, check_folder, check_folder_of,

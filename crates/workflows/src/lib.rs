@@ -2,6 +2,7 @@
 //!
 //! - [`check`](check::check): what was read, and what a log can and cannot determine.
 //! - [`identify`](identify::identify): a law with intervals from logs, and whether it may be trusted.
+//! - [`Batch`](batch::Batch): many logs, each identified by itself.
 //! - [`simulate`](study::simulate): a study of compensations on a simulated axis.
 //! - [`compare`](compare::compare): search methods beside each other.
 //! - [`reproduce`]: published experiments run again.
@@ -36,6 +37,7 @@
 //! Files have the formats of `stiction-files`; reports and texts for people are made by `stiction-pages`; nothing
 //! here prints.
 
+pub mod batch;
 pub mod check;
 pub mod compare;
 mod compile;

@@ -5,6 +5,7 @@ use crate::export::Exported;
 use crate::identify::Outcome;
 use crate::reproduce::Reproduction;
 use crate::study::StudyOutcome;
+use stiction_files::batch::BatchFile;
 use stiction_files::compare_file::CompareFile;
 
 /// Whether an outcome may be used. What a process exits with follows from it, and from nothing else.
@@ -67,6 +68,11 @@ impl Exported {
     pub fn verdict(&self) -> Verdict {
         Verdict::new(false, self.trustworthy)
     }
+}
+
+/// Whether something was identified of every log of a batch, and may be used.
+pub fn of_batch(file: &BatchFile) -> Verdict {
+    Verdict::new(file.status == "interrupted", file.trustworthy == file.logs)
 }
 
 /// Whether all runs of a comparison were made.

@@ -1,5 +1,6 @@
 //! The integration tests of `stiction-cli` in one program, which is linked once: a new file is a module here.
 
+mod batch;
 mod cli;
 mod export;
 mod exported;

@@ -18,9 +18,9 @@ pub(super) const NAME: &str = ".stiction-runs";
 /// What its first line begins with.
 const SCHEMA: &str = "stiction.runs/1";
 /// Longest line that is read, bytes: the course of a run and its pictures are below a megabyte.
-const LONGEST: u64 = 1 << 24;
+pub(super) const LONGEST: u64 = 1 << 24;
 /// Characters of a check sum that are kept with a run.
-const SUM: usize = 16;
+pub(super) const SUM: usize = 16;
 
 /// What runs belong to; others are not taken.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,7 +37,7 @@ pub struct Work {
 
 impl Work {
     /// The first line of the file.
-    fn line(&self) -> String {
+    pub(super) fn line(&self) -> String {
         let Work {
             kind,
             version,
@@ -47,7 +47,7 @@ impl Work {
         format!("{SCHEMA}\t{kind}\t{version}\t{of}\t{runs}")
     }
 
-    fn read(line: &str) -> Option<Self> {
+    pub(super) fn read(line: &str) -> Option<Self> {
         let mut cells = line.split('\t');
         let mut next = || cells.next().map(String::from);
         let schema = next()?;
@@ -189,7 +189,7 @@ pub fn has_runs(dir: &Path) -> bool {
 }
 
 /// The file of that name, if there is one.
-fn opened(path: &Path) -> Result<Option<File>, Error> {
+pub(super) fn opened(path: &Path) -> Result<Option<File>, Error> {
     // Opening a pipe of this name would wait for ever.
     match path.symlink_metadata() {
         Err(_) => return Ok(None),
@@ -204,7 +204,7 @@ fn opened(path: &Path) -> Result<Option<File>, Error> {
 }
 
 /// The file, which no other program works on.
-fn held(file: File, path: &Path) -> Result<File, Error> {
+pub(super) fn held(file: File, path: &Path) -> Result<File, Error> {
     match file.try_lock() {
         Err(TryLockError::WouldBlock) => Err(Error::output(
             path,

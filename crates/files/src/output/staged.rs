@@ -103,3 +103,38 @@ pub(super) fn sweep(dir: &Path) {
         }
     }
 }
+
+/// A file that is written part by part under a temporary name: it takes the place of what is there once it is complete, and
+/// vanishes where it never is.
+pub(crate) struct Staged {
+    file: NamedTempFile,
+    path: std::path::PathBuf,
+}
+
+impl Staged {
+    /// Begins a file that is going to be `path`.
+    pub(crate) fn begin(path: &Path) -> Result<Self, Error> {
+        Ok(Self {
+            file: stage(path, b"")?,
+            path: path.to_path_buf(),
+        })
+    }
+
+    /// The file to write to.
+    pub(crate) fn file(&self) -> Result<File, Error> {
+        let fail = |e: std::io::Error| Error::output(&self.path, describe(&e));
+        self.file.as_file().try_clone().map_err(fail)
+    }
+
+    /// What went wrong with it.
+    pub(crate) fn fault(&self, reason: impl Into<String>) -> Error {
+        Error::output(&self.path, reason)
+    }
+
+    /// Gives it its name.
+    pub(crate) fn publish(self) -> Result<(), Error> {
+        let synced = self.file.as_file().sync_all();
+        synced.map_err(|e| Error::output(&self.path, describe(&e)))?;
+        publish(self.file, &self.path)
+    }
+}

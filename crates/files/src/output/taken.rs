@@ -7,16 +7,17 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Files that mark a folder as one that stiction wrote and may replace, each written last.
-pub(super) const MARKS: [&str; 5] = [
+pub(super) const MARKS: [&str; 6] = [
     "result.json",
     "compare.json",
     "study.json",
     "reproduce.json",
     "plan.toml",
+    "batch.json",
 ];
 
 /// Names of the files that are written.
-const WRITTEN: [&str; 11] = [
+const WRITTEN: [&str; 13] = [
     "result.json",
     "compare.json",
     "model.toml",
@@ -28,6 +29,8 @@ const WRITTEN: [&str; 11] = [
     "reproduce.json",
     "plan.toml",
     "setpoints.csv",
+    "batch.json",
+    "results.parquet",
 ];
 
 /// Refuses an output folder whose files would take the place of an input, or of a file that is going to be

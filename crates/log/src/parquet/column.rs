@@ -178,7 +178,7 @@ impl Samples {
 }
 
 /// Calls `take` on every row, `None` for a missing value, one below definition level `full`.
-fn each<T: DataType>(
+pub(super) fn each<T: DataType>(
     reader: &mut ColumnReaderImpl<T>,
     rows: usize,
     full: i16,

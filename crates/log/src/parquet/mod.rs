@@ -4,6 +4,7 @@
 //! one, which [`Table::detected`] names. Fields of structs are `struct.field`; text, raw bytes and
 //! lists are named in [`Table::skipped`].
 
+mod cells;
 mod column;
 mod scan;
 mod thrift;
@@ -11,9 +12,11 @@ mod thrift;
 use std::fs::File;
 use std::sync::Arc;
 
+pub use cells::{Cells, read_cells};
 use column::{Meaning, Samples};
 use parquet::basic::Compression;
 use parquet::errors::ParquetError;
+use parquet::file::metadata::RowGroupMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use crate::binary::{Collector, Order, guard, seconds};
@@ -51,6 +54,40 @@ fn library(error: ParquetError) -> Error {
     broken(format!("broken or unsupported Parquet ({error})"))
 }
 
+/// Refuses a column of a row group that is not compressed as it may be, or whose pages ask for too much memory.
+fn check_pages(
+    group: &RowGroupMetaData,
+    raw: &mut File,
+    index: usize,
+    collector: &Collector,
+) -> Result<(), Error> {
+    let chunk = group
+        .columns()
+        .get(index)
+        .ok_or_else(|| broken("a missing column"))?;
+    if !matches!(
+        chunk.compression(),
+        Compression::UNCOMPRESSED | Compression::SNAPPY
+    ) {
+        return Err(Error::new(
+            Kind::Format,
+            format!("compressed with {}", chunk.compression()),
+            "write the file with compression 'snappy' or none",
+        ));
+    }
+    let start = chunk
+        .dictionary_page_offset()
+        .unwrap_or(chunk.data_page_offset());
+    let end = start.checked_add(chunk.compressed_size());
+    match (u64::try_from(start), end.map(u64::try_from)) {
+        (Ok(start), Some(Ok(end))) => {
+            let largest = scan::pages(raw, start, end).map_err(broken)?;
+            collector.holds("a page", largest)
+        }
+        _ => Err(broken("a negative offset")),
+    }
+}
+
 /// Reads one column from all row groups.
 fn one(
     reader: &SerializedFileReader<File>,
@@ -74,31 +111,7 @@ fn one(
     for (number, group) in reader.metadata().row_groups().iter().enumerate() {
         let rows = u64::try_from(group.num_rows()).map_err(|_| broken("a negative length"))?;
         total += collector.reserve(name, &[rows])?;
-        let chunk = group
-            .columns()
-            .get(index)
-            .ok_or_else(|| broken("a missing column"))?;
-        if !matches!(
-            chunk.compression(),
-            Compression::UNCOMPRESSED | Compression::SNAPPY
-        ) {
-            return Err(Error::new(
-                Kind::Format,
-                format!("compressed with {}", chunk.compression()),
-                "write the file with compression 'snappy' or none",
-            ));
-        }
-        let start = chunk
-            .dictionary_page_offset()
-            .unwrap_or(chunk.data_page_offset());
-        let end = start.checked_add(chunk.compressed_size());
-        match (u64::try_from(start), end.map(u64::try_from)) {
-            (Ok(start), Some(Ok(end))) => {
-                let largest = scan::pages(raw, start, end).map_err(broken)?;
-                collector.holds("a page", largest)?;
-            }
-            _ => return Err(broken("a negative offset")),
-        }
+        check_pages(group, raw, index, collector)?;
         let group = reader.get_row_group(number).map_err(library)?;
         let mut chunk = group.get_column_reader(index).map_err(library)?;
         samples

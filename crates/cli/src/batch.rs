@@ -1,0 +1,74 @@
+//! `stiction batch`: many logs, each identified as `stiction identify` does it.
+
+use crate::arguments::{self, Common};
+use crate::commands::{law, method};
+use crate::exit::Exit;
+use crate::interrupt;
+use crate::large;
+use crate::output;
+use crate::progress::Bar;
+use std::io::Write;
+use stiction::commands::batch::{Batch, SCHEMA};
+use stiction::commands::{check_folder_of, check_inputs, has_runs};
+use stiction::{Error, Options, bundle};
+
+/// Runs the batch, writes its table and says what became of the logs.
+pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
+    let dir = &typed.out;
+    check_folder_of(dir, SCHEMA, typed.force)?;
+    let mut options = Options::default();
+    options.law = law(typed.law);
+    options.asymmetric = typed.asymmetric;
+    options.split = typed.split;
+    options.seed = typed.seed;
+    options.procedures.method = method(typed.method);
+    let axis = typed.axis.as_deref();
+    let batch = Batch::new(&typed.inputs, axis, &options, typed.reports, dir)?;
+    check_inputs(
+        dir,
+        batch
+            .inputs()
+            .chain(typed.inputs.iter().map(|path| path.as_path())),
+    )?;
+    let left = has_runs(dir);
+    let journal = batch.keep(dir, typed.resume)?;
+    let said = match (typed.resume, left, journal.len()) {
+        (true, _, 0) => Some(format!(
+            "{} holds nothing of an earlier call: every log is identified",
+            dir.display()
+        )),
+        (false, true, _) => Some(format!(
+            "{} held logs of a call that was not finished: it begins anew; --resume would have taken them",
+            dir.display()
+        )),
+        _ => None,
+    };
+    if let Some(said) = said {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
+    }
+    let mut bar = Bar::new(common.json || common.quiet);
+    let report = |outcome: &stiction::commands::Outcome, name: &str| {
+        let folder = dir.join(name);
+        bundle::identification_in(outcome, &folder).write(&folder)?;
+        Ok(())
+    };
+    let done = batch.run(&journal, &report, &mut bar);
+    bar.finish();
+    let done = done?;
+    let file = batch.write(dir, &journal, &done)?;
+    if common.json {
+        output::json(&file)?;
+    } else if !common.quiet {
+        output::print(&stiction::commands::text::batch(&file, dir, axis))?;
+    }
+    if !done.is_whole() {
+        large::how_to_resume();
+        return Ok(Exit::Interrupted);
+    }
+    journal.end();
+    if interrupt::stopped() {
+        return Ok(Exit::Interrupted);
+    }
+    Ok(stiction::commands::verdict::of_batch(&file).into())
+}

@@ -1,0 +1,189 @@
+//! The logs of a `results.parquet` that is there.
+
+use super::row::{LogRow, ParameterRow};
+use super::table::COLUMNS;
+use crate::error::Error;
+use std::path::Path;
+use stiction_codes::Code;
+use stiction_log::{Cells, Limits, read_cells};
+
+/// Reads the table of an earlier batch, and hands on its logs in their order.
+///
+/// # Errors
+/// Where it cannot be read or is no table of a batch, and what `take` refuses.
+pub fn read_results(
+    path: &Path,
+    mut take: impl FnMut(LogRow) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let columns = read_cells(path, &COLUMNS, Limits::default())?;
+    let of = |name: &str| {
+        let place = COLUMNS.iter().position(|column| *column == name)?;
+        columns[place].as_ref()
+    };
+    let needed = |name: &str| {
+        of(name).ok_or_else(|| Error::Config {
+            file: path.to_path_buf(),
+            place: format!("column {name}: "),
+            found: "is not there".into(),
+            allowed: "the table that stiction batch writes".into(),
+        })
+    };
+    let paths = needed("path")?;
+    let keys = needed("key")?;
+    needed("parameter")?;
+    let text = |name: &str, row: usize| of(name).and_then(|c| c.text(row)).map(String::from);
+    let number = |name: &str, row: usize| of(name).and_then(|c| c.number(row));
+    let flag = |name: &str, row: usize| of(name).and_then(|c: &Cells| c.flag(row));
+    let same = |a: usize, b: usize| paths.text(a) == paths.text(b) && keys.text(a) == keys.text(b);
+    let mut first = 0;
+    while first < paths.len() {
+        let rest = first + 1..paths.len();
+        let end = rest
+            .into_iter()
+            .find(|row| !same(first, *row))
+            .unwrap_or(paths.len());
+        let parameters = (first..end).filter_map(|row| {
+            Some(ParameterRow {
+                name: text("parameter", row)?,
+                value: number("value", row),
+                unit: text("unit", row).unwrap_or_default(),
+                std: number("std", row),
+                low: number("low", row),
+                high: number("high", row),
+                identifiable: flag("identifiable", row).unwrap_or_default(),
+                origin: text("origin", row).unwrap_or_default(),
+            })
+        });
+        let warnings = text("warnings", first).unwrap_or_default();
+        let warnings = warnings.split_whitespace().filter_map(Code::from_name);
+        take(LogRow {
+            path: text("path", first).unwrap_or_default(),
+            sha256: text("sha256", first),
+            machine: text("machine", first),
+            time: number("time", first),
+            temperature: number("temperature", first),
+            axis: text("axis", first),
+            law: text("law", first),
+            asymmetric: flag("asymmetric", first),
+            method: text("method", first),
+            trustworthy: flag("trustworthy", first),
+            relative_error_percent: number("relative_error_percent", first),
+            samples: number("samples", first).map(|n| n as u64),
+            warnings: warnings.collect(),
+            error: text("error", first).and_then(|code| Code::from_name(&code)),
+            message: text("message", first),
+            report: text("report", first),
+            version: text("version", first).unwrap_or_default(),
+            seed: number("seed", first).unwrap_or_default() as u64,
+            key: text("key", first).unwrap_or_default(),
+            parameters: parameters.collect(),
+        })?;
+        first = end;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::batch::Results;
+    use proptest::prelude::*;
+
+    fn some<T: std::fmt::Debug>(of: impl Strategy<Value = T>) -> impl Strategy<Value = Option<T>> {
+        proptest::option::of(of)
+    }
+
+    prop_compose! {
+        fn parameter()(
+            name in "[a-z0-9_]{1,12}",
+            value in some(-1e12..1e12),
+            unit in "[a-zA-Z·/]{1,6}",
+            ends in some((-1e3..1e3, 0.0..1e3)),
+            low_open in any::<bool>(),
+            identifiable in any::<bool>(),
+        ) -> ParameterRow {
+            ParameterRow {
+                name,
+                value,
+                unit,
+                std: ends.map(|(_, width)| width / 4.0),
+                low: ends.map(|(low, _)| low).filter(|_| !low_open),
+                high: ends.map(|(low, width)| low + width),
+                identifiable,
+                origin: "identified".into(),
+            }
+        }
+    }
+
+    prop_compose! {
+        fn log()(
+            path in "\\PC{1,12}",
+            machine in some("\\PC{1,6}"),
+            time in some(-1e10..1e10),
+            failed in any::<bool>(),
+            parameters in prop::collection::vec(parameter(), 1..6),
+            seed in 0u64..1 << 50,
+            key in "[0-9a-f]{64}",
+        ) -> LogRow {
+            LogRow {
+                path,
+                machine,
+                time,
+                sha256: (!failed).then(|| "ab".repeat(32)),
+                error: failed.then_some(Code::LogFormat),
+                message: failed.then(|| "was refused".into()),
+                law: (!failed).then(|| "lugre".into()),
+                trustworthy: (!failed).then_some(true),
+                samples: (!failed).then_some(30_001),
+                warnings: if failed { vec![] } else { vec![Code::Gap, Code::Jitter] },
+                parameters: if failed { vec![] } else { parameters },
+                version: "0".into(),
+                seed,
+                key,
+                ..LogRow::default()
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(32))]
+        /// What is read is what was written, bit for bit, and the same logs give the same bytes.
+        #[test]
+        fn logs_come_back_as_they_were_written(logs in prop::collection::vec(log(), 0..12)) {
+            let folder = tempfile::tempdir().unwrap();
+            let write = |name: &str| {
+                let path = folder.path().join(name);
+                let mut out = Results::begin(&path).unwrap();
+                logs.iter().for_each(|log| out.add(log).unwrap());
+                out.end().unwrap();
+                path
+            };
+            let path = write("a.parquet");
+            let mut read = Vec::new();
+            read_results(&path, |log| { read.push(log); Ok(()) }).unwrap();
+            prop_assert_eq!(&read, &logs);
+            let other = write("b.parquet");
+            prop_assert_eq!(std::fs::read(path).unwrap(), std::fs::read(other).unwrap());
+        }
+
+        /// Cut or changed anywhere, a table is read or refused.
+        #[test]
+        fn a_damaged_table_is_no_fault(part in 0.0..1.0f64, flip in 0.0..1.0f64, cut in any::<bool>()) {
+            let folder = tempfile::tempdir().unwrap();
+            let path = folder.path().join("results.parquet");
+            let mut out = Results::begin(&path).unwrap();
+            let row = LogRow { path: "a".into(), key: "k".into(), ..LogRow::default() };
+            (0..20).for_each(|_| out.add(&row).unwrap());
+            out.end().unwrap();
+            let mut bytes = std::fs::read(&path).unwrap();
+            if cut {
+                bytes.truncate((part * bytes.len() as f64) as usize);
+            } else {
+                let at = (flip * bytes.len() as f64) as usize;
+                bytes[at] ^= 0x55;
+            }
+            std::fs::write(&path, &bytes).unwrap();
+            let _ = read_results(&path, |_| Ok(()));
+        }
+    }
+}

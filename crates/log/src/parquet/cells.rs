@@ -1,0 +1,227 @@
+//! Columns of a table that holds more than samples, by their names: text, numbers and flags.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::path::Path;
+
+use parquet::basic::Type;
+use parquet::column::reader::ColumnReader;
+use parquet::errors::ParquetError;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+
+use super::column::each;
+use super::{broken, check_pages, library, scan};
+use crate::binary::{Collector, guard};
+use crate::{Error, Kind, Limits};
+
+/// A word that is missing.
+const NONE: u32 = u32::MAX;
+
+/// The cells of a column, as many as the table has rows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cells {
+    /// Text; each word is kept once.
+    Text {
+        /// Which of the words a row has; none where [`Cells::text`] gives none.
+        rows: Vec<u32>,
+        /// The words, each once, in the order in which they come.
+        words: Vec<String>,
+    },
+    /// Numbers of any type, NaN where one is missing.
+    Numbers(Vec<f64>),
+    /// Yes and no.
+    Flags(Vec<Option<bool>>),
+}
+
+impl Cells {
+    /// How many rows there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Cells::Text { rows, .. } => rows.len(),
+            Cells::Numbers(numbers) => numbers.len(),
+            Cells::Flags(flags) => flags.len(),
+        }
+    }
+
+    /// Whether there is no row.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The text of a row; `None` where it has none, or the column is no text.
+    pub fn text(&self, row: usize) -> Option<&str> {
+        match self {
+            Cells::Text { rows, words } => Some(words.get(*rows.get(row)? as usize)?),
+            _ => None,
+        }
+    }
+
+    /// The number of a row; `None` where it has none, or the column is none of numbers.
+    pub fn number(&self, row: usize) -> Option<f64> {
+        match self {
+            Cells::Numbers(numbers) => numbers.get(row).copied().filter(|x| !x.is_nan()),
+            _ => None,
+        }
+    }
+
+    /// Yes or no of a row; `None` where it says neither.
+    pub fn flag(&self, row: usize) -> Option<bool> {
+        match self {
+            Cells::Flags(flags) => *flags.get(row)?,
+            _ => None,
+        }
+    }
+}
+
+/// Reads the columns of a Parquet file that are named; `None` for one that it does not have.
+///
+/// # Errors
+/// Where the file cannot be read, is damaged or asks for more memory than is allowed, with the file and the column.
+pub fn read_cells(
+    path: &Path,
+    names: &[&str],
+    limits: Limits,
+) -> Result<Vec<Option<Cells>>, Error> {
+    guard("Parquet", || read(path, names, limits)).map_err(|error| error.in_file(path))
+}
+
+fn read(path: &Path, names: &[&str], limits: Limits) -> Result<Vec<Option<Cells>>, Error> {
+    let io = |error: std::io::Error| Error::new(Kind::Io, format!("cannot be read ({error})"), "");
+    // Looked at before it is opened: opening a pipe that nobody writes to would wait forever.
+    let about = std::fs::metadata(path).map_err(io)?;
+    if !about.is_file() {
+        return Err(Error::new(Kind::Io, "not a regular file", "a Parquet file"));
+    }
+    let file = File::open(path).map_err(io)?;
+    let mut raw = file.try_clone().map_err(io)?;
+    scan::footer(&mut raw, about.len()).map_err(broken)?;
+    let reader = SerializedFileReader::new(file).map_err(library)?;
+    let mut collector = Collector::new(limits);
+    let columns = reader.metadata().file_metadata().schema_descr_ptr();
+    let mut out = vec![None; names.len()];
+    for index in 0..columns.num_columns() {
+        collector.entry()?;
+        let name = columns.column(index).path().parts().join(".");
+        let Some(place) = names.iter().position(|wanted| *wanted == name) else {
+            continue;
+        };
+        let cells = one(&reader, &mut raw, index, &name, &mut collector)
+            .map_err(|error| error.in_column(&name))?;
+        out[place] = Some(cells);
+    }
+    Ok(out)
+}
+
+/// Reads one column from all row groups.
+fn one(
+    reader: &SerializedFileReader<File>,
+    raw: &mut File,
+    index: usize,
+    name: &str,
+    collector: &mut Collector,
+) -> Result<Cells, Error> {
+    let columns = reader.metadata().file_metadata().schema_descr_ptr();
+    let column = columns.column(index);
+    if column.max_rep_level() > 0 {
+        return Err(Error::new(
+            Kind::Format,
+            "a list in every row",
+            "one cell in every row",
+        ));
+    }
+    let mut taken = Taken::of(column.physical_type());
+    let mut total = 0;
+    for (number, group) in reader.metadata().row_groups().iter().enumerate() {
+        let rows = u64::try_from(group.num_rows()).map_err(|_| broken("a negative length"))?;
+        total += collector.reserve(name, &[rows])?;
+        check_pages(group, raw, index, collector)?;
+        let group = reader.get_row_group(number).map_err(library)?;
+        let mut chunk = group.get_column_reader(index).map_err(library)?;
+        taken
+            .append(column.max_def_level(), rows as usize, &mut chunk)
+            .map_err(library)?;
+        collector.holds("the words of a column", taken.bytes)?;
+        if taken.cells.len() as u64 != total {
+            return Err(broken(format!(
+                "row group {} ends after {} of {total} rows",
+                number + 1,
+                taken.cells.len()
+            )));
+        }
+    }
+    Ok(taken.cells)
+}
+
+/// What was taken of a column so far.
+struct Taken {
+    cells: Cells,
+    /// Where a word stands among the words.
+    places: HashMap<Vec<u8>, u32>,
+    /// Of all words.
+    bytes: u64,
+}
+
+impl Taken {
+    fn of(kind: Type) -> Self {
+        let cells = match kind {
+            Type::BYTE_ARRAY | Type::FIXED_LEN_BYTE_ARRAY => Cells::Text {
+                rows: Vec::new(),
+                words: Vec::new(),
+            },
+            Type::BOOLEAN => Cells::Flags(Vec::new()),
+            _ => Cells::Numbers(Vec::new()),
+        };
+        Self {
+            cells,
+            places: HashMap::new(),
+            bytes: 0,
+        }
+    }
+
+    fn append(
+        &mut self,
+        full: i16,
+        rows: usize,
+        reader: &mut ColumnReader,
+    ) -> Result<(), ParquetError> {
+        use ColumnReader as R;
+        let Self {
+            cells,
+            places,
+            bytes,
+        } = self;
+        match (reader, cells) {
+            (R::ByteArrayColumnReader(r), Cells::Text { rows: out, words }) => {
+                each(r, rows, full, |value| {
+                    let word = value.map(|value| {
+                        *places.entry(value.data().to_vec()).or_insert_with(|| {
+                            let word = String::from_utf8_lossy(value.data()).into_owned();
+                            *bytes += 2 * word.len() as u64;
+                            words.push(word);
+                            words.len() as u32 - 1
+                        })
+                    });
+                    out.push(word.unwrap_or(NONE));
+                })
+            }
+            (R::BoolColumnReader(r), Cells::Flags(out)) => {
+                each(r, rows, full, |value| out.push(value.copied()))
+            }
+            (R::DoubleColumnReader(r), Cells::Numbers(out)) => each(r, rows, full, |value| {
+                out.push(value.copied().unwrap_or(f64::NAN))
+            }),
+            (R::FloatColumnReader(r), Cells::Numbers(out)) => each(r, rows, full, |value| {
+                out.push(value.map_or(f64::NAN, |x| f64::from(*x)));
+            }),
+            (R::Int64ColumnReader(r), Cells::Numbers(out)) => each(r, rows, full, |value| {
+                out.push(value.map_or(f64::NAN, |x| *x as f64));
+            }),
+            (R::Int32ColumnReader(r), Cells::Numbers(out)) => each(r, rows, full, |value| {
+                out.push(value.map_or(f64::NAN, |x| f64::from(*x)));
+            }),
+            _ => Err(ParquetError::General(
+                "a type that is neither text, number nor flag".to_owned(),
+            )),
+        }
+    }
+}

@@ -1,0 +1,9 @@
+//! Many logs, each identified by itself: as many at the same time as there are threads, one row or more for each of them.
+
+mod found;
+mod one;
+mod prepare;
+mod run;
+
+pub use prepare::Batch;
+pub use run::Done;

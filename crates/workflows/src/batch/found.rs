@@ -1,0 +1,163 @@
+//! Which logs a batch is made of: those of folders, patterns and lists.
+
+use crate::error::Error;
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use stiction_files::batch::{Listed, is_list, read_list};
+use stiction_files::shell;
+
+/// The logs, each once, in the order of the inputs, those of a folder and a pattern in alphabetical order; but for what is in `out`.
+pub(super) fn found(inputs: &[PathBuf], out: &Path) -> Result<Vec<Listed>, Error> {
+    let mut all = Vec::new();
+    for input in inputs {
+        let before = all.len();
+        let is_pattern = || shell::text(input).contains(['*', '?', '[']);
+        if input.is_dir() {
+            walk(input, out, &mut all);
+            if all.len() == before {
+                let found = format!("{} holds no logs", shell::text(input));
+                return Err(Error::usage(
+                    found,
+                    "a folder with logs in it or in folders below it",
+                ));
+            }
+        } else if input.symlink_metadata().is_err() && is_pattern() {
+            matching(input, out, &mut all)?;
+        } else if is_list(input) {
+            all.extend(read_list(input)?);
+        } else if let Err(e) = fs::metadata(input) {
+            let kind = stiction_log::Kind::Io;
+            let missing = stiction_log::Error::new(kind, format!("cannot be read ({e})"), "");
+            return Err(missing.in_file(input).into());
+        } else {
+            all.push(log(input.clone()));
+        }
+    }
+    let mut seen = HashSet::new();
+    all.retain(|listed| seen.insert(listed.path.clone()));
+    Ok(all)
+}
+
+fn log(path: PathBuf) -> Listed {
+    Listed {
+        path,
+        ..Listed::default()
+    }
+}
+
+/// What is in a folder, and in those below it; hidden ones, links to folders and configuration are left out.
+fn walk(folder: &Path, out: &Path, all: &mut Vec<Listed>) {
+    let same = |a: &Path| Some(a.canonicalize().ok()? == out.canonicalize().ok()?);
+    if same(folder) == Some(true) {
+        return;
+    }
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    paths.sort();
+    for path in paths {
+        let hidden = path
+            .file_name()
+            .is_some_and(|name| name.as_encoded_bytes().starts_with(b"."));
+        let Ok(about) = path.symlink_metadata() else {
+            continue;
+        };
+        if hidden {
+            continue;
+        }
+        match about.is_dir() {
+            true => walk(&path, out, all),
+            // A link that leads nowhere is a log that is not there.
+            false if !path.is_dir() && !is_configuration(&path) => all.push(log(path)),
+            false => {}
+        }
+    }
+}
+
+/// No log is TOML: axis and model files lie beside logs.
+fn is_configuration(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|end| end.eq_ignore_ascii_case("toml"))
+}
+
+/// What a pattern names: `*` and `?` within a name, `**` over folders, `[a-c]`.
+fn matching(pattern: &Path, out: &Path, all: &mut Vec<Listed>) -> Result<(), Error> {
+    let text = shell::text(pattern);
+    let options = glob::MatchOptions {
+        require_literal_separator: true,
+        require_literal_leading_dot: true,
+        ..glob::MatchOptions::new()
+    };
+    let paths = glob::glob_with(&text, options)
+        .map_err(|e| Error::usage(format!("{text}: {e}"), "a pattern with *, ?, ** and [a-c]"))?;
+    let before = all.len();
+    for path in paths.flatten() {
+        match path.is_dir() {
+            true => walk(&path, out, all),
+            false if !is_configuration(&path) => all.push(log(path)),
+            false => {}
+        }
+    }
+    if all.len() == before {
+        return Err(Error::usage(
+            format!("{text} names no logs"),
+            "a pattern of files that are there",
+        ));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn folders_patterns_and_lists_give_each_log_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = folder.path();
+        fs::create_dir_all(at.join("a/deep")).unwrap();
+        fs::create_dir_all(at.join("out")).unwrap();
+        for name in [
+            "b.csv",
+            "a/2.csv",
+            "a/10.csv",
+            "a/axis.toml",
+            "a/.hidden.csv",
+            "a/deep/1.mat",
+            "out/old.csv",
+        ] {
+            fs::write(at.join(name), "t,x\n").unwrap();
+        }
+        fs::write(
+            at.join("list.csv"),
+            "path,machine\nb.csv,M\nnowhere.csv,N\n",
+        )
+        .unwrap();
+        let found = |inputs: &[&str]| {
+            let inputs: Vec<PathBuf> = inputs.iter().map(|name| at.join(name)).collect();
+            let all = found(&inputs, &at.join("out"));
+            all.map(|all| {
+                let name = |l: &Listed| l.path.strip_prefix(at).unwrap().display().to_string();
+                all.iter().map(name).collect::<Vec<_>>()
+            })
+        };
+        let walked = ["a/10.csv", "a/2.csv", "a/deep/1.mat"];
+        assert_eq!(found(&["a"]).unwrap(), walked);
+        assert_eq!(found(&["a/*.csv", "a"]).unwrap(), walked);
+        assert_eq!(found(&["**/*.mat"]).unwrap(), ["a/deep/1.mat"]);
+        assert_eq!(
+            found(&["b.csv", "list.csv"]).unwrap(),
+            ["b.csv", "nowhere.csv"]
+        );
+        assert_eq!(found(&[""]).unwrap().len(), 5);
+        for (input, said) in [
+            ("out", "holds no logs"),
+            ("nothing/*.csv", "names no logs"),
+            ("none.csv", "cannot be read"),
+            ("[", "a pattern with"),
+        ] {
+            let error = found(&[input]).unwrap_err().to_string();
+            assert!(error.contains(said), "{error}");
+        }
+    }
+}
