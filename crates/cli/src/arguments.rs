@@ -45,6 +45,8 @@ pub enum Command {
     Identify(Identify),
     /// Identify every log of a folder or a list by itself, on all cores, into one table.
     Batch(Batch),
+    /// Friction over time: what changed on which machine, from the table of a batch; exit code 1 if something did.
+    Drift(Drift),
     /// The motion to record, within the limits of an axis, with the intervals to expect of its log.
     Plan(Plan),
     /// Searches beside each other, many seeds of each, on a log or a problem with a known answer.
@@ -106,11 +108,12 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 /// The names of all commands.
-pub const COMMANDS: [&str; 11] = [
+pub const COMMANDS: [&str; 12] = [
     "demo",
     "check",
     "identify",
     "batch",
+    "drift",
     "plan",
     "compare",
     "simulate",
@@ -249,6 +252,23 @@ pub struct Batch {
     pub out: PathBuf,
     /// Write into a folder that holds something else.
     #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Drift {
+    /// The table that stiction batch wrote.
+    #[arg(value_name = "RESULTS.parquet")]
+    pub results: PathBuf,
+    /// A level that is an alarm too, such as "coulomb > 1.3" for 1.3 times the first logs, or "coulomb > 25 N"; may be given
+    /// several times.
+    #[arg(long, value_name = "LIMIT")]
+    pub limit: Vec<String>,
+    /// Folder for drift.json and report.html [default: nothing is written].
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Write into a folder that holds something else.
+    #[arg(long, requires = "out")]
     pub force: bool,
 }
 

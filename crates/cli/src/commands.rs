@@ -3,6 +3,7 @@
 use crate::arguments::{self, Arguments, Command, Common};
 use crate::batch;
 use crate::brought;
+use crate::drift;
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::large;
@@ -45,6 +46,7 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Check(check) => self::check(check, common),
         Command::Identify(identify) => self::identify(identify, common),
         Command::Batch(typed) => batch::run(typed, common),
+        Command::Drift(typed) => drift::run(typed, common),
         Command::Plan(plan) => self::plan(plan, common),
         Command::Compare(compare) => self::compare(compare, common),
         Command::Simulate(simulate) => self::simulate(simulate, common),
@@ -551,7 +553,7 @@ fn searching(typed: &arguments::Searching) -> Searching {
 
 /// Writes files into a folder, or beside it where they are of an outcome that was stopped early and a complete one is there; says
 /// what is kept. The folder, and what was written.
-fn put(bundle: &Bundle, dir: &Path, schema: &str) -> Result<(PathBuf, Vec<PathBuf>), Error> {
+pub fn put(bundle: &Bundle, dir: &Path, schema: &str) -> Result<(PathBuf, Vec<PathBuf>), Error> {
     let beside = bundle::beside_complete(bundle, dir, schema, interrupt::stopped());
     let out = beside.as_deref().unwrap_or(dir);
     let kept = bundle.kept(out);
@@ -824,7 +826,7 @@ fn reproduce(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, 
 }
 
 /// The line that says which files are where.
-fn written_to(dir: &Path, written: &[PathBuf]) -> String {
+pub fn written_to(dir: &Path, written: &[PathBuf]) -> String {
     let names: Vec<_> = written
         .iter()
         .filter_map(|p| p.file_name().map(|n| n.to_string_lossy().into_owned()))

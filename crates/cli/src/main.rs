@@ -4,6 +4,7 @@ mod arguments;
 mod batch;
 mod brought;
 mod commands;
+mod drift;
 mod exit;
 mod interrupt;
 mod large;

@@ -7,6 +7,7 @@
 //! - [`CompareFile`](compare_file::CompareFile): `compare.json`. [`ReproduceFile`](reproduce_file::ReproduceFile):
 //!   `reproduce.json`.
 //! - [`batch`]: lists of logs, `results.parquet` and `batch.json`.
+//! - [`DriftFile`](drift_file::DriftFile): `drift.json`.
 //! - [`Bundle`]: files that are written together, whole or not at all.
 //!
 //! Begin with [`Axis::read`] or [`ModelFile::read`]. An error names file, line, column, key, what was found and what is allowed:
@@ -25,6 +26,7 @@ pub mod axis;
 pub mod batch;
 pub mod compare_file;
 mod config;
+pub mod drift_file;
 mod error;
 mod hash;
 pub mod model;

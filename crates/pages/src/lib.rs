@@ -19,6 +19,7 @@
 //! A page reads what a workflow found and calls neither a workflow nor an engine.
 
 mod deviation;
+mod drift;
 pub mod glossary;
 mod inputs;
 mod names;

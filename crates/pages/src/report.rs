@@ -2,6 +2,7 @@
 
 mod comparison;
 mod dependences;
+mod drift;
 mod elements;
 mod figures;
 mod formula;
@@ -26,6 +27,7 @@ use stiction_files::result::{Input, Next, ResultFile};
 use stiction_identify::Divided;
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
+use stiction_workflows::drift::DriftOutcome;
 use stiction_workflows::identify::Outcome;
 use stiction_workflows::plan::Planned;
 use stiction_workflows::reproduce::Reproduction;
@@ -44,6 +46,11 @@ pub fn identification_in(outcome: &Outcome, folder: &Path) -> Document {
 /// The report of a comparison of searches.
 pub fn comparison(file: &CompareFile) -> Document {
     explained(comparison::comparison(file))
+}
+
+/// The report of friction over time.
+pub fn drift(outcome: &DriftOutcome) -> Document {
+    explained(drift::drift(outcome))
 }
 
 /// The report of a study.

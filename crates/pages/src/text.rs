@@ -3,6 +3,7 @@
 mod batch;
 mod check;
 mod comparison;
+mod drift;
 mod export;
 mod plan;
 mod procedure;
@@ -20,6 +21,7 @@ use crate::trust::{cause, compensation, constants, why_not};
 pub use batch::batch;
 pub use check::{check, started};
 pub use comparison::{announced_comparison, comparison};
+pub use drift::drift;
 pub use export::exported;
 pub use plan::planned;
 pub use procedure::procedure_commands;

@@ -9,6 +9,7 @@ use stiction_files::compare_file::CompareFile;
 use stiction_files::study::template::{Shown, template};
 use stiction_files::{Bundle, ModelFile, check_folder_of, visible};
 use stiction_pages::report;
+use stiction_workflows::drift::DriftOutcome;
 use stiction_workflows::identify::Outcome;
 use stiction_workflows::plan::Planned;
 use stiction_workflows::reproduce::Reproduction;
@@ -60,6 +61,14 @@ pub fn comparison(file: &CompareFile) -> Bundle {
     let mut bundle = Bundle::default();
     bundle.add("report.html", report::comparison(file).to_html());
     bundle.add("compare.json", json(file));
+    bundle
+}
+
+/// The files of friction over time: `drift.json` and `report.html`.
+pub fn drift(outcome: &DriftOutcome) -> Bundle {
+    let mut bundle = Bundle::default();
+    bundle.add("report.html", report::drift(outcome).to_html());
+    bundle.add("drift.json", json(&outcome.file));
     bundle
 }
 

@@ -4,9 +4,15 @@
 /// Many logs, and the table of what was identified of each.
 pub mod batch {
     pub use stiction_files::batch::{
-        BatchFile, COLUMNS, LogRow, ParameterRow, RESULTS, SCHEMA, read_results,
+        BatchFile, COLUMNS, LogRow, ParameterRow, RESULTS, Results, SCHEMA, read_results,
     };
     pub use stiction_workflows::batch::{Batch, Done};
+}
+
+/// Friction over time, from the table of a batch.
+pub mod drift {
+    pub use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA};
+    pub use stiction_workflows::drift::{DriftOutcome, Limit, drift};
 }
 
 /// Forms of files, and how they are written.

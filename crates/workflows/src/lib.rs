@@ -3,6 +3,7 @@
 //! - [`check`](check::check): what was read, and what a log can and cannot determine.
 //! - [`identify`](identify::identify): a law with intervals from logs, and whether it may be trusted.
 //! - [`Batch`](batch::Batch): many logs, each identified by itself.
+//! - [`drift`](drift::drift): what changed on which machine, from the table of a batch.
 //! - [`simulate`](study::simulate): a study of compensations on a simulated axis.
 //! - [`compare`](compare::compare): search methods beside each other.
 //! - [`reproduce`]: published experiments run again.
@@ -42,6 +43,7 @@ pub mod check;
 pub mod compare;
 mod compile;
 pub mod demo;
+pub mod drift;
 mod entries;
 mod error;
 pub mod export;

@@ -7,6 +7,7 @@ use crate::reproduce::Reproduction;
 use crate::study::StudyOutcome;
 use stiction_files::batch::BatchFile;
 use stiction_files::compare_file::CompareFile;
+use stiction_files::drift_file::DriftFile;
 
 /// Whether an outcome may be used. What a process exits with follows from it, and from nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,6 +74,11 @@ impl Exported {
 /// Whether something was identified of every log of a batch, and may be used.
 pub fn of_batch(file: &BatchFile) -> Verdict {
     Verdict::new(file.status == "interrupted", file.trustworthy == file.logs)
+}
+
+/// Whether nothing changed, on any machine, and no limit is exceeded.
+pub fn of_drift(file: &DriftFile) -> Verdict {
+    Verdict::new(false, file.alarms.is_empty())
 }
 
 /// Whether all runs of a comparison were made.

@@ -2,6 +2,7 @@
 
 mod batch;
 mod cli;
+mod drift;
 mod export;
 mod exported;
 mod faults;

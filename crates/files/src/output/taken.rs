@@ -7,17 +7,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Files that mark a folder as one that stiction wrote and may replace, each written last.
-pub(super) const MARKS: [&str; 6] = [
+pub(super) const MARKS: [&str; 7] = [
     "result.json",
     "compare.json",
     "study.json",
     "reproduce.json",
     "plan.toml",
     "batch.json",
+    "drift.json",
 ];
 
 /// Names of the files that are written.
-const WRITTEN: [&str; 13] = [
+const WRITTEN: [&str; 14] = [
     "result.json",
     "compare.json",
     "model.toml",
@@ -31,6 +32,7 @@ const WRITTEN: [&str; 13] = [
     "setpoints.csv",
     "batch.json",
     "results.parquet",
+    "drift.json",
 ];
 
 /// Refuses an output folder whose files would take the place of an input, or of a file that is going to be

@@ -46,6 +46,7 @@ pub fn batch(file: &BatchFile, dir: &Path, axis: Option<&Path>) -> String {
     if file.status == "complete" {
         let _ = writeln!(out, "\nwritten to {}: {RESULTS}, batch.json", dir.display());
     }
+    let table = quoted_path(&dir.join(RESULTS));
     if let Some(failure) = file.failed.first() {
         let axis = axis.map_or(String::new(), |axis| {
             format!(" --axis {}", quoted_path(axis))
@@ -54,6 +55,12 @@ pub fn batch(file: &BatchFile, dir: &Path, axis: Option<&Path>) -> String {
             out,
             "next: see what is wrong with the first log that failed\n  stiction check {}{axis}",
             quoted(&failure.path)
+        );
+    }
+    if file.status == "complete" && file.identified > 0 {
+        let _ = writeln!(
+            out,
+            "next: what changed over time, and on which machine\n  stiction drift {table}"
         );
     }
     out

@@ -1,0 +1,38 @@
+//! `stiction drift`: what changed on which machine.
+
+use crate::arguments::{self, Common};
+use crate::commands::{put, written_to};
+use crate::exit::Exit;
+use crate::interrupt;
+use crate::output;
+use stiction::commands::drift::{Limit, SCHEMA, drift};
+use stiction::commands::{check_folder_of, check_inputs};
+use stiction::{Error, bundle};
+
+/// Follows the table, writes the report where it is wanted, and says what changed.
+pub fn run(typed: &arguments::Drift, common: &Common) -> Result<Exit, Error> {
+    if let Some(dir) = &typed.out {
+        check_folder_of(dir, SCHEMA, typed.force)?;
+        check_inputs(dir, [&typed.results])?;
+    }
+    let limits: Result<Vec<Limit>, Error> =
+        typed.limit.iter().map(|text| Limit::read(text)).collect();
+    interrupt::nothing_to_keep();
+    let outcome = drift(&typed.results, &limits?)?;
+    let written = match &typed.out {
+        None => String::new(),
+        Some(dir) => {
+            let (dir, written) = put(&bundle::drift(&outcome), dir, SCHEMA)?;
+            format!("\n{}", written_to(&dir, &written))
+        }
+    };
+    if common.json {
+        output::json(&outcome.file)?;
+    } else if !common.quiet {
+        let text = stiction::commands::text::drift(&outcome.file, typed.out.as_deref());
+        // What leads on stays the last line.
+        let (said, next) = text.split_at(text.find("next: ").unwrap_or(text.len()));
+        output::print(&format!("{said}{written}{next}"))?;
+    }
+    Ok(stiction::commands::verdict::of_drift(&outcome.file).into())
+}

@@ -1,0 +1,134 @@
+//! `drift` as a user meets it, on tables as `batch` writes them.
+
+use std::path::Path;
+use std::process::{Command, Stdio};
+use stiction::commands::batch::{LogRow, ParameterRow, Results};
+
+/// A table of machines with a log a day for 40 days, Coulomb friction of 20 N with noise; of the first it steps up by 15 % on day
+/// 25 if `step`.
+fn table(folder: &Path, machines: u32, days: u32, step: bool) {
+    let mut out = Results::begin(&folder.join("results.parquet")).unwrap();
+    let mut noise = 7_u32;
+    for machine in 0..machines {
+        for day in 0..days {
+            let mut normal = 0.0;
+            for _ in 0..12 {
+                noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                normal += f64::from(noise) / f64::from(u32::MAX) - 0.5;
+            }
+            let changed = if step && machine == 0 && day >= 25 {
+                1.15
+            } else {
+                1.0
+            };
+            let value = 20.0 * changed * (1.0 + 0.01 * normal);
+            let coulomb = ParameterRow {
+                name: "coulomb".into(),
+                value: Some(value),
+                unit: "N".into(),
+                std: Some(0.1),
+                low: Some(value - 0.196),
+                high: Some(value + 0.196),
+                identifiable: true,
+                origin: "identified".into(),
+            };
+            let row = LogRow {
+                path: format!("logs/m{machine}-{day:02}.csv"),
+                machine: Some(format!("M{machine}")),
+                time: Some(1_772_323_200.0 + 86_400.0 * f64::from(day)),
+                law: Some("lugre".into()),
+                key: format!("{machine} {day}"),
+                parameters: vec![coulomb],
+                ..LogRow::default()
+            };
+            out.add(&row).unwrap();
+        }
+    }
+    out.end().unwrap();
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_stiction"));
+    command
+        .args(arguments)
+        .current_dir(folder)
+        .stdin(Stdio::null());
+    crate::split(command.output().unwrap())
+}
+
+#[test]
+fn a_step_is_an_alarm_with_its_day_its_size_and_a_report() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    table(at, 8, 40, true);
+    let (code, out, err) = run(
+        at,
+        &[
+            "drift",
+            "results.parquet",
+            "--limit",
+            "coulomb > 1.1",
+            "--out",
+            "drift",
+        ],
+    );
+    assert_eq!((code, err.as_str()), (1, ""));
+    insta::assert_snapshot!(out);
+    let report = std::fs::read_to_string(at.join("drift/report.html")).unwrap();
+    assert!(report.contains("coulomb of M0 (lugre)") && report.contains("<svg"));
+    let (code, json, _) = run(at, &["drift", "results.parquet", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(
+        (
+            code,
+            &json["alarms"][0]["machine"],
+            &json["alarms"][0]["kind"]
+        ),
+        (1, &"M0".into(), &"step".into())
+    );
+}
+
+#[test]
+fn what_is_quiet_is_said_and_ends_well() {
+    let folder = tempfile::tempdir().unwrap();
+    table(folder.path(), 8, 40, false);
+    let (code, out, err) = run(folder.path(), &["drift", "results.parquet"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert!(out.contains("\nnothing changed\n"), "{out}");
+    assert!(
+        out.ends_with("  stiction drift results.parquet --out drift\n"),
+        "{out}"
+    );
+    table(folder.path(), 2, 9, false);
+    let (code, out, _) = run(folder.path(), &["drift", "results.parquet"]);
+    assert_eq!(code, 0);
+    assert!(
+        out.contains("2 of them have fewer than 15 logs")
+            && out.contains("too few logs to follow anything"),
+        "{out}"
+    );
+}
+
+#[test]
+fn what_cannot_be_followed_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    table(at, 2, 20, false);
+    let refused = |arguments: &[&str]| {
+        let (code, out, err) = run(at, arguments);
+        assert_eq!((code, out.as_str()), (2, ""));
+        err
+    };
+    let limit = |text: &str| refused(&["drift", "results.parquet", "--limit", text]);
+    insta::assert_snapshot!(
+        [
+            limit("coulomb"),
+            limit("coulom > 1.3"),
+            limit("coulomb > 3 A"),
+            refused(&["drift", "none.parquet"])
+        ]
+        .concat()
+    );
+    std::fs::write(at.join("results.parquet"), "path,parameter\n").unwrap();
+    assert!(refused(&["drift", "results.parquet"]).contains("[log-format] results.parquet: "));
+}

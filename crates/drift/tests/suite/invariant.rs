@@ -1,0 +1,121 @@
+//! What does not depend on units, on the order of machines, or on the moment of the look.
+
+use crate::world::{DAY, Dice, Event, machine};
+use proptest::prelude::*;
+use stiction_drift::{Kind, Limits, Noise, Point, Settings, judge};
+
+const WORLD: crate::world::World = crate::USUAL;
+
+fn courses(machines: u64, seed: u64, event: Event) -> Vec<Vec<Point>> {
+    let one = |k| {
+        machine(
+            &WORLD,
+            50,
+            if k == 0 { event } else { Event::Nothing },
+            seed + k,
+        )
+    };
+    (0..machines)
+        .map(|k| one(k).courses.swap_remove(0))
+        .collect()
+}
+
+fn found(courses: &[Vec<Point>]) -> Vec<Vec<(usize, usize, Kind)>> {
+    let slices: Vec<&[Point]> = courses.iter().map(Vec::as_slice).collect();
+    let noise = Noise::of(&slices).unwrap();
+    let limits = Limits::of(&noise, 1, &Settings::default());
+    let of = |course: &&[Point]| {
+        let judged = judge(course, &noise, &limits).unwrap();
+        judged
+            .changes
+            .iter()
+            .map(|c| (c.found, c.since, c.kind))
+            .collect()
+    };
+    slices.iter().map(of).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(6))]
+
+    /// Other units of a number that is far above 0, and another zero of time, change nothing.
+    #[test]
+    fn units_do_not_count(seed in 0u64..1000, power in -3i32..4, size in 0.1..0.3f64) {
+        let plain = courses(12, seed, Event::Step(25.0, size));
+        let unit = 2.0f64.powi(power);
+        let other = |p: &Point| Point { time: p.time + 1000.0 * DAY, value: unit * p.value, std: unit * p.std, ..*p };
+        let scaled: Vec<Vec<Point>> = plain.iter().map(|c| c.iter().map(other).collect()).collect();
+        let count = |all: Vec<Vec<(usize, usize, Kind)>>| all.iter().map(Vec::len).collect::<Vec<_>>();
+        prop_assert_eq!(count(found(&plain)), count(found(&scaled)));
+    }
+
+    /// With the noise held, what was found is found whenever one looks later.
+    #[test]
+    fn a_change_that_was_found_stays(seed in 0u64..1000, more in 0usize..20) {
+        let all = courses(12, seed, Event::Step(25.0, 0.2));
+        let slices: Vec<&[Point]> = all.iter().map(Vec::as_slice).collect();
+        let noise = Noise::of(&slices).unwrap();
+        let limits = Limits::of(&noise, 1, &Settings::default());
+        let whole = judge(slices[0], &noise, &limits).unwrap();
+        let first = whole.changes[0];
+        let until = (first.found + 1 + more).min(slices[0].len());
+        // Temperatures that are usual so far are others than those of the whole; without them it is the same.
+        let bare: Vec<Point> = slices[0].iter().map(|p| Point { temperature: None, ..*p }).collect();
+        let [late, early] = [bare.len(), until].map(|end| judge(&bare[..end], &noise, &limits).unwrap().changes);
+        if let Some(change) = late.first().filter(|c| c.found < until) {
+            prop_assert_eq!(early.first(), Some(change));
+        }
+    }
+
+    /// Whatever numbers come, there is an answer.
+    #[test]
+    fn any_numbers_are_followed(
+        values in prop::collection::vec((-1e6..1e6f64, 0.0..1e3f64, proptest::option::of(-50.0..150.0f64)), 0..60),
+        same in any::<bool>(),
+    ) {
+        let point = |(k, (value, std, temperature)): (usize, &(f64, f64, Option<f64>))| Point {
+            time: if same { 0.0 } else { DAY * k as f64 },
+            value: *value,
+            std: *std,
+            temperature: *temperature,
+        };
+        let course: Vec<Point> = values.iter().enumerate().map(point).collect();
+        if let Some(noise) = Noise::of(&[&course]) {
+            let limits = Limits::of(&noise, 2, &Settings::default());
+            let _ = judge(&course, &noise, &limits);
+        }
+    }
+}
+
+#[test]
+fn a_large_step_is_dated_and_measured_and_what_does_not_change_is_quiet() {
+    let mut within = 0;
+    for seed in 0..20 {
+        let all = courses(20, 100 * seed, Event::Step(30.0, 0.2));
+        let slices: Vec<&[Point]> = all.iter().map(Vec::as_slice).collect();
+        let noise = Noise::of(&slices).unwrap();
+        let limits = Limits::of(&noise, 1, &Settings::default());
+        let judged = judge(slices[0], &noise, &limits).unwrap();
+        let change = judged.changes[0];
+        let day = all[0][change.since].time / DAY;
+        assert!((day - 30.0).abs() < 3.0, "{seed}: {day} {change:?}");
+        within += u32::from(change.low < 0.2 && 0.2 < change.high);
+    }
+    assert!(within >= 17, "{within} of 20 intervals hold the step");
+}
+
+#[test]
+fn a_constant_number_has_not_changed() {
+    let mut dice = Dice::new(3);
+    let point = |k: u32, value: f64| Point {
+        time: DAY * f64::from(k),
+        value,
+        std: 0.01,
+        temperature: Some(20.0 + dice.uniform()),
+    };
+    let mut point = point;
+    let course: Vec<Point> = (0..60).map(|k| point(k, 5.0)).collect();
+    let noise = Noise::of(&[&course]).unwrap();
+    let limits = Limits::of(&noise, 1, &Settings::default());
+    assert!(judge(&course, &noise, &limits).unwrap().changes.is_empty());
+}

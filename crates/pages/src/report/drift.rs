@@ -1,0 +1,186 @@
+//! The report of friction over time: what changed, and the course of each parameter that did.
+
+use crate::drift::{DAY, level, noise_of, size, times};
+use stiction_files::drift_file::{Alarm, DriftFile};
+use stiction_number::counted;
+use stiction_report::{Align, Axis, Color, Dash, Document, Figure, Layer, Panel, Table};
+use stiction_workflows::drift::{DriftOutcome, Shown};
+
+/// Most courses that are drawn.
+const MOST: usize = 24;
+
+/// The report.
+pub fn drift(outcome: &DriftOutcome) -> Document {
+    let file = &outcome.file;
+    let failed = match file.input.failed {
+        0 => String::new(),
+        failed => format!(", {failed} of them failed"),
+    };
+    let mut document = Document::new("Friction over time")
+        .subtitle(format!(
+            "{} of {}{failed}",
+            counted(file.input.logs, "log"),
+            counted(file.machines, "machine")
+        ))
+        .footer(format!("stiction {} · {}", file.version, file.input.path));
+    let said = match file.alarmed_machines() {
+        0 if file.noise.is_empty() => "There are too few logs to follow anything.".to_string(),
+        0 => "Nothing changed.".into(),
+        machines => format!(
+            "{machines} of {} changed.",
+            counted(file.machines, "machine")
+        ),
+    };
+    document = document.paragraph(said);
+    if !file.timed {
+        document = document.paragraph(
+            "Not every log has a time: they are taken in the order of the table, a day from each to the next.",
+        );
+    }
+    if !file.alarms.is_empty() {
+        document = document.heading(2, "What changed").block(alarms(file));
+    }
+    for shown in outcome.shown.iter().take(MOST) {
+        document = document.block(course(file, shown));
+    }
+    if outcome.shown.len() > MOST {
+        let more = format!("{} more are in drift.json.", outcome.shown.len() - MOST);
+        document = document.paragraph(more);
+    }
+    document
+        .heading(2, "What each parameter does by itself")
+        .paragraph(format!(
+            "From all machines together. A parameter has changed where the median of the last 5, 10 or 20 logs is further from \
+             that of the first {} than its limit; the limits are those at which at most {:.1} % of machines in which nothing \
+             changes would be alarmed within {} days, by any parameter.",
+            file.reference_logs,
+            100.0 * file.alarmed,
+            file.horizon_days
+        ))
+        .block(noise(file))
+}
+
+fn alarms(file: &DriftFile) -> Table {
+    let mut table = Table::new([
+        ("Machine", Align::Left),
+        ("Parameter", Align::Left),
+        ("What", Align::Left),
+        ("Since", Align::Left),
+        ("Found", Align::Left),
+        ("Before", Align::Right),
+        ("After", Align::Right),
+        ("Change", Align::Right),
+        ("95 % interval", Align::Right),
+    ]);
+    for alarm in &file.alarms {
+        let [since, found] = times(file, alarm);
+        let interval = alarm.ci95.map_or(String::new(), |[low, high]| {
+            format!("{} … {}", size(low, alarm), size(high, alarm))
+        });
+        table = table.row([
+            alarm.machine.clone(),
+            alarm.parameter.clone(),
+            alarm.limit.clone().unwrap_or_else(|| alarm.kind.clone()),
+            since,
+            found,
+            level(alarm.before, &alarm.unit),
+            level(alarm.after, &alarm.unit),
+            size(alarm.size, alarm),
+            interval,
+        ]);
+    }
+    table
+}
+
+fn noise(file: &DriftFile) -> Table {
+    let mut table = Table::new([
+        ("Parameter", Align::Left),
+        ("Law", Align::Left),
+        ("Machines", Align::Right),
+        ("Logs", Align::Right),
+        ("Scatter between logs", Align::Right),
+        ("Slow wandering", Align::Right),
+        ("Changed from", Align::Right),
+    ]);
+    for entry in &file.noise {
+        let [scatter, wandering, limit] = noise_of(entry);
+        table = table.row([
+            entry.parameter.clone(),
+            entry.law.clone(),
+            entry.machines.to_string(),
+            entry.logs.to_string(),
+            scatter,
+            wandering,
+            limit,
+        ]);
+    }
+    table
+}
+
+/// One parameter of a machine over time.
+fn course(file: &DriftFile, shown: &Shown) -> Figure {
+    let points = &shown.followed.points;
+    let first = points.first().map_or(0.0, |point| point.time);
+    let days = |time: f64| (time - first) / DAY;
+    let judged = &shown.judged;
+    let x: Vec<f64> = points.iter().map(|point| days(point.time)).collect();
+    let relative = shown.relative;
+    let half = judged.corrected.iter().zip(&judged.half);
+    let half = half.map(|(y, half)| if relative { y * half } else { *half });
+    let ends: Vec<(f64, f64)> = judged
+        .corrected
+        .iter()
+        .zip(half)
+        .map(|(y, h)| (y - h, y + h))
+        .collect();
+    let (low, high): (Vec<f64>, Vec<f64>) = ends.into_iter().unzip();
+    let unit = shown.unit.as_str();
+    let mut panel = Panel::new(
+        Axis::new("Time since the first log", "d"),
+        Axis::new(shown.parameter.clone(), unit),
+    )
+    .layer(
+        Layer::hline(judged.reference)
+            .color(Color::Grey)
+            .dash(Dash::Dashed)
+            .label("First logs"),
+    )
+    .layer(
+        Layer::band(x.clone(), low, high)
+            .color(Color::Blue)
+            .opacity(0.2)
+            .label("95 % interval of a log"),
+    )
+    .layer(
+        Layer::points(x, judged.corrected.clone())
+            .color(Color::Blue)
+            .width(4.0)
+            .label("Logs"),
+    );
+    let own = |alarm: &&Alarm| {
+        alarm.machine == shown.machine
+            && alarm.parameter == shown.parameter
+            && alarm.law == shown.law
+            && alarm.limit.is_none()
+    };
+    for (k, alarm) in file.alarms.iter().filter(own).enumerate() {
+        let since = Layer::vline(days(alarm.since)).color(Color::Vermilion);
+        let found = Layer::vline(days(alarm.found))
+            .color(Color::Vermilion)
+            .dash(Dash::Dotted);
+        panel = match k {
+            0 => panel
+                .layer(since.label("Since"))
+                .layer(found.label("Found")),
+            _ => panel.layer(since).layer(found),
+        };
+    }
+    let machine = if shown.machine.is_empty() {
+        String::new()
+    } else {
+        format!(" of {}", shown.machine)
+    };
+    Figure::new(format!("{}{machine} ({})", shown.parameter, shown.law))
+        .panel(panel)
+        .caption("Without what temperature does. The interval is that of the log and of the scatter between logs.")
+}

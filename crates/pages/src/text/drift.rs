@@ -1,0 +1,154 @@
+//! Friction over time as a terminal shows it.
+
+use super::table::table;
+use crate::drift::{level, noise_of, size, times};
+use std::fmt::Write;
+use std::path::Path;
+use stiction_files::drift_file::{Alarm, DriftFile};
+use stiction_files::shell::{quoted, quoted_path};
+use stiction_number::{counted, four_digits as short};
+
+/// Most alarms that are listed.
+const MOST: usize = 40;
+
+/// The alarms, what each parameter does by itself, and what to do next. `out` is the folder of the report, where there is one.
+pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
+    let mut text = String::new();
+    let failed = match file.input.failed {
+        0 => String::new(),
+        failed => format!(", of which {failed} failed"),
+    };
+    let _ = writeln!(
+        text,
+        "{}: {}{failed}, {}",
+        file.input.path,
+        counted(file.input.logs, "log"),
+        counted(file.machines, "machine")
+    );
+    if !file.timed {
+        text.push_str("not every log has a time: they are taken in the order of the table, a day from each to the next\n");
+    }
+    if file.too_short > 0 {
+        let _ = writeln!(
+            text,
+            "{} of them {} fewer than {} logs of any parameter: nothing can be said yet",
+            file.too_short,
+            if file.too_short == 1 { "has" } else { "have" },
+            file.reference_logs + 5
+        );
+    }
+    let mut rows = vec![
+        [
+            "parameter",
+            "law",
+            "unit",
+            "logs",
+            "scatter",
+            "wandering",
+            "changed from",
+        ]
+        .map(String::from)
+        .to_vec(),
+    ];
+    rows.extend(file.noise.iter().map(|n| {
+        let [scatter, wandering, limit] = noise_of(n);
+        vec![
+            n.parameter.clone(),
+            n.law.clone(),
+            n.unit.clone(),
+            n.logs.to_string(),
+            scatter,
+            wandering,
+            limit,
+        ]
+    }));
+    if !file.noise.is_empty() {
+        text.push('\n');
+        text.push_str(&table(
+            &rows,
+            &[false, false, false, true, true, true, true],
+        ));
+    }
+    text.push('\n');
+    match file.alarms.first() {
+        None if file.noise.is_empty() => text.push_str("too few logs to follow anything\n"),
+        None => text.push_str("nothing changed\n"),
+        Some(_) => {
+            let machines = file.alarmed_machines();
+            let _ = writeln!(
+                text,
+                "{} of {} changed",
+                machines,
+                counted(file.machines, "machine")
+            );
+            text.push_str(&alarms(file));
+        }
+    }
+    if let Some(alarm) = file.alarms.first() {
+        let axis = alarm
+            .axis
+            .as_ref()
+            .map_or(String::new(), |axis| format!(" --axis {}", quoted(axis)));
+        let _ = writeln!(
+            text,
+            "next: what the log shows with which the largest change was found\n  stiction check {}{axis}",
+            quoted(&alarm.log)
+        );
+    } else if out.is_none() {
+        let folder = Path::new(&file.input.path).with_file_name("drift");
+        let _ = writeln!(
+            text,
+            "next: the same with a report\n  stiction drift {} --out {}",
+            quoted(&file.input.path),
+            quoted_path(&folder)
+        );
+    }
+    text
+}
+
+fn alarms(file: &DriftFile) -> String {
+    let head = [
+        "machine",
+        "parameter",
+        "what",
+        "since",
+        "found",
+        "before",
+        "after",
+        "change",
+        "95 % interval",
+    ];
+    let mut rows = vec![head.map(String::from).to_vec()];
+    rows.extend(file.alarms.iter().take(MOST).map(|alarm| row(file, alarm)));
+    let mut out = table(
+        &rows,
+        &[false, false, false, false, false, true, true, true, true],
+    );
+    if file.alarms.len() > MOST {
+        let _ = writeln!(out, "and {} more", file.alarms.len() - MOST);
+    }
+    out
+}
+
+fn row(file: &DriftFile, alarm: &Alarm) -> Vec<String> {
+    let [since, found] = times(file, alarm);
+    let interval = alarm.ci95.map_or(String::new(), |[low, high]| {
+        format!("{} .. {}", size(low, alarm), size(high, alarm))
+    });
+    let machine = if alarm.machine.is_empty() {
+        "-"
+    } else {
+        &alarm.machine
+    };
+    vec![
+        machine.into(),
+        alarm.parameter.clone(),
+        alarm.limit.clone().unwrap_or_else(|| alarm.kind.clone()),
+        since,
+        found,
+        short(alarm.before),
+        level(alarm.after, &alarm.unit),
+        size(alarm.size, alarm),
+        interval,
+    ]
+}

@@ -1,0 +1,9 @@
+//! Friction over time: what changed on which machine, from the table of a batch.
+
+mod asked;
+mod courses;
+mod run;
+
+pub use asked::{Limit, Side};
+pub use courses::Followed;
+pub use run::{DriftOutcome, Shown, drift};

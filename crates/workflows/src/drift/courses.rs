@@ -1,0 +1,129 @@
+//! The courses of a table: of each parameter of each machine over time.
+
+use std::collections::BTreeMap;
+use stiction_drift::Point;
+use stiction_files::batch::{LogRow, ParameterRow};
+
+/// A parameter of a law, with its unit: what is compared with each other.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Number {
+    pub law: String,
+    pub name: String,
+    pub unit: String,
+}
+
+/// A parameter on a machine over time.
+#[derive(Clone, Debug, Default)]
+pub struct Followed {
+    /// Estimates, in the order of time.
+    pub points: Vec<Point>,
+    /// The log of each, and its axis file.
+    pub logs: Vec<(String, Option<String>)>,
+}
+
+/// The courses of a table, by parameter and machine.
+#[derive(Default)]
+pub(super) struct Courses {
+    pub of: BTreeMap<Number, BTreeMap<String, Followed>>,
+    /// Logs of each machine.
+    pub machines: BTreeMap<String, usize>,
+    pub logs: usize,
+    pub failed: usize,
+    /// Logs of which something was identified, and that have no time.
+    untimed: usize,
+}
+
+/// Seconds from a log to the next where times are not known.
+const DAY: f64 = 86_400.0;
+/// Deviations in a 95 % interval.
+const WIDTH: f64 = 2.0 * 1.959_963_984_540_054;
+
+impl Courses {
+    /// Takes a log.
+    pub fn take(&mut self, row: &LogRow) {
+        self.logs += 1;
+        let machine = row.machine.clone().unwrap_or_default();
+        let count = self.machines.entry(machine.clone()).or_default();
+        if row.error.is_some() {
+            self.failed += 1;
+            return;
+        }
+        *count += 1;
+        self.untimed += usize::from(row.time.is_none());
+        let place = DAY * *count as f64;
+        let asymmetric = if row.asymmetric == Some(true) {
+            " asymmetric"
+        } else {
+            ""
+        };
+        let law = format!("{}{asymmetric}", row.law.as_deref().unwrap_or_default());
+        for parameter in &row.parameters {
+            let Some((value, std)) = known(parameter) else {
+                continue;
+            };
+            let number = Number {
+                law: law.clone(),
+                name: parameter.name.clone(),
+                unit: parameter.unit.clone(),
+            };
+            let followed = self
+                .of
+                .entry(number)
+                .or_default()
+                .entry(machine.clone())
+                .or_default();
+            followed.points.push(Point {
+                time: row.time.unwrap_or(place),
+                value,
+                std,
+                temperature: row.temperature,
+            });
+            followed.logs.push((row.path.clone(), row.axis.clone()));
+        }
+    }
+
+    /// Whether every log has its time; else all are taken in the order of the table.
+    pub fn is_timed(&self) -> bool {
+        self.untimed == 0
+    }
+
+    /// Brings the logs of each machine into the order of time.
+    pub fn sort(&mut self) {
+        let timed = self.is_timed();
+        for followed in self
+            .of
+            .values_mut()
+            .flat_map(|machines| machines.values_mut())
+        {
+            if !timed {
+                let places = (1..).map(|k| DAY * f64::from(k));
+                followed
+                    .points
+                    .iter_mut()
+                    .zip(places)
+                    .for_each(|(point, place)| point.time = place);
+                continue;
+            }
+            let mut order: Vec<usize> = (0..followed.points.len()).collect();
+            order.sort_by(|a, b| {
+                followed.points[*a]
+                    .time
+                    .total_cmp(&followed.points[*b].time)
+            });
+            followed.points = order.iter().map(|i| followed.points[*i]).collect();
+            followed.logs = order.iter().map(|i| followed.logs[*i].clone()).collect();
+        }
+    }
+}
+
+/// Value and standard deviation of a parameter that the log determines.
+fn known(parameter: &ParameterRow) -> Option<(f64, f64)> {
+    if !parameter.identifiable || parameter.origin != "identified" {
+        return None;
+    }
+    let value = parameter.value.filter(|x| x.is_finite())?;
+    let ends = parameter.low.zip(parameter.high);
+    let width = ends.map(|(low, high)| (high - low) / WIDTH);
+    let std = width.or(parameter.std)?;
+    (std.is_finite() && std >= 0.0).then_some((value, std))
+}

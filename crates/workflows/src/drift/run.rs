@@ -1,0 +1,265 @@
+//! From the table to alarms.
+
+use super::asked::Limit;
+use super::courses::{Courses, Followed, Number};
+use crate::error::Error;
+use std::collections::BTreeMap;
+use std::path::Path;
+use stiction_drift::{Judged, Kind, Limits, Noise, Point, Settings, judge};
+use stiction_files::batch::read_results;
+use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA, Table};
+use stiction_files::{sha256, shell};
+
+/// What changed, and the courses of what did.
+pub struct DriftOutcome {
+    /// What goes into `drift.json`.
+    pub file: DriftFile,
+    /// Machine, parameter, course and what became of it, of each that is alarmed, once, in the order of the alarms.
+    pub shown: Vec<Shown>,
+}
+
+/// A course that is alarmed.
+pub struct Shown {
+    /// Machine.
+    pub machine: String,
+    /// Parameter.
+    pub parameter: String,
+    /// Law that it is of.
+    pub law: String,
+    /// SI unit.
+    pub unit: String,
+    /// Whether changes are counted as parts of it.
+    pub relative: bool,
+    /// The estimates.
+    pub followed: Followed,
+    /// What became of them.
+    pub judged: Judged,
+}
+
+const DAY: f64 = 86_400.0; // s
+
+/// Follows every parameter of every machine of a table that `batch` wrote.
+///
+/// # Errors
+/// Where it cannot be read, holds no parameter that its logs determine, or a limit is of a parameter or a unit that it does not have.
+pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
+    let settings = Settings::default();
+    let mut courses = Courses::default();
+    read_results(table, |row| {
+        courses.take(&row);
+        Ok(())
+    })?;
+    let hash = sha256(table)?;
+    courses.sort();
+    if courses.of.is_empty() {
+        return Err(Error::usage(
+            format!(
+                "{}: {} logs, and none determines a parameter",
+                shell::text(table),
+                courses.logs
+            ),
+            "a table of stiction batch with logs of which something was identified",
+        ));
+    }
+    check(limits, &courses)?;
+    let long = |followed: &Followed| {
+        followed.points.len() >= settings.reference + stiction_drift::WINDOWS[0]
+    };
+    let any_long = |machines: &BTreeMap<String, Followed>| machines.values().any(long);
+    // Of a machine as many parameters are looked at as have courses.
+    let mut looked: BTreeMap<&str, usize> = BTreeMap::new();
+    for (machine, followed) in courses.of.values().flatten() {
+        *looked.entry(machine).or_default() += usize::from(long(followed));
+    }
+    let numbers = looked.values().copied().max().unwrap_or(1);
+    let mut noise = Vec::new();
+    let mut alarms = Vec::new();
+    let mut shown: Vec<Shown> = Vec::new();
+    for (number, machines) in courses.of.iter().filter(|(_, machines)| any_long(machines)) {
+        let points: Vec<&[Point]> = machines.values().map(|f| &f.points[..]).collect();
+        let Some(found) = Noise::of(&points) else {
+            continue;
+        };
+        let beyond = Limits::of(&found, numbers, &settings);
+        noise.push(entry(number, &points, &found, &beyond));
+        for (machine, followed) in machines {
+            let Some(judged) = judge(&followed.points, &found, &beyond) else {
+                continue;
+            };
+            let mut own = changes(number, machine, followed, &judged);
+            own.extend(exceeded(limits, number, machine, followed, &judged));
+            if !own.is_empty() {
+                alarms.extend(own);
+                shown.push(Shown {
+                    machine: machine.clone(),
+                    parameter: number.name.clone(),
+                    law: number.law.clone(),
+                    unit: number.unit.clone(),
+                    relative: found.measure == stiction_drift::Measure::Relative,
+                    followed: followed.clone(),
+                    judged,
+                });
+            }
+        }
+    }
+    alarms.sort_by(|a, b| b.over.total_cmp(&a.over));
+    let place = |s: &Shown| {
+        let same =
+            |a: &Alarm| a.machine == s.machine && a.parameter == s.parameter && a.law == s.law;
+        alarms.iter().position(same)
+    };
+    shown.sort_by_key(place);
+    let too_short = courses
+        .machines
+        .keys()
+        .filter(|m| looked.get(m.as_str()).is_none_or(|n| *n == 0));
+    Ok(DriftOutcome {
+        file: DriftFile {
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            input: Table {
+                path: shell::text(table),
+                sha256: hash,
+                logs: courses.logs,
+                failed: courses.failed,
+            },
+            alarmed: settings.alarmed,
+            horizon_days: settings.horizon / DAY,
+            reference_logs: settings.reference,
+            timed: courses.is_timed(),
+            machines: courses.machines.len(),
+            too_short: too_short.count(),
+            noise,
+            alarms,
+        },
+        shown,
+    })
+}
+
+/// Refuses a limit of what the table does not have.
+fn check(limits: &[Limit], courses: &Courses) -> Result<(), Error> {
+    for limit in limits {
+        let same = |number: &&Number| number.name == limit.parameter;
+        let mut units: Vec<&str> = courses
+            .of
+            .keys()
+            .filter(same)
+            .map(|n| n.unit.as_str())
+            .collect();
+        units.dedup();
+        if units.is_empty() {
+            let mut names: Vec<&str> = courses.of.keys().map(|n| n.name.as_str()).collect();
+            names.sort_unstable();
+            names.dedup();
+            let found = format!(
+                "the limit {:?}: no log determines {}",
+                limit.text, limit.parameter
+            );
+            return Err(Error::usage(found, format!("one of {}", names.join(", "))));
+        }
+        if let Some(unit) = limit
+            .unit
+            .as_ref()
+            .filter(|unit| !units.contains(&unit.as_str()))
+        {
+            let found = format!(
+                "the limit {:?}: {} is not in {unit}",
+                limit.text, limit.parameter
+            );
+            return Err(Error::usage(
+                found,
+                format!("{}, or none for times the first logs", units.join(", ")),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn entry(number: &Number, points: &[&[Point]], noise: &Noise, limits: &Limits) -> NoiseEntry {
+    NoiseEntry {
+        parameter: number.name.clone(),
+        law: number.law.clone(),
+        unit: number.unit.clone(),
+        relative: noise.measure == stiction_drift::Measure::Relative,
+        machines: points.len(),
+        logs: points.iter().map(|course| course.len()).sum(),
+        scatter: noise.scatter,
+        wandering: noise.wandering,
+        memory_days: noise.memory / DAY,
+        by_temperature: noise.by_temperature,
+        limits: limits.of_window.to_vec(),
+    }
+}
+
+fn changes(number: &Number, machine: &str, followed: &Followed, judged: &Judged) -> Vec<Alarm> {
+    let relative = judged.measure == stiction_drift::Measure::Relative;
+    let one = |change: &stiction_drift::Change| {
+        let (log, axis) = followed.logs[change.found].clone();
+        Alarm {
+            machine: machine.into(),
+            parameter: number.name.clone(),
+            law: number.law.clone(),
+            unit: number.unit.clone(),
+            kind: match change.kind {
+                Kind::Step => "step".into(),
+                Kind::Creep => "creep".into(),
+            },
+            since: followed.points[change.since].time,
+            found: followed.points[change.found].time,
+            log,
+            axis,
+            before: change.before,
+            after: match relative {
+                true => change.before * (1.0 + change.size),
+                false => change.before + change.size,
+            },
+            size: change.size,
+            ci95: Some([change.low, change.high]),
+            relative,
+            over: change.over,
+            limit: None,
+        }
+    };
+    judged.changes.iter().map(one).collect()
+}
+
+fn exceeded(
+    limits: &[Limit],
+    number: &Number,
+    machine: &str,
+    followed: &Followed,
+    judged: &Judged,
+) -> Vec<Alarm> {
+    let own = limits.iter().filter(|limit| {
+        limit.parameter == number.name
+            && limit.unit.as_ref().is_none_or(|unit| *unit == number.unit)
+    });
+    let relative = judged.measure == stiction_drift::Measure::Relative;
+    let beyond = own.filter_map(|limit| {
+        let over = limit.over(judged.last, judged.reference)?;
+        let (log, axis) = followed.logs.last()?.clone();
+        let time = followed.points.last()?.time;
+        Some(Alarm {
+            machine: machine.into(),
+            parameter: number.name.clone(),
+            law: number.law.clone(),
+            unit: number.unit.clone(),
+            kind: "limit".into(),
+            since: time,
+            found: time,
+            log,
+            axis,
+            before: judged.reference,
+            after: judged.last,
+            size: match relative {
+                true => judged.last / judged.reference - 1.0,
+                false => judged.last - judged.reference,
+            },
+            ci95: None,
+            relative,
+            over,
+            limit: Some(limit.text.clone()),
+        })
+    });
+    beyond.collect()
+}
