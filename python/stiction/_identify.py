@@ -29,6 +29,7 @@ def identify(
     statics: Sequence[PathLike] = (),
     model: PathLike | None = None,
     break_away: Sequence[PathLike] = (),
+    plan: PathLike | None = None,
     search: str | None = None,
     no_finish: bool = False,
     cost: str | None = None,
@@ -52,7 +53,7 @@ def identify(
     validate: logs to validate on, which are not fitted. split: or the share of the samples that is fitted, 0 to 1.
     seed: seed of the search. compare_laws: whether simpler laws are fitted beside one that is named.
     statics: logs of constant velocities (`--static`). model: a model file for what is not identified here.
-    break_away: logs of force ramps.
+    break_away: logs of force ramps. plan: the plan.toml that a log was recorded by.
     search, no_finish, cost, evaluations, target, time, checkpoint, resume: of the searches, see docs/searches.md.
     progress: True for a line on standard error, or a function that is given a `Progress` now and then; where it returns False
         the work stops. threads: threads of this call alone; those of the process if it is not given. No result depends on it.
@@ -71,6 +72,7 @@ def identify(
         "statics": [path_of(path, "statics") for path in statics],
         "model": None if model is None else path_of(model, "model"),
         "break_away": [path_of(path, "break_away") for path in break_away],
+        "plan": None if plan is None else path_of(plan, "plan"),
         "search": None if search is None else str(search),
         "no_finish": truth(no_finish, "no_finish"),
         "cost": None if cost is None else str(cost),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from functools import cached_property
 from html import escape
 from pathlib import Path
@@ -46,7 +47,7 @@ class Plan:
         return expected
 
     def save(self, folder: PathLike, *, force: bool = False) -> list[Path]:
-        """Writes `plan.toml`, `setpoints.csv` and `report.html`, as `stiction plan --out`."""
+        """Writes `plan.toml`, `setpoints.csv`, its other forms and `report.html`, as `stiction plan --out`."""
         return self._native.save(path_of(folder, "folder"), force)
 
     def report(self) -> str:
@@ -80,6 +81,9 @@ def plan(
     stage: Literal["probe", "whole"] = "whole",
     time: float | None = None,
     seed: int = 0,
+    wants: Sequence[str] = (),
+    formats: Sequence[str] = (),
+    start: str | None = None,
     progress: Watcher = None,
     threads: int | None = None,
 ) -> Plan:
@@ -87,6 +91,9 @@ def plan(
 
     axis: an axis file with [limits]. model, log: a first model or log of the axis; the motion is planned for what it leaves
     open. stage: `probe` for a first, careful motion. time: longest motion, s; 9 s, and 3 s of a probe, if it is not given.
+    wants: how well parameters are to be known, such as `sigma0 < 2 %`: the shortest motion that is enough.
+    formats: further forms of the set points, which `save` writes: `st`, `cam`, `csp`, `ros2`, `halstreamer`, `gcode`. start: where
+    the axis stands when the motion starts, with its unit, such as `120 mm`.
     """
     if stage not in ("probe", "whole"):
         raise argument("stage", repr(stage), "one of probe, whole")
@@ -98,6 +105,9 @@ def plan(
         "probe": stage == "probe",
         "time": maybe(time, "time"),
         "seed": whole(seed, "seed"),
+        "wants": [str(wish) for wish in wants],
+        "formats": [str(form) for form in formats],
+        "start": None if start is None else str(start),
     }
     try:
         native, stopped = _native.plan(path_of(axis, "axis"), options, teller(progress), some_threads(threads))

@@ -46,6 +46,7 @@ class IdentifyOptions(TypedDict):
     statics: list[str]
     model: str | None
     break_away: list[str]
+    plan: str | None
     search: str | None
     no_finish: bool
     cost: str | None
@@ -81,3 +82,6 @@ class PlanOptions(TypedDict):
     probe: bool
     time: float | None
     seed: int
+    wants: list[str]
+    formats: list[str]
+    start: str | None

@@ -197,6 +197,9 @@ pub struct Identify {
     /// --method output-error.
     #[arg(long, value_name = "LOG", num_args = 1..)]
     pub break_away: Vec<PathBuf>,
+    /// The plan.toml that a log was recorded by: which of its pieces ran, and what was expected of each parameter beside what was found.
+    #[arg(long, value_name = "PLAN.toml")]
+    pub plan: Option<PathBuf>,
     /// Logs to validate on; they are not fitted.
     #[arg(long, value_name = "LOG", num_args = 1.., conflicts_with = "split")]
     pub validate: Vec<PathBuf>,
@@ -538,18 +541,44 @@ pub struct Plan {
     /// A first, careful motion whose log is for --log, or the whole.
     #[arg(long, value_enum, default_value_t = Stage::Whole)]
     pub stage: Stage,
-    /// Longest motion, from rest to rest [default: 9s, of a probe 3s].
+    /// Longest motion, from rest to rest [default: 9s, of a probe 3s, with --want 60s].
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = duration)]
     pub time: Option<f64>,
+    /// How well a parameter is to be known on nine of ten axes, such as "sigma0 < 2 %", or "all < 1 %": the shortest motion that
+    /// is enough; may be given several times.
+    #[arg(long = "want", value_name = "WISH")]
+    pub wants: Vec<String>,
     /// Seed of the axes that it is planned for.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
     pub seed: u64,
+    /// Another form of the set points, for a controller; may be given several times.
+    #[arg(long = "format", value_enum, value_name = "FORM")]
+    pub formats: Vec<Form>,
+    /// Position at which the axis stands when the motion starts, such as "120 mm": all set points but those of a block count from it [default: 0].
+    #[arg(long, value_name = "POSITION", allow_hyphen_values = true)]
+    pub start: Option<String>,
     /// Folder for plan.toml, setpoints.csv and report.html.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Write into a folder that holds something else.
     #[arg(long)]
     pub force: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Form {
+    /// A block of IEC 61131-3 Structured Text that computes the motion in the cycle of the PLC.
+    St,
+    /// A cam over time.
+    Cam,
+    /// CiA 402, cyclic synchronous position: whole counts for each cycle.
+    Csp,
+    /// JointTrajectory of ROS 2.
+    Ros2,
+    /// Lines for halstreamer of LinuxCNC.
+    Halstreamer,
+    /// Strokes between the reversals: another motion, where nothing else can be run.
+    Gcode,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

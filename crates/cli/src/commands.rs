@@ -17,9 +17,9 @@ use stiction::commands::number::full;
 use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
 use stiction::commands::shell::{quoted, quoted_path, text as path_text};
 use stiction::commands::{
-    Bundle, CompareOptions, Comparison, Cost, Excitation, ExportedC, FileError, Files, Input, Kept,
-    Known, Outcome, PlanOptions, Scheme, check_folder, check_folder_of, check_inputs,
-    compare_exported, compare_file, plan_motion, visible, write_atomic,
+    Bundle, Carrier, CompareOptions, Comparison, Cost, Excitation, ExportedC, FileError, Files,
+    Input, Kept, Known, Outcome, PlanOptions, Scheme, Want, check_folder, check_folder_of,
+    check_inputs, compare_exported, compare_file, plan_motion, visible, write_atomic,
 };
 use stiction::result::Next;
 use stiction::{
@@ -423,6 +423,7 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         &identify.out,
         files
             .chain(&identify.model)
+            .chain(&identify.plan)
             .chain(&identify.axis)
             .chain(&identify.searching.resume)
             .chain(&identify.searching.checkpoint),
@@ -442,6 +443,7 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
         statics: identify.statics.clone(),
         model: identify.model.clone(),
         break_away: identify.break_away.clone(),
+        plan: identify.plan.clone(),
     };
     options.searching = searching(&identify.searching);
     let mut bar = Bar::new(common.json || common.quiet);
@@ -624,6 +626,11 @@ fn plan(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
         probe: plan.stage == arguments::Stage::Probe,
         known: model.or(plan.log.clone().map(Known::Log)),
         seed: plan.seed,
+        wants: (plan.wants.iter())
+            .map(|text| Want::parse(text))
+            .collect::<Result<_, _>>()?,
+        carriers: plan.formats.iter().copied().map(carrier).collect(),
+        start: plan.start.clone(),
     };
     let mut bar = Bar::new(common.json || common.quiet);
     let planned = plan_motion(&plan.axis, &options, &mut bar);
@@ -644,9 +651,25 @@ fn plan(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
         output::print(&format!("{text}\n{}", written_to(&dir, &written)))?;
     }
     Ok(match planned.file.status.as_str() {
-        "complete" if !interrupt::stopped() => Exit::Done,
+        "complete" if !interrupt::stopped() => {
+            match planned.file.wanted.iter().all(|wish| wish.met) {
+                true => Exit::Done,
+                false => Exit::NotTrustworthy,
+            }
+        }
         _ => Exit::Interrupted,
     })
+}
+
+fn carrier(form: arguments::Form) -> Carrier {
+    match form {
+        arguments::Form::St => Carrier::St,
+        arguments::Form::Cam => Carrier::Cam,
+        arguments::Form::Csp => Carrier::Csp,
+        arguments::Form::Ros2 => Carrier::Ros2,
+        arguments::Form::Halstreamer => Carrier::Halstreamer,
+        arguments::Form::Gcode => Carrier::Gcode,
+    }
 }
 
 fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Error> {

@@ -96,6 +96,7 @@ codes! {
     LogValue = "log-value": "a number is outside the allowed range",
 
     // What came up after the recording was read.
+    PlanDiffers = "plan-differs": "a log shows another motion than its plan, or not all of it",
     NotIdentifiable = "not-identifiable": "the data do not determine a parameter",
     NotConverged = "not-converged": "the search ended without converging",
     Interrupted = "interrupted": "the search was stopped; the result is the best found so far",

@@ -1,5 +1,9 @@
 //! `plan.toml`: a motion to record, and what its log can be expected to show. Schema `stiction.plan/1`.
 
+mod read;
+
+pub use read::{ReadExpected, ReadPlan};
+
 use serde::Serialize;
 use stiction_plan::Atom;
 
@@ -46,6 +50,9 @@ pub struct PlanFile {
     pub prior: Vec<RangeEntry>,
     /// What a log of it can be expected to show.
     pub parameter: Vec<ExpectedEntry>,
+    /// What was wanted, beside what is expected.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub wanted: Vec<WantedEntry>,
     /// Worst parameter of an axis, beside that of motions that need no design.
     pub compared: Vec<ComparedEntry>,
     /// The largest of what happened on any simulated axis.
@@ -130,6 +137,19 @@ pub struct ExpectedEntry {
     pub interval_percent: f64,
     /// On nine of ten axes at most.
     pub interval90_percent: f64,
+}
+
+/// A wish: half of the 95 % interval, percent of the value, on nine of ten axes at most.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WantedEntry {
+    /// The parameter, or `all`: the worst.
+    pub name: String,
+    /// Wanted.
+    pub percent: f64,
+    /// Expected.
+    pub expected90_percent: f64,
+    /// Whether that is enough.
+    pub met: bool,
 }
 
 /// A motion beside others.

@@ -1,6 +1,7 @@
 //! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
 
 mod misfit;
+mod planned;
 mod procedure;
 mod searched;
 mod seen;
@@ -8,6 +9,7 @@ mod trust;
 
 use crate::error::Warning;
 pub use misfit::MisfitEntry;
+pub use planned::{PieceEntry, PlannedEntry, PlannedParameter};
 pub use procedure::{
     BreakAwayEntry, InversionEntry, PreslidingStepEntry, RejectedEntry, StaticMapEntry,
     StaticPointEntry, TwoStepEntry, TwoStepParameter,
@@ -94,6 +96,9 @@ pub struct ResultFile {
     /// Pitches of waves along the position; absent without any.
     #[serde(default, skip_serializing_if = "PitchEntry::is_empty")]
     pub pitch: PitchEntry,
+    /// What the logs show of the plan that they were recorded by, where it was given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub planned: Option<PlannedEntry>,
     /// How the search went.
     pub search: Search,
     /// What a search found before the least squares that end it; absent for other methods.

@@ -258,7 +258,10 @@ pub(crate) fn planned(result: &ResultFile, dir: &Path) -> Option<String> {
     let mut open = result.parameters.iter().filter(|p| !p.identifiable);
     let settles = |name: &str| PLANNED.iter().any(|own| name.starts_with(own));
     let is_fit = result.method == "separable";
-    if !is_fit || !open.any(|p| settles(&p.name)) {
+    // Or where a plan promised less.
+    let mut beside = result.planned.iter().flat_map(|plan| &plan.parameters);
+    let wider = beside.any(|p| p.status == "wider");
+    if !is_fit || !(wider || open.any(|p| settles(&p.name))) {
         return None;
     }
     let known = match result.inputs.as_slice() {

@@ -1,5 +1,6 @@
 //! What a terminal shows: plain text tables, the same on every width.
 
+mod against_plan;
 mod batch;
 mod check;
 mod comparison;
@@ -166,6 +167,7 @@ pub fn outcome(outcome: &Outcome) -> String {
         out.push_str("\nelements on blocks left out\n");
         out.push_str(&elements(outcome));
     }
+    out.push_str(&against_plan::section(result.planned.as_ref()));
     for warning in &result.warnings {
         let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
     }
@@ -246,7 +248,7 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
     if let Some(command) = next::planned(result, dir) {
         let _ = writeln!(
             out,
-            "the motion to record for what is not identifiable, within [limits]\n  {command}"
+            "the motion to record for what is open, within [limits]\n  {command}"
         );
     }
     out

@@ -10,6 +10,7 @@
 //! ```
 //!
 //! # How a carrier reads a plan
+//! The forms of [`carrier`] are made here.
 //! A [`Motion`] is a list of [`Atom`]s, plain numbers, one after the other without a pause. [`Motion::timed`] gives each with the
 //! instant at which it starts, [`Motion::at`] position, velocity, acceleration and jerk at any time, relative to where the axis
 //! stands when it starts; a carrier that computes the pieces itself needs only the numbers of the two kinds of atom and the
@@ -23,6 +24,7 @@ mod aim;
 mod atom;
 mod belief;
 mod candidate;
+pub mod carrier;
 mod dictionary;
 mod expected;
 mod hand_made;
@@ -31,6 +33,7 @@ mod limits;
 mod motion;
 mod predict;
 mod prior;
+mod recognise;
 mod rig;
 mod run;
 mod select;
@@ -47,6 +50,7 @@ pub use limits::Limits;
 pub use motion::Motion;
 pub use predict::Deviations;
 pub use prior::Nameplate;
+pub use recognise::{How, Ran, Recognised, recognise};
 pub use rig::{Loop, Rig};
 pub use run::{Peaks, Run, run};
 pub use select::{Alone, Choice, Spread, select};

@@ -1,6 +1,7 @@
 //! Plans: the motion to record.
 
-use crate::error::raised;
+use crate::error::{Refusal, raised};
+use crate::options::unknown;
 use crate::run::{How, Stopped, run};
 use crate::study::{Parts, bundled, saved, unbundled};
 use numpy::{IntoPyArray, PyArray1};
@@ -8,7 +9,7 @@ use pyo3::prelude::*;
 use std::path::PathBuf;
 use stiction::bundle;
 use stiction::commands::plan::SCHEMA;
-use stiction::commands::{Bundle, Known, PlanOptions, plan_motion, text};
+use stiction::commands::{Bundle, Carrier, Known, PlanOptions, Want, plan_motion, text};
 
 /// A planned motion.
 #[pyclass(frozen, module = "stiction._native")]
@@ -19,8 +20,14 @@ pub struct Plan {
     inputs: Vec<PathBuf>,
 }
 
-/// Files of a plan.
-const NAMES: [&str; 3] = ["setpoints.csv", "report.html", "plan.toml"];
+/// Files of a plan beside the forms of its set points.
+const NAMES: [&str; 2] = ["report.html", "plan.toml"];
+
+/// Every file that a plan may have.
+fn names() -> Vec<&'static str> {
+    let forms = Carrier::ALL.map(Carrier::file);
+    forms.into_iter().chain(NAMES).collect()
+}
 
 #[pymethods]
 impl Plan {
@@ -29,7 +36,7 @@ impl Plan {
     fn of_parts(parts: Parts) -> Self {
         let (files, json, text, inputs, _) = parts;
         Self {
-            bundle: bundled(&NAMES, files),
+            bundle: bundled(&names(), files),
             json,
             text,
             inputs,
@@ -88,6 +95,9 @@ pub struct Asked {
     probe: bool,
     time: Option<f64>,
     seed: u64,
+    wants: Vec<String>,
+    formats: Vec<String>,
+    start: Option<String>,
 }
 
 /// Plans the motion to record for the axis of a file; none where it was stopped before there was one.
@@ -109,6 +119,10 @@ pub fn plan(
         options.model.clone(),
         options.log.clone(),
     ];
+    let wants: Result<Vec<Want>, stiction::Error> =
+        options.wants.iter().map(|text| Want::parse(text)).collect();
+    let carriers: Result<Vec<Carrier>, Refusal> =
+        options.formats.iter().map(|name| carrier(name)).collect();
     let options = PlanOptions {
         time: options.time,
         probe: options.probe,
@@ -117,6 +131,9 @@ pub fn plan(
             .map(Known::Model)
             .or(options.log.map(Known::Log)),
         seed: options.seed,
+        wants: wants.map_err(|e| raised(py, &e))?,
+        carriers: carriers.map_err(|refusal| refusal.raise(py))?,
+        start: options.start,
     };
     let (found, stopped) = run(py, &how, |observer| {
         let planned = plan_motion(&axis, &options, observer)?;
@@ -129,4 +146,11 @@ pub fn plan(
     })?;
     let plan = found.map_err(|e: stiction::Error| raised(py, &e))?;
     Ok((plan, stopped))
+}
+
+/// A form by its name; set points as CSV are always there.
+fn carrier(name: &str) -> Result<Carrier, Refusal> {
+    let mut all = Carrier::ALL.into_iter();
+    all.find(|form| form.name() == name)
+        .ok_or_else(|| unknown("formats", name))
 }

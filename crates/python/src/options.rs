@@ -3,6 +3,7 @@
 use crate::error::Refusal;
 use pyo3::prelude::*;
 use std::path::PathBuf;
+use stiction::commands::Carrier;
 use stiction::{CostKind, LawKind, Method, Options, Procedures, Searching, Target};
 
 /// The law that stands for a choice by the data.
@@ -21,6 +22,7 @@ pub struct Asked {
     statics: Vec<PathBuf>,
     model: Option<PathBuf>,
     break_away: Vec<PathBuf>,
+    plan: Option<PathBuf>,
     search: Option<String>,
     no_finish: bool,
     cost: Option<String>,
@@ -52,6 +54,7 @@ impl Asked {
             statics: self.statics,
             model: self.model,
             break_away: self.break_away,
+            plan: self.plan,
         };
         let search = self.search.map(|name| {
             let mut names = Method::SEARCHES.into_iter();
@@ -102,6 +105,7 @@ pub fn choices(argument: &str) -> Vec<&'static str> {
         "search" => Method::SEARCHES.to_vec(),
         "cost" => COSTS.into_iter().map(CostKind::name).collect(),
         "target" => Target::ALL.into_iter().map(Target::name).collect(),
+        "formats" => Carrier::ALL.map(Carrier::name).to_vec(),
         _ => Vec::new(),
     }
 }

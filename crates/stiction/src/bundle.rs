@@ -1,7 +1,6 @@
 //! What goes into an output folder: the outcome of a workflow as files, with its report.
 
 use crate::fit_csv::fit_csv;
-use crate::setpoints::setpoints_csv;
 use serde::Serialize;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -11,7 +10,7 @@ use stiction_files::{Bundle, ModelFile, check_folder_of, visible};
 use stiction_pages::report;
 use stiction_workflows::drift::DriftOutcome;
 use stiction_workflows::identify::Outcome;
-use stiction_workflows::plan::Planned;
+use stiction_workflows::plan::{Carrier, Planned};
 use stiction_workflows::reproduce::Reproduction;
 use stiction_workflows::study::StudyOutcome;
 
@@ -88,10 +87,16 @@ pub fn study(outcome: &StudyOutcome) -> Bundle {
     bundle
 }
 
-/// The files of a plan: `plan.toml`, `setpoints.csv` and `report.html`.
+/// The files of a plan: `plan.toml`, `setpoints.csv` and each other form of the set points, `report.html`.
 pub fn plan(planned: &Planned) -> Bundle {
     let mut bundle = Bundle::default();
-    bundle.add("setpoints.csv", setpoints_csv(planned));
+    for carrier in Carrier::ALL {
+        let carried = planned.carried.iter().find(|c| c.carrier == carrier);
+        match carried {
+            Some(carried) => bundle.add(carrier.file(), carried.text.as_str()),
+            None => bundle.lacks(carrier.file()),
+        }
+    }
     bundle.add("report.html", report::plan(planned).to_html());
     bundle.add("plan.toml", planned.file.to_toml());
     bundle

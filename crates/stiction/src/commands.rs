@@ -33,6 +33,8 @@ pub use stiction_workflows::compare::{
 };
 /// An identification from paths.
 pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
+/// Forms in which a controller takes a planned motion, and how well a parameter is to be known.
+pub use stiction_workflows::plan::{Carrier, Want};
 /// A planned motion, from an axis file.
 pub use stiction_workflows::plan::{Known, PlanOptions, Planned, plan as plan_motion};
 /// Logs with the files they came from.

@@ -110,7 +110,6 @@ mod identify;
 mod log;
 mod parameter;
 mod saved;
-mod setpoints;
 mod stepped;
 
 pub use fit::Fit;

@@ -1,6 +1,6 @@
-//! For tests only: where measured recordings are, what must hold on them, an interpreter of Structured Text, LinuxCNC, the plain
-//! midpoint step, simulated logs of worlds that an identification does, or does not, assume ([`worlds`]), and joints behind gears
-//! ([`geared`]).
+//! For tests only: where measured recordings are, what must hold on them, an interpreter and a compiler of Structured Text, other
+//! programs of the set-up, LinuxCNC, the plain midpoint step, simulated logs of worlds that an identification does, or does not,
+//! assume ([`worlds`]), and joints behind gears ([`geared`]).
 //!
 //! Start with [`recordings`] for a test on measured data, and with [`st::Library`] for one that runs Structured Text:
 //!
@@ -20,8 +20,10 @@ mod cases;
 pub mod geared;
 #[cfg(unix)]
 pub mod hal;
+pub mod matiec;
 mod mean_of_ends;
 mod pages;
+pub mod programs;
 mod random;
 pub mod st;
 pub mod worlds;

@@ -26,6 +26,7 @@ mod options;
 mod outcome;
 mod outside;
 mod pitch;
+mod planned;
 mod predict;
 mod procedure;
 mod remaining;

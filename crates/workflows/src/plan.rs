@@ -2,16 +2,20 @@
 
 mod assume;
 mod band;
+mod carried;
 mod design;
 mod judged;
 mod known;
 mod outcome;
 mod possible;
+mod wanted;
 
 pub use assume::Given;
 pub use band::Band;
 pub use known::Known;
 pub use outcome::Planned;
+pub use stiction_plan::carrier::Carrier;
+pub use wanted::Want;
 
 use crate::error::Error;
 use std::path::Path;
@@ -22,14 +26,20 @@ use stiction_search::Observer;
 /// What is to be planned.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlanOptions {
-    /// Longest motion, s; `None`: 9 s, and of a probe 3 s.
+    /// Longest motion, s; `None`: 9 s, of a probe 3 s, with wishes 60 s.
     pub time: Option<f64>,
     /// A first, careful motion at half the speed and acceleration, whose log a second plan is made from.
     pub probe: bool,
     /// What is known of the axis beside its nameplate.
     pub known: Option<Known>,
+    /// What is to be known how well: the shortest motion is taken that is enough. Empty: the best of the longest time.
+    pub wants: Vec<Want>,
     /// Of the axes that it is made for.
     pub seed: u64,
+    /// Forms for a controller beside `setpoints.csv`.
+    pub carriers: Vec<Carrier>,
+    /// Position at which the axis stands when the motion starts, with its unit, such as `120 mm`; `None`: 0.
+    pub start: Option<String>,
 }
 
 /// Shortest and longest motion that is planned, s.
@@ -42,8 +52,12 @@ const PROBE_TIME: f64 = 3.0;
 impl PlanOptions {
     /// Longest motion, s.
     pub fn longest(&self) -> f64 {
-        self.time
-            .unwrap_or(if self.probe { PROBE_TIME } else { TIME })
+        let usual = match (self.probe, self.wants.is_empty()) {
+            (true, _) => PROBE_TIME,
+            (false, true) => TIME,
+            (false, false) => wanted::LONGEST,
+        };
+        self.time.unwrap_or(usual)
     }
 }
 
@@ -80,5 +94,9 @@ pub fn plan(
         });
     }
     let given = assume::given(&axis, told, options)?;
-    design::design(&axis, given, inputs, options, observer)
+    let start = carried::start(&given, options)?;
+    let planned = design::design(&axis, given, inputs, options, observer)?;
+    planned
+        .map(|planned| carried::carried(planned, start))
+        .transpose()
 }

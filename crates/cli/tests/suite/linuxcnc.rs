@@ -341,6 +341,43 @@ fn a_compensator_in_the_loop() {
     assert!(largest >= 90.0, "{largest}");
 }
 
+/// A planned motion, streamed set point by set point through HAL: all of it ran, and what is found lies within what the plan
+/// expected of nine in ten axes.
+#[test]
+fn a_planned_motion() {
+    let _alone = hal::alone();
+    if !hal::may_install() {
+        return;
+    }
+    let stage = Stage::new();
+    stage.stiction("plan planned.toml --format halstreamer --out plan");
+    let output = hal::command("timeout", &stage.dir)
+        .args(["--kill-after=20", "100", "halrun", "planned.hal"])
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", said(&output));
+    let found = stage
+        .stiction("identify planned.txt --axis planned.toml --plan plan/plan.toml --out result");
+    println!("{found}");
+    assert!(!found.contains("plan-differs"), "{found}");
+    let text = std::fs::read_to_string(stage.dir.join("result/result.json")).unwrap();
+    let result: serde_json::Value = serde_json::from_str(&text).unwrap();
+    let pieces = result["planned"]["pieces"].as_array().unwrap();
+    assert!(pieces.len() > 1 && pieces.iter().all(|piece| piece["status"] == "whole"));
+    let parameters = result["planned"]["parameters"].as_array().unwrap();
+    assert_eq!(parameters.len(), 7);
+    for expected in parameters {
+        let name = expected["name"].as_str().unwrap();
+        let mut all = result["parameters"].as_array().unwrap().iter();
+        let found = all.find(|p| p["name"] == name).unwrap();
+        let (value, truth) = (found["value"].as_f64().unwrap(), stage.truth(name));
+        let off = 100.0 * (value / truth - 1.0);
+        let allowed = expected["expected90_percent"].as_f64().unwrap();
+        println!("{name}: {off:.2} % off, expected within {allowed:.2} %");
+        assert!(off.abs() <= allowed, "{name}: {off}, {allowed}");
+    }
+}
+
 /// The same component otherwise than it should be: less gain, the wrong place in the thread, viscous friction fed forward twice,
 /// friction that is not any more what was identified.
 #[test]

@@ -68,7 +68,7 @@ fn a_plan_is_written_with_set_points_within_the_limits_and_the_same_on_any_threa
     for said in [
         "limits.jerk = 400.0 m/s^3",
         "limits.force_noise = 0.2000 N",
-        "stiction identify LOG.csv --axis axis.toml --out one/identified",
+        "stiction identify LOG.csv --axis axis.toml --plan one/plan.toml --out one/identified",
         "written to one: setpoints.csv, report.html, plan.toml",
     ] {
         assert!(out.contains(said), "{said}\n{out}");
@@ -398,10 +398,159 @@ fn identify_leads_to_a_plan_for_what_a_log_leaves_open() {
     let said = identify("axis.toml", "out");
     let command = "stiction plan axis.toml --log log.csv --out out-plan";
     assert!(
-        said.contains("not identifiable") && said.contains(command),
+        said.contains("what is open") && said.contains(command),
         "{said}"
     );
     let limitless = AXIS.split("[limits]").next().unwrap();
     std::fs::write(at.join("plain.toml"), limitless).unwrap();
     assert!(!identify("plain.toml", "plain").contains("stiction plan"));
+}
+
+/// What a user goes through: a plan in the forms of his controller, a log of it, and one that was stopped too early.
+#[test]
+fn a_log_is_put_beside_its_plan() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    let forms = ["st", "cam", "csp", "ros2", "halstreamer", "gcode"];
+    let mut all = vec!["plan", "axis.toml", "--time", "4s", "--start", "12 mm"];
+    forms.iter().for_each(|form| all.extend(["--format", form]));
+    all.extend(["--out", "plan"]);
+    let (code, said, err) = run(at, &all);
+    assert_eq!((code, err.as_str()), (0, ""));
+    for file in [
+        "plan/motion.st: FB_axis_Motion gives",
+        "plan/setpoints.cam.csv: cam points every 2 ms",
+        "plan/setpoints.csp.csv: a row for each cycle of 2 ms in whole counts of 1e-6 m",
+        "plan/setpoints.ros2.yaml: points every",
+        "positions count from 0.01200 m, where the axis has to stand",
+        "plan/setpoints.halstreamer: position and velocity in mm and mm/s",
+        "strokes of constant feed",
+    ] {
+        assert!(said.contains(file), "{file}\n{said}");
+    }
+    // Again without them: what does not belong to the plan any more is gone.
+    let (code, ..) = run(at, &["plan", "axis.toml", "--time", "4s", "--out", "plan"]);
+    assert_eq!(code, 0);
+    assert!(!at.join("plan/setpoints.csp.csv").exists());
+
+    // An axis that follows with the friction of a tanh and a little noise.
+    let rows = rows(at, "plan/setpoints.csv");
+    let log = |rows: &[[f64; 4]]| {
+        let rows = rows.iter().enumerate().map(|(k, [t, x, v, a])| {
+            let noise = 0.05 * libm::sin(1e4 * (k * k % 997) as f64);
+            let force = 4.0 * a + 20.0 * v + 5.0 * libm::tanh(v / 1e-4) + noise;
+            format!("{t},{x},{force}\n")
+        });
+        format!(
+            "time [s],position [m],force [N]\n{}",
+            rows.collect::<String>()
+        )
+    };
+    std::fs::write(at.join("whole.csv"), log(&rows)).unwrap();
+    std::fs::write(at.join("half.csv"), log(&rows[..rows.len() / 2])).unwrap();
+    let identify = |log: &str, plan: &str| {
+        let all = [
+            "identify",
+            log,
+            "--axis",
+            "axis.toml",
+            "--plan",
+            plan,
+            "--law",
+            "stribeck",
+            "--out",
+            "out",
+        ];
+        run(at, &all)
+    };
+    let (_, said, _) = identify("whole.csv", "plan/plan.toml");
+    assert!(
+        said.contains("against plan/plan.toml\n") && !said.contains("plan-differs"),
+        "{said}"
+    );
+    assert!(said.contains("whole in whole.csv, from 0 s on"), "{said}");
+    let (_, said, _) = identify("half.csv", "plan/plan.toml");
+    assert!(
+        said.contains("warning [plan-differs] of ")
+            && said.contains("Run setpoints.csv again, from t = "),
+        "{said}"
+    );
+    let result = std::fs::read_to_string(at.join("out/result.json")).unwrap();
+    let result: serde_json::Value = serde_json::from_str(&result).unwrap();
+    assert_eq!(result["planned"]["path"], "plan/plan.toml");
+
+    // What is no plan is refused at its place.
+    let text = std::fs::read_to_string(at.join("plan/plan.toml")).unwrap();
+    for (from, to, due) in [
+        (
+            "schema = \"stiction.plan/1\"",
+            "schema = \"stiction.plan/9\"",
+            "schema: found \"stiction.plan/9\"",
+        ),
+        (
+            "kind = \"linear\"",
+            "kind = \"rotary\"",
+            "is the plan of a rotary axis, the log that of a linear one",
+        ),
+        ("duration = ", "duration = -", ""),
+    ] {
+        assert!(text.contains(from));
+        std::fs::write(at.join("other.toml"), text.replacen(from, to, 1)).unwrap();
+        let (code, _, err) = identify("whole.csv", "other.toml");
+        if !due.is_empty() {
+            assert!(code == 2 && err.contains(due), "{err}");
+        }
+    }
+    let (code, _, err) = identify("whole.csv", "axis.toml");
+    assert!(
+        code == 2 && err.contains("axis.toml") && err.contains("schema"),
+        "{err}"
+    );
+}
+
+/// A wish is granted by the shortest motion that is enough, or it is said what would grant it.
+#[test]
+fn a_wish_is_granted_or_it_is_said_what_would() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    let plan = |wish: &str, time: &str, out: &str| {
+        run(
+            at,
+            &[
+                "plan",
+                "axis.toml",
+                "--want",
+                wish,
+                "--time",
+                time,
+                "--out",
+                out,
+            ],
+        )
+    };
+    let (code, said, _) = plan("mass < 5 %", "20s", "easy");
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("wanted mass +-5 %: expected +-"), "{said}");
+    let short: f64 = said.split(' ').next().unwrap().parse().unwrap();
+    assert!(short <= 3.0, "{said}");
+    let (code, said, _) = plan("all < 0.01 %", "3s", "hard");
+    assert_eq!(code, 1, "{said}");
+    assert!(
+        said.contains("the best in this time")
+            && said.contains("stiction plan axis.toml --stage probe --out hard-probe"),
+        "{said}"
+    );
+    for wish in [
+        "sigma0",
+        "friction < 2 %",
+        "mass < 2",
+        "mass < -1 %",
+        "mass < nan %",
+    ] {
+        let (code, _, err) = plan(wish, "3s", "none");
+        assert!(
+            code == 2 && err.contains(&format!("--want {wish:?}")),
+            "{err}"
+        );
+    }
 }

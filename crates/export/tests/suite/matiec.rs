@@ -2,12 +2,12 @@
 //! the blocks agree with the compensator.
 
 use crate::common::compiled::{Sample, drive, kept, run};
-use crate::common::matiec::{compile, matiec};
 use crate::common::terms::extras;
 use crate::common::{laws, model, models};
 use crate::st;
 use std::path::Path;
 use stiction_export::{Model, Target, export};
+use stiction_testkit::matiec::{compile, matiec};
 
 /// Steps a block through what comes in, as [`drive`] wants it. NAME, REAL and KEPT are put in their places.
 const BLOCK: &str = r#"

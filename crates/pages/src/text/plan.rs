@@ -37,9 +37,20 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
         }
     }
     out.push_str(&expected(file));
+    out.push_str(&wanted(planned, axis, written));
     out.push_str(&beside(file));
     out.push_str(&largest(file));
     let folder = |name: &str| quoted_path(&written.join(name));
+    let others = planned.carried.iter().filter(|file| !file.note.is_empty());
+    for (k, file) in others.enumerate() {
+        let head = if k == 0 { "\nfor a controller:\n" } else { "" };
+        let _ = writeln!(
+            out,
+            "{head}    {}: {}",
+            folder(file.carrier.file()),
+            file.note
+        );
+    }
     let [low, high] = file.limits.stroke;
     let length = units(file)[0];
     let _ = writeln!(
@@ -70,8 +81,8 @@ fn next(planned: &Planned, axis: &Path, written: &Path) -> String {
         Some(Known::Log(log)) => format!("{} ", typed(log)),
         _ => String::new(),
     };
-    let out = typed(&written.join("identified"));
-    format!("stiction identify {first}LOG.csv --axis {axis} --out {out}")
+    let [plan, out] = ["plan.toml", "identified"].map(|name| typed(&written.join(name)));
+    format!("stiction identify {first}LOG.csv --axis {axis} --plan {plan} --out {out}")
 }
 
 /// Units of length, speed and force.
@@ -132,6 +143,65 @@ fn expected(file: &PlanFile) -> String {
             out,
             "on some axes {} may stay open: bristles of a few encoder steps, or static friction hardly above Coulomb friction",
             open.join(", ")
+        );
+    }
+    out
+}
+
+/// Longest motion that is planned, s.
+const LONGEST: f64 = stiction_workflows::plan::TIMES[1];
+
+/// Each wish, whether it is granted, and what would grant it.
+fn wanted(planned: &Planned, axis: &Path, written: &Path) -> String {
+    let file = &planned.file;
+    let mut out = String::new();
+    for wish in &file.wanted {
+        let _ = writeln!(
+            out,
+            "wanted {} {}: expected {} on nine of ten axes{}",
+            wish.name,
+            within(wish.percent),
+            within(wish.expected90_percent),
+            if wish.met {
+                ""
+            } else {
+                ", the best in this time"
+            }
+        );
+    }
+    let lacking = file.wanted.iter().filter(|wish| !wish.met);
+    let shares = lacking.map(|wish| wish.expected90_percent / wish.percent);
+    let Some(most) = shares.reduce(f64::max) else {
+        return out;
+    };
+    let folder = text(&written.components().collect::<PathBuf>());
+    let beside = |end: &str| quoted(&format!("{folder}{end}"));
+    // Deviations fall with the root of the time.
+    let needed = (file.duration * most * most * 1.1).ceil();
+    if needed <= LONGEST {
+        let wishes: String = file.wanted.iter().fold(String::new(), |mut all, wish| {
+            let _ = write!(
+                all,
+                " --want {}",
+                quoted(&format!("{} < {} %", wish.name, wish.percent))
+            );
+            all
+        });
+        let _ = writeln!(
+            out,
+            "a longer motion may grant it: stiction plan {} --time {needed}s{wishes} --out {}",
+            quoted_path(axis),
+            beside("-longer")
+        );
+    } else {
+        let _ = writeln!(
+            out,
+            "no motion of at most {LONGEST} s grants it within these limits: deviations fall with the root of the time, and this one \
+             would take {} s. A finer encoder, less noise of the force and more speed help, and a first log, from which less is open:\n    \
+             stiction plan {} --stage probe --out {}",
+            short(needed),
+            quoted_path(axis),
+            beside("-probe")
         );
     }
     out

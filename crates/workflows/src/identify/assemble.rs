@@ -125,6 +125,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         static_map: None,
         static_then_dynamic: None,
         presliding_step: None,
+        planned: None,
         break_away: Vec::new(),
         elements: elements(estimate),
         top_speed: top_speed(estimate),

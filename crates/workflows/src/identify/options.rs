@@ -74,6 +74,8 @@ pub struct Procedures {
     pub model: Option<PathBuf>,
     /// Logs of force ramps, one break-away each.
     pub break_away: Vec<PathBuf>,
+    /// The `plan.toml` that a log was recorded by: what ran of it, and what was expected, stand beside the result.
+    pub plan: Option<PathBuf>,
 }
 
 /// What a search evaluates.

@@ -10,6 +10,7 @@ use super::method::Method;
 use super::options::{Files, Options};
 use super::outcome::{ForceFit, Found, Outcome};
 use super::outside;
+use super::planned;
 use super::procedure::{static_map, step};
 use super::simulate;
 use crate::error::Error;
@@ -137,6 +138,8 @@ pub(crate) fn identify_asked(
     held_out: Vec<Source>,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
+    let plan = asked.options.procedures.plan.as_deref();
+    let plan = plan.map(|file| planned::read(file, &sources)).transpose()?;
     let loaded = load(asked, sources, held_out)?;
     let outcome = match asked.options.procedures.method {
         Method::Static => static_map::run(asked, loaded, observer),
@@ -146,7 +149,11 @@ pub(crate) fn identify_asked(
             fit_force(asked, loaded, observer)
         }
     };
-    outcome.map_err(|e| e.at_axis(asked.axis))
+    let mut outcome = outcome.map_err(|e| e.at_axis(asked.axis))?;
+    if let Some(plan) = &plan {
+        planned::into_outcome(plan, &mut outcome);
+    }
+    Ok(outcome)
 }
 
 /// Noise of the position that grows with speed.

@@ -6,6 +6,7 @@ use super::band::band;
 use super::judged::{Judged, judged, refused};
 use super::outcome::Planned;
 use super::possible::{beyond, no_piece, peaks, tells_nothing};
+use super::wanted;
 use crate::error::Error;
 use rayon::prelude::*;
 use stiction_files::Axis;
@@ -69,23 +70,42 @@ pub(super) fn design(
     if table.atoms.is_empty() {
         return Err(beyond(axis, &given, &all));
     }
-    let choice = chosen(&table, &given.aim, longest, observer);
-    if choice.pieces.is_empty() {
-        return Err(tells_nothing(axis, longest));
-    }
-    let designed = Motion::new(ordered(&table, &choice)).map_err(refused)?;
-
     let kinds = HandMade::ALL.len() as f64 + 1.0;
     let fresh = fewer(FRESH_AXES, FRESH_PERIODS, periods * longest * kinds);
     // Other axes than those that the pieces were chosen on.
     let axes_fresh = given.draw(fresh, seed ^ OTHER_AXES);
-    let watch = Shared::new(observer, fresh * (HandMade::ALL.len() + 1));
-    let Some(designed) = within(designed, &axes_fresh, &given, &watch)? else {
+    let mut tried = None;
+    let mut evaluations = 0;
+    for time in wanted::times(&options.wants, longest) {
+        let choice = chosen(&table, &given.aim, time, observer);
+        evaluations += choice.evaluations;
+        if choice.pieces.is_empty() {
+            continue;
+        }
+        let designed = Motion::new(ordered(&table, &choice)).map_err(refused)?;
+        let watch = Shared::new(observer, fresh);
+        let Some(designed) = within(designed, &axes_fresh, &given, &watch)? else {
+            // What was found for a shorter time stands.
+            break;
+        };
+        let enough = wanted::are_met(&options.wants, &designed.expected);
+        let stopped = choice.interrupted;
+        tried = Some((time, choice, designed));
+        if enough || stopped {
+            break;
+        }
+    }
+    if tried.is_none() && observer.progress(&Progress::of(Stage::Search, 1.0)) != Control::Continue
+    {
         return Ok(None);
+    }
+    let Some((time, choice, designed)) = tried else {
+        return Err(tells_nothing(axis, longest));
     };
+    let watch = Shared::new(observer, fresh * HandMade::ALL.len());
     let mut all = vec![("designed", designed)];
     for kind in HandMade::ALL {
-        let made = hand_made(kind, limits, rig, longest).map_err(refused)?;
+        let made = hand_made(kind, limits, rig, time).map_err(refused)?;
         let Some(made) = made else { continue };
         if let Some(found) = judged(made, &axes_fresh, &given, &watch)? {
             all.push((kind.name(), found));
@@ -98,7 +118,15 @@ pub(super) fn design(
         .collect();
     let whole: Vec<Peaks> = all.iter().map(|(_, j)| j.expected.peaks).collect();
     let finalists = all.into_iter().filter(|(_, j)| j.keeps(limits));
-    let best = finalists.min_by(|(_, a), (_, b)| a.expected.score.total_cmp(&b.expected.score));
+    // One that grants the wishes before one that does not.
+    let order = |judged: &Judged| {
+        let lacks = !wanted::are_met(&options.wants, &judged.expected);
+        (lacks, judged.expected.score)
+    };
+    let best = finalists.min_by(|(_, a), (_, b)| {
+        let (a, b) = (order(a), order(b));
+        a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+    });
     let Some((name, best)) = best else {
         return Err(beyond(axis, &given, &whole));
     };
@@ -119,7 +147,7 @@ pub(super) fn design(
         duration: best.motion.duration(),
         axes: [axes.len(), fresh],
         simulated,
-        evaluations: choice.evaluations,
+        evaluations,
         trust: TRUST,
         assumed: given.assumed.clone(),
         inputs,
@@ -140,6 +168,7 @@ pub(super) fn design(
         },
         prior: ranges(&given),
         parameter: (0..NAMES.len()).map(|i| expected(&best, i)).collect(),
+        wanted: wanted::entries(&options.wants, &best.expected),
         compared,
         largest: LargestEntry {
             position: largest.position,
@@ -165,6 +194,7 @@ pub(super) fn design(
         expected: best.expected,
         options: options.clone(),
         given,
+        carried: Vec::new(),
     }))
 }
 
@@ -301,6 +331,11 @@ fn percent(deviation: f64) -> f64 {
     100.0 * TRUST * deviation
 }
 
+/// Half of a 95 % interval, percent, of a predicted deviation.
+pub(super) fn half_interval(deviation: f64) -> f64 {
+    HALF_INTERVAL * percent(deviation)
+}
+
 fn expected(found: &Judged, parameter: usize) -> ExpectedEntry {
     let at = |part: f64| percent(found.expected.quantile(parameter, part));
     ExpectedEntry {
@@ -313,7 +348,7 @@ fn expected(found: &Judged, parameter: usize) -> ExpectedEntry {
 }
 
 fn compared(name: &str, found: &Judged, limits: &Limits) -> ComparedEntry {
-    let at = |part: f64| HALF_INTERVAL * percent(found.expected.worst(part));
+    let at = |part: f64| half_interval(found.expected.worst(part));
     ComparedEntry {
         name: name.into(),
         duration: found.motion.duration(),

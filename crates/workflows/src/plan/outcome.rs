@@ -4,6 +4,7 @@ use super::PlanOptions;
 use super::assume::Given;
 use super::band::Band;
 use stiction_files::plan::PlanFile;
+use stiction_plan::carrier::Carried;
 use stiction_plan::{Expected, Motion};
 
 /// A planned motion with what it can be expected to show.
@@ -21,4 +22,6 @@ pub struct Planned {
     pub options: PlanOptions,
     /// What it was planned with.
     pub given: Given,
+    /// The set points: `setpoints.csv`, then each form that was asked for.
+    pub carried: Vec<Carried>,
 }

@@ -2,7 +2,6 @@
 #![allow(dead_code)]
 
 pub mod compiled;
-pub mod matiec;
 pub mod reserved;
 pub mod terms;
 

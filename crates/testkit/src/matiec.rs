@@ -1,7 +1,7 @@
 //! The Structured Text compiler matiec (Beremiz, OpenPLC), built from its sources outside the project: a program that
 //! tests run, never part of the project nor linked with it.
 
-use super::compiled::run;
+use crate::programs::run;
 use sha2::{Digest, Sha256};
 use std::path::{Path, PathBuf};
 
@@ -11,10 +11,8 @@ use std::path::{Path, PathBuf};
 /// The sources are `matiec.tar.gz` in the folder `STICTION_MATIEC`, else in `../shared/tools` beside the workspace. They
 /// are built once, in a folder of their own below the user's caches.
 pub fn matiec() -> Option<PathBuf> {
-    let tools = std::env::var_os("STICTION_MATIEC").map_or_else(
-        || stiction_testkit::workspace().join("../shared/tools"),
-        PathBuf::from,
-    );
+    let tools = std::env::var_os("STICTION_MATIEC")
+        .map_or_else(|| crate::workspace().join("../shared/tools"), PathBuf::from);
     let archive = tools.join("matiec.tar.gz");
     let Ok(bytes) = std::fs::read(&archive) else {
         let message = format!(

@@ -1,0 +1,175 @@
+//! What the logs show of the plan that they were recorded by.
+
+use super::outcome::Outcome;
+use crate::error::Error;
+use crate::source::Source;
+use std::path::Path;
+use stiction_codes::Code;
+use stiction_files::Warning;
+use stiction_files::plan::ReadPlan;
+use stiction_files::result::{PieceEntry, PlannedEntry, PlannedParameter, ResultFile};
+use stiction_number::{Percent, counted, four_digits};
+use stiction_plan::{How, Recognised, recognise};
+
+/// Reads a plan, and refuses one of another kind of axis.
+pub(super) fn read(file: &Path, sources: &[Source]) -> Result<ReadPlan, Error> {
+    let plan = ReadPlan::read(file)?;
+    let kind = sources.first().map(|source| source.log.motion.to_string());
+    match kind {
+        Some(kind) if kind != plan.kind => Err(Error::usage(
+            format!(
+                "{} is the plan of a {} axis, the log that of a {kind} one",
+                file.display(),
+                plan.kind
+            ),
+            "the plan that the log was recorded by",
+        )),
+        _ => Ok(plan),
+    }
+}
+
+/// Puts the plan beside the result.
+pub(super) fn into_outcome(plan: &ReadPlan, outcome: &mut Outcome) {
+    let found = outcome.sources.iter().filter_map(|source| {
+        let log = &source.log;
+        // What was asked for, where the log has it: the axis itself may be held by friction.
+        let position = log.reference.as_ref().or(log.position.as_ref())?;
+        Some((source, recognise(&plan.motion, &log.time, position)?))
+    });
+    let best = found.max_by_key(|(_, found)| whole(found));
+    let result = &mut outcome.result;
+    let parameters = parameters(plan, result);
+    let pieces = best.as_ref().map_or(Vec::new(), |(source, found)| {
+        let first = source.log.time.first().copied().unwrap_or(0.0);
+        pieces(plan, found, first)
+    });
+    let entry = PlannedEntry {
+        path: stiction_files::shell::text(&plan.file),
+        sha256: plan.sha256.clone(),
+        log: best.as_ref().map(|(source, _)| source.name()),
+        pace: best.as_ref().map(|(_, found)| found.pace),
+        pieces,
+        parameters,
+    };
+    result.warnings.extend(differs(&entry));
+    result.planned = Some(entry);
+}
+
+fn whole(found: &Recognised) -> usize {
+    let pieces = found.pieces.iter();
+    pieces.filter(|piece| piece.how == How::Whole).count()
+}
+
+fn pieces(plan: &ReadPlan, found: &Recognised, first: f64) -> Vec<PieceEntry> {
+    let timed = plan.motion.timed().zip(&found.pieces);
+    let entry =
+        |((planned_start, atom), ran): ((f64, &stiction_plan::Atom), &stiction_plan::Ran)| {
+            PieceEntry {
+                planned_start,
+                start: ran.start.map(|t| t - first),
+                duration: atom.duration(),
+                status: match ran.how {
+                    How::Whole => "whole",
+                    How::CutShort => "cut-short",
+                    How::Missing => "missing",
+                }
+                .into(),
+                followed: ran.followed,
+            }
+        };
+    timed.map(entry).collect()
+}
+
+fn parameters(plan: &ReadPlan, result: &ResultFile) -> Vec<PlannedParameter> {
+    let both = plan.expected.iter().filter_map(|expected| {
+        let mut own = result.parameters.iter();
+        Some((
+            expected,
+            own.find(|p| p.name == expected.name && p.origin != "given")?,
+        ))
+    });
+    both.map(|(expected, found)| {
+        let half = found
+            .range()
+            .map(|(low, high)| 50.0 * (high - low) / found.value.abs());
+        let half = half.filter(|percent| percent.is_finite());
+        let status = match half {
+            _ if !found.identifiable => "open",
+            Some(percent) if percent <= expected.interval90_percent => "as-expected",
+            Some(_) => "wider",
+            None => "open",
+        };
+        PlannedParameter {
+            name: expected.name.clone(),
+            expected_percent: expected.interval_percent,
+            expected90_percent: expected.interval90_percent,
+            found_percent: half,
+            status: status.into(),
+        }
+    })
+    .collect()
+}
+
+/// What was run otherwise than planned.
+fn differs(entry: &PlannedEntry) -> Option<Warning> {
+    let said = match entry.pace {
+        None => format!(
+            "no log shows the motion of {}: what was expected does not hold for it. Run its setpoints.csv, at its pace, and record \
+             the position",
+            entry.path
+        ),
+        Some(pace) if entry.pieces.is_empty() => format!(
+            "the motion of {} ran at {} of its pace: what was expected holds for its full pace alone. Run it again without an override",
+            entry.path,
+            Percent::error(100.0 * pace).short()
+        ),
+        Some(_) => lacking(entry)?,
+    };
+    Some(Warning::new(Code::PlanDiffers, said))
+}
+
+/// Pieces that are not whole, and from where to run again.
+fn lacking(entry: &PlannedEntry) -> Option<String> {
+    let named = |status: &str| {
+        let numbers = (1..).zip(&entry.pieces);
+        let own = numbers.filter(|(_, piece)| piece.status == status);
+        own.map(|(k, _): (usize, _)| k).collect::<Vec<_>>()
+    };
+    let (missing, cut) = (named("missing"), named("cut-short"));
+    let first = *missing.iter().chain(&cut).min()?;
+    let say = |pieces: &[usize], what: &str| {
+        let list: Vec<String> = pieces.iter().map(ToString::to_string).collect();
+        match pieces {
+            [] => None,
+            [one] => Some(format!("piece {one} {what}")),
+            many => Some(format!("pieces {} {what}", listed(&list, many.len()))),
+        }
+    };
+    let said: Vec<String> = [say(&missing, "missing"), say(&cut, "cut short")]
+        .into_iter()
+        .flatten()
+        .collect();
+    let from = entry.pieces[first - 1].planned_start;
+    Some(format!(
+        "of {} in {}, {}: what was expected counts on them. Run setpoints.csv again, from t = {} s on, where the axis is at rest \
+         at its start, and identify that log together with this one",
+        counted(entry.pieces.len(), "piece"),
+        entry.path,
+        said.join(", "),
+        four_digits(from)
+    ))
+}
+
+/// Most pieces that are named.
+const MOST_NAMED: usize = 12;
+
+fn listed(numbers: &[String], count: usize) -> String {
+    match count > MOST_NAMED {
+        true => format!(
+            "{} and {} more",
+            numbers[..MOST_NAMED].join(", "),
+            count - MOST_NAMED
+        ),
+        false => numbers.join(", "),
+    }
+}
