@@ -422,7 +422,7 @@ fn a_log_is_put_beside_its_plan() {
         "plan/setpoints.cam.csv: cam points every 2 ms",
         "plan/setpoints.csp.csv: a row for each cycle of 2 ms in whole counts of 1e-6 m",
         "plan/setpoints.ros2.yaml: points every",
-        "positions count from 0.01200 m, where the axis has to stand",
+        "positions count from 0.012 m, where the axis has to stand",
         "plan/setpoints.halstreamer: position and velocity in mm and mm/s",
         "strokes of constant feed",
     ] {
