@@ -20,6 +20,9 @@ struct Range {
     bristles: f64,
     /// Least and largest force limit.
     limit: (f64, f64),
+    /// Least size of what makes an input count: in a single-precision block next to one in double precision it would vanish,
+    /// and its input with it.
+    slope: f64,
 }
 
 impl Range {
@@ -33,16 +36,19 @@ impl Range {
                 parameters: (1e-9, 1e9),
                 bristles: 1e15,
                 limit: (1e-15, 1e15),
+                slope: 1e-30,
             },
             Some("float" | "f32") => Range {
                 parameters: (1e-15, 1e15),
                 bristles: 1e15,
                 limit: (1e-30, 1e30),
+                slope: 1e-30,
             },
             _ => Range {
                 parameters: (1e-100, 1e100),
                 bristles: 1e100,
                 limit: (1e-200, 1e200),
+                slope: 1e-200,
             },
         }
     }
@@ -81,6 +87,11 @@ pub(crate) fn check(
     for (name, value) in terms::numbers(&model.terms) {
         if value.abs() > range.parameters.1 {
             return Err(refuse(name, value, (0.0, range.parameters.1)));
+        }
+    }
+    for (name, value) in terms::slopes(&model.terms) {
+        if value != 0.0 && value.abs() < range.slope {
+            return Err(refuse(name, value, (range.slope, range.parameters.1)));
         }
     }
     if limit > range.limit.1 || (limit > 0.0 && limit < range.limit.0) {

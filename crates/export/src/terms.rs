@@ -148,7 +148,7 @@ pub(crate) fn numbers(terms: &Terms<f64>) -> Vec<(&'static str, f64)> {
     let levels = terms.levels.unwrap_or_default();
     let weight = terms.weight.unwrap_or_default();
     let c = &terms.channels;
-    let mut all = vec![("mass", terms.mass), ("offset", weight.constant)];
+    let mut all = vec![("offset", weight.constant)];
     for (name, channel) in [
         ("load_reference", c.load),
         ("temperature_reference", c.temperature),
@@ -158,6 +158,20 @@ pub(crate) fn numbers(terms: &Terms<f64>) -> Vec<(&'static str, f64)> {
         let [low, high] = channel.range;
         all.extend([channel.reference, low, high].map(|x| (name, x)));
     }
+    all.extend(slopes(terms));
+    all.push(("top_speed", levels.top_speed));
+    let along = levels.waves.iter().flatten().map(|w| ("coulomb_pitch", w));
+    let cogging = terms.cogging.iter().map(|w| ("cogging", w));
+    for (name, w) in along.chain(cogging).chain([("gravity", &weight.wave)]) {
+        all.extend([w.rate, w.sine, w.cosine].map(|x| (name, x)));
+    }
+    all
+}
+
+/// The numbers of which one that is not 0 makes an input count, or a part of the code, with a name for a message.
+pub(crate) fn slopes(terms: &Terms<f64>) -> Vec<(&'static str, f64)> {
+    let levels = terms.levels.unwrap_or_default();
+    let mut all = vec![("mass", terms.mass)];
     for (name, slopes) in [
         ("coulomb_load / coulomb", levels.load),
         ("coulomb_temperature / coulomb", levels.temperature),
@@ -166,14 +180,8 @@ pub(crate) fn numbers(terms: &Terms<f64>) -> Vec<(&'static str, f64)> {
         ("coulomb_driven / coulomb", levels.driven),
         ("sigma2_temperature", levels.viscous),
         ("quadratic_viscous", levels.quadratic),
-        ("top_speed", [levels.top_speed; 2]),
     ] {
         all.extend(slopes.map(|x| (name, x)));
-    }
-    let along = levels.waves.iter().flatten().map(|w| ("coulomb_pitch", w));
-    let cogging = terms.cogging.iter().map(|w| ("cogging", w));
-    for (name, w) in along.chain(cogging).chain([("gravity", &weight.wave)]) {
-        all.extend([w.rate, w.sine, w.cosine].map(|x| (name, x)));
     }
     all
 }

@@ -181,6 +181,7 @@ pub fn export_file(file: impl AsRef<Path>, options: &ExportOptions) -> Result<Ex
 /// # Errors
 /// As [`export`].
 pub fn compensator(model: &ModelFile, options: &ExportOptions) -> Result<Compensator<f64>, Error> {
+    check(options)?;
     compensator_of(&ReadModel::of(model)?, options)
 }
 
@@ -194,7 +195,7 @@ pub(crate) fn compensator_of(
 }
 
 /// Refuses options that the target has no use for.
-fn check(options: &ExportOptions) -> Result<(), Error> {
+pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
     if options.rated_force.is_some() && options.target != Target::Tf5200 {
         let found = format!("a rated force for the target {}", options.target.name());
         return Err(Error::usage(found, "only tf5200 takes one"));

@@ -197,6 +197,8 @@ fn what_cannot_be_run_is_refused() {
     std::fs::write(&file, whole.replace("params->gain", "params->gone")).unwrap();
     let err = simulate("c");
     assert!(err.contains("gcc does not compile it"), "{err}");
+    let next = "stiction export model.toml --target c --cycle-time 0.0005 --out c-new";
+    assert!(err.contains(next), "{err}");
 
     // C that never answers.
     let endless = "static void __attribute__((constructor)) endless(void) { for (;;) { } }";
@@ -204,6 +206,27 @@ fn what_cannot_be_run_is_refused() {
     let err = simulate("c");
     assert!(
         err.contains("gives no answer within 10 s: it was ended"),
+        "{err}"
+    );
+
+    // C that prints where its settings are expected.
+    let prints = "#include <stdio.h>\nstatic void __attribute__((constructor)) prints(void) { for (int k = 0; k < 9; k++) \
+                  { printf(\"compensator \"); } }";
+    std::fs::write(&file, format!("{whole}\n{prints}\n")).unwrap();
+    let err = simulate("c");
+    assert!(
+        err.contains("does not begin with its settings") && err.contains(next),
+        "{err}"
+    );
+
+    // A ramp of which nobody sees the end.
+    let slow = whole.replace("params->ramp = 0.05;", "params->ramp = 1e9;");
+    assert_ne!(slow, whole);
+    std::fs::write(&file, slow).unwrap();
+    let err = simulate("c");
+    assert!(
+        err.contains("--exported-c c: a ramp of 1000000000 s; from 0 to 3600 s")
+            && err.contains(next),
         "{err}"
     );
     std::fs::write(&file, whole).unwrap();
@@ -234,4 +257,22 @@ fn what_cannot_be_run_is_refused() {
     let (code, _, err) = run(at, &["simulate", "study.toml", "--out", "out"]);
     assert_eq!(code, 2);
     assert!(err.contains("exported_c"), "{err}");
+}
+
+/// C that goes on in a second process, which holds the pipes and never answers, is ended with all that it started.
+#[cfg(unix)]
+#[test]
+fn c_that_starts_another_program_is_ended() {
+    let folder = desk(&lugre(), &[]);
+    let file = folder.path().join("c/x_axis_friction.c");
+    let whole = std::fs::read_to_string(&file).unwrap();
+    let parted = "extern int fork(void);\nextern void _exit(int);\nextern unsigned sleep(unsigned);\n\
+                  static void __attribute__((constructor)) parted(void) { if (fork() != 0) { _exit(0); } for (;;) { sleep(1u); } }";
+    std::fs::write(&file, format!("{whole}\n{parted}\n")).unwrap();
+    let (code, _, err) = run(folder.path(), &SIMULATE);
+    assert_eq!(code, 2, "{err}");
+    assert!(
+        err.contains("gives no answer within 10 s: it was ended"),
+        "{err}"
+    );
 }

@@ -6,7 +6,7 @@ use crate::common::compiled::{
 use crate::common::{adapting, all_laws, laws, model, models};
 use std::process::{Command, Stdio};
 use stiction_export::{Model, Target, export};
-use stiction_friction::compensator::{Friction, Input};
+use stiction_friction::compensator::{Friction, Input, Levels};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 /// What the C has to pass; the undefined-behaviour sanitizer on top where it runs.
@@ -90,6 +90,16 @@ fn the_self_test_holds_to_the_ends_of_the_range() {
     .unwrap();
     let said = "stribeck_velocity = 1e37; allowed: from 1e-15 to 1e15 (as float)";
     assert_eq!(beyond(&model(Friction::Stribeck(curve))), said);
+
+    // In single precision this slope would be 0, and the block without the input that its self-test feeds.
+    let mut vanishing = model(laws().remove(0).1);
+    let levels = Levels {
+        load: [1e-60; 2],
+        ..Levels::default()
+    };
+    vanishing.terms.levels = Some(levels);
+    let said = "coulomb_load / coulomb = 1e-60; allowed: from 1e-30 to 1e15 (as float)";
+    assert_eq!(beyond(&vanishing), said);
 }
 
 /// A self-test that is run with another parameter fails.

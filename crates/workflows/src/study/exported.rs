@@ -25,6 +25,8 @@ pub struct ExportedC {
     folder: String,
     source: Source,
     files: Vec<StudyInput>,
+    /// The command that writes C for this study, into a folder beside it.
+    again: String,
     /// The settings that the C has.
     settled: Settled,
     /// The compensator that an export of the model of the study has with these settings.
@@ -58,23 +60,27 @@ impl ExportedC {
                 "a motion of one axis: the C is the compensator of one".into(),
             ));
         }
-        let export = |more: &str| {
+        let into = |folder: &str| {
             format!(
-                "stiction export {} --target c --cycle-time {}{more} --force --out {}",
+                "stiction export {} --target c --cycle-time {}{folder}",
                 quoted_path(read.file()),
                 shortest(1.0 / study.machine.rate),
-                quoted(&name)
             )
         };
+        let export = into(&format!(" --force --out {}", quoted(&name)));
+        let beside = format!("{}-new", name.trim_end_matches('/'));
+        let again = into(&format!(" --out {}", quoted(&beside)));
         let source = Source::find(folder).map_err(|found| {
             refuse(
                 format!("--exported-c {name}: {found}"),
-                format!("a folder that this wrote: {}", export("")),
+                format!("a folder that this wrote: {}", export),
             )
         })?;
         let failed = |found: String| {
-            let allowed = "C as stiction export --target c writes it, and gcc on the path (Debian: sudo apt-get install gcc)";
-            refuse(format!("--exported-c {name}: {found}"), allowed.into())
+            let allowed = format!(
+                "C as this writes it: {again}; and gcc on the path (Debian: sudo apt-get install gcc)"
+            );
+            refuse(format!("--exported-c {name}: {found}"), allowed)
         };
         let place = source.compile().map_err(failed)?;
         let (_, settled) = Process::start(&place, None).map_err(failed)?;
@@ -86,14 +92,19 @@ impl ExportedC {
                     shortest(settled.cycle_time),
                     four_digits(study.machine.rate)
                 ),
-                format!("the same: {}", export("")),
+                format!("the same: {}", export),
             ));
         }
-        let rust = compensator_of(read, &settled.options(&source))?;
+        let options = settled.options(&source);
+        // A ramp of years would be waited for.
+        crate::export::check(&options)
+            .map_err(|e| refuse(format!("--exported-c {name}: {e}"), again.clone()))?;
+        let rust = compensator_of(read, &options)?;
         Ok(ExportedC {
             same_model: source.model_sha256.as_deref() == Some(read.sha256.as_str()),
             files: source.inputs()?,
             folder: name,
+            again,
             source,
             settled,
             rust,

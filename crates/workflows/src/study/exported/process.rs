@@ -1,6 +1,8 @@
 //! The program of exported C, sample by sample through its pipes.
 
 use std::io::{Read, Write};
+#[cfg(unix)]
+use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -56,6 +58,21 @@ impl State {
         let _ = child.wait();
     }
 
+    /// Ends what the program has started as well: it holds its pipes, and an answer would be waited for without end.
+    fn end_all(&self) {
+        #[cfg(unix)]
+        {
+            let child = self.child.lock().unwrap_or_else(PoisonError::into_inner);
+            let kill = format!("kill -KILL -- -{}", child.id());
+            // The program is the first of its group. Where nothing is left in it, this does nothing.
+            let _ = Command::new("sh")
+                .args(["-c", &kill])
+                .stderr(Stdio::null())
+                .status();
+        }
+        self.end();
+    }
+
     /// Ends the program when one answer takes too long.
     fn watch(&self) {
         let mut seen = (0, Instant::now());
@@ -66,7 +83,7 @@ impl State {
                 seen = (turns, Instant::now());
             } else if seen.1.elapsed() > LONGEST_ANSWER {
                 self.silent.store(true, Ordering::Relaxed);
-                self.end();
+                self.end_all();
                 return;
             }
         }
@@ -76,10 +93,14 @@ impl State {
 impl Process {
     /// Starts it, with what its watchdog has learnt before; without that it is only asked for its settings.
     pub fn start(place: &TempDir, watch: Option<&Watch<f64>>) -> Result<(Self, Settled), String> {
-        let mut child = Command::new(place.path().join(PROGRAM))
+        let mut program = Command::new(place.path().join(PROGRAM));
+        program
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
-            .stderr(Stdio::null())
+            .stderr(Stdio::null());
+        #[cfg(unix)]
+        program.process_group(0);
+        let mut child = program
             .spawn()
             .map_err(|e| format!("its program cannot be started ({e})"))?;
         let (Some(input), Some(output)) = (child.stdin.take(), child.stdout.take()) else {
@@ -111,6 +132,11 @@ impl Process {
             ratio,
             key,
         ] = process.read()?;
+        if ready != 0.0 && ready != 1.0 {
+            return Err(
+                "its program does not begin with its settings: does the C print something?".into(),
+            );
+        }
         if ready != 1.0 {
             return Err("its parameters are out of range: it would never give a force".into());
         }

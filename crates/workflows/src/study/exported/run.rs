@@ -70,7 +70,7 @@ pub fn compare_exported(
                 Err(Failed::Program(found)) => {
                     return Err(Error::usage(
                         format!("--exported-c {}: {found}", exported.folder),
-                        "C as stiction export --target c writes it",
+                        format!("C as this writes it: {}", exported.again),
                     ));
                 }
                 // The study itself says of the run without compensation why it cannot be made.
@@ -93,10 +93,7 @@ pub fn compare_exported(
         allowed_difference: ALLOWED,
         runs: rows,
     };
-    outcome
-        .file
-        .warnings
-        .extend(differing(&entry, study, exported));
+    outcome.file.warnings.extend(differing(&entry, exported));
     outcome.file.exported_c = Some(entry);
     Ok(())
 }
@@ -109,7 +106,7 @@ fn reason(fault: &Fault) -> String {
 }
 
 /// What is said of C that gives another force.
-fn differing(entry: &ExportedEntry, study: &Study, exported: &ExportedC) -> Option<Warning> {
+fn differing(entry: &ExportedEntry, exported: &ExportedC) -> Option<Warning> {
     let beyond = entry.runs.iter().filter(|row| row.differs);
     let worst = beyond.max_by(|a, b| a.force_difference.total_cmp(&b.force_difference))?;
     let model = exported.rust.friction();
@@ -135,20 +132,7 @@ fn differing(entry: &ExportedEntry, study: &Study, exported: &ExportedC) -> Opti
             worst.path,
             worst.controller,
             four_digits(100.0 * worst.force_difference / model.scale()),
-        ) + &format!(
-            ". Export again, into a new folder: stiction export {} --target c --cycle-time {} --out {}",
-            stiction_files::shell::quoted(
-                &study
-                    .machine
-                    .model
-                    .file()
-                    .map_or("MODEL.toml".into(), |read| stiction_files::shell::text(
-                        read.file()
-                    ))
-            ),
-            stiction_number::shortest(1.0 / study.machine.rate),
-            stiction_files::shell::quoted(&format!("{}-new", entry.folder.trim_end_matches('/'))),
-        ),
+        ) + &format!(". Export again, into a new folder: {}", exported.again),
     ))
 }
 
