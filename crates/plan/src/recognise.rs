@@ -73,12 +73,16 @@ pub fn recognise(motion: &Motion, time: &[f64], position: &[f64]) -> Option<Reco
     if !(seconds > 0.0 && motion.duration() > 0.0) || time.len() != position.len() {
         return None;
     }
-    let log = |rate: f64| Course::of_log(time, position, rate);
+    let log = |rate: f64| Course::of_log(time, position, rate, whole);
     let work = |rate: f64| rate * rate * seconds * motion.duration();
     let rate = RATE.min(RATE * libm::sqrt(WORK / work(RATE)));
     let place = placed(&log(rate), &Course::of(motion, 1.0, rate));
     if place.alike >= ALIKE {
-        let pieces = pieces(motion, &log(RATE), whole, place.start);
+        // However long the log is: what is far away is not looked at again.
+        let from = (place.start - LATER).max(whole[0]);
+        let to = (place.start + motion.duration() + LATER).min(whole[1]);
+        let near = Course::of_log(time, position, RATE, [from, to]);
+        let pieces = pieces(motion, &near, whole, place.start);
         return Some(Recognised { pace: 1.0, pieces });
     }
     let rate = RATE.min(RATE * libm::sqrt(WORK_OF_PACE / work(RATE)));
@@ -140,10 +144,12 @@ impl Course {
         }
     }
 
-    fn of_log(time: &[f64], position: &[f64], rate: f64) -> Course {
-        let (start, step) = (time[0], 1.0 / rate);
-        let count = ((time[time.len() - 1] - start) * rate) as usize + 1;
-        let mut after = 1;
+    /// A stretch of a log of two samples or more.
+    fn of_log(time: &[f64], position: &[f64], rate: f64, [start, end]: [f64; 2]) -> Course {
+        let step = 1.0 / rate;
+        let count = ((end - start) * rate) as usize + 1;
+        let first = time.partition_point(|t| *t < start);
+        let mut after = first.clamp(1, time.len() - 1);
         let positions = (0..count).map(|k| {
             let t = start + k as f64 * step;
             while after < time.len() - 1 && time[after] < t {

@@ -485,7 +485,7 @@ fn a_log_is_put_beside_its_plan() {
         (
             "schema = \"stiction.plan/1\"",
             "schema = \"stiction.plan/9\"",
-            "schema: found \"stiction.plan/9\"",
+            "line 2, column 10, schema: \"stiction.plan/9\"; stiction.plan/1",
         ),
         (
             "kind = \"linear\"",
