@@ -63,7 +63,7 @@ impl State {
         #[cfg(unix)]
         {
             let child = self.child.lock().unwrap_or_else(PoisonError::into_inner);
-            let kill = format!("kill -KILL -- -{}", child.id());
+            let kill = format!("kill -KILL -{}", child.id());
             // The program is the first of its group. Where nothing is left in it, this does nothing.
             let _ = Command::new("sh")
                 .args(["-c", &kill])
