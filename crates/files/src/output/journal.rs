@@ -3,9 +3,8 @@
 //!
 //! As [`runs`](super::runs) in all else. What was kept stays on disk: of each piece only its place in the file is in memory.
 
-use super::runs::{LONGEST, NAME, SUM, Work, held, opened};
-use super::taken::writable_above;
-use super::{describe, staged};
+use super::describe;
+use super::runs::{LONGEST, NAME, SUM, Work, begun, held, opened};
 use crate::error::Error;
 use crate::hash::sha256_of;
 use std::collections::HashMap;
@@ -35,19 +34,11 @@ impl Journal {
     /// # Errors
     /// Where the folder cannot be written, or another call is at work in it.
     pub fn begin(dir: &Path, kind: &str) -> Result<Self, Error> {
-        let path = dir.join(NAME);
-        let fail = |e: std::io::Error| Error::output(&path, describe(&e));
-        writable_above(dir)?;
-        fs::create_dir_all(dir).map_err(fail)?;
-        if let Some(before) = opened(&path)? {
-            held(before, &path)?;
-        }
-        let head = format!("{}\n", work(kind).line());
-        let staged = staged::stage(&path, head.as_bytes())?;
-        let file = staged.persist(&path).map_err(|e| fail(e.error))?;
+        let work = work(kind);
+        let (path, file) = begun(dir, &work)?;
         let open = Open {
             file,
-            end: head.len() as u64,
+            end: work.line().len() as u64 + 1,
             places: HashMap::new(),
             fault: None,
         };

@@ -80,15 +80,7 @@ impl Runs {
     /// # Errors
     /// Where the folder cannot be written, or another call is at work in it.
     pub fn begin(dir: &Path, work: &Work) -> Result<Self, Error> {
-        let path = dir.join(NAME);
-        let fail = |e: std::io::Error| Error::output(&path, describe(&e));
-        writable_above(dir)?;
-        fs::create_dir_all(dir).map_err(fail)?;
-        if let Some(before) = opened(&path)? {
-            held(before, &path)?;
-        }
-        let staged = staged::stage(&path, format!("{}\n", work.line()).as_bytes())?;
-        let file = staged.persist(&path).map_err(|e| fail(e.error))?;
+        let (path, file) = begun(dir, work)?;
         Ok(Self {
             path,
             taken: vec![None; work.runs],
@@ -186,6 +178,20 @@ impl Runs {
 /// Whether a folder holds runs that a call has left.
 pub fn has_runs(dir: &Path) -> bool {
     dir.join(NAME).is_file()
+}
+
+/// The file with its first line alone, in place of what an earlier call has left.
+pub(super) fn begun(dir: &Path, work: &Work) -> Result<(PathBuf, File), Error> {
+    let path = dir.join(NAME);
+    let fail = |e: std::io::Error| Error::output(&path, describe(&e));
+    writable_above(dir)?;
+    fs::create_dir_all(dir).map_err(fail)?;
+    if let Some(before) = opened(&path)? {
+        held(before, &path)?;
+    }
+    let staged = staged::stage(&path, format!("{}\n", work.line()).as_bytes())?;
+    let file = staged.persist(&path).map_err(|e| fail(e.error))?;
+    Ok((path, file))
 }
 
 /// The file of that name, if there is one.
