@@ -22,6 +22,7 @@ use crate::agreement::Between;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use crate::law::LawKind;
+use crate::parameter::Parameter;
 use crate::watch::Watch;
 
 /// Part of the samples at rest from which the counts are asked, dimensionless.
@@ -71,22 +72,30 @@ pub fn rests_much(record: &Record) -> bool {
     rests::share(record) >= MUCH_REST
 }
 
+/// What a fit of the force knows beside the parameters that the counts state.
+pub(crate) struct Known<'a> {
+    /// What the logs add between them.
+    pub between: &'a Between,
+    /// The delay as that fit states it, with what its replicas show.
+    pub delay: Option<&'a Parameter>,
+}
+
 /// Asks the counts of a record in which the axis [rests much](rests_much) about the fit of its force; states what they say where
-/// they can be believed, with what the logs add `between` them.
+/// they can be believed, with what that fit knows.
 pub(crate) fn ask(
     record: &Record,
     estimate: &mut Estimate,
-    between: &Between,
+    known: &Known,
     watch: &mut Watch,
 ) -> Counts {
     if !fit::can_be_asked(record, estimate) {
         return Counts::NotAsked;
     }
-    match fit::most_likely(record, estimate, watch) {
+    match fit::most_likely(record, estimate, known.delay, watch) {
         None if watch.stopped => Counts::NotAsked,
         None => Counts::Unexplained,
         Some(found) if found.against.is_empty() => {
-            state::state(estimate, &found, between);
+            state::state(estimate, &found, known.between);
             Counts::Stated
         }
         Some(found) => Counts::Doubted(Doubted(Box::new(found))),

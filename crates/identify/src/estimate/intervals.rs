@@ -25,7 +25,7 @@ use crate::parameter::{IntervalKind, Parameter, quantile};
 use crate::separable::logs::Logs;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
-use crate::state_space::{self, Counts};
+use crate::state_space::{self, Counts, Known};
 use crate::watch::Watch;
 use stiction_parameters::{Name, Quantity};
 use stiction_search::{Observer, Stage};
@@ -95,7 +95,11 @@ fn of_the_counts(
     observer: &mut dyn Observer,
 ) {
     let mut watch = Watch::new(observer, Stage::Calibration);
-    let counts = state_space::ask(record, &mut before, between, &mut watch);
+    let known = Known {
+        between,
+        delay: estimate.parameter(Quantity::Delay),
+    };
+    let counts = state_space::ask(record, &mut before, &known, &mut watch);
     estimate.fitted.counts.add(&watch.counts);
     let lags = estimate.lag_samples() > 0.0;
     let unexplained = |estimate: &mut Estimate| {

@@ -5,6 +5,7 @@ use crate::estimate::Estimate;
 use crate::exponential::exp;
 use crate::law::LawKind;
 use crate::law::terms::{ColumnKind, Delay};
+use crate::parameter::Parameter;
 use crate::replica::HELD_DELAY;
 use crate::state_space::axis::GAUSSIAN;
 use crate::state_space::climb::{Problem, Top};
@@ -36,7 +37,8 @@ const DELAYS_APART: f64 = 0.5;
 /// Part of that distance by which the best delay, by a parabola, may lie beside them.
 const BESIDE: f64 = 0.35;
 /// How far the delay may be from the one that is taken, samples, 95 % of what lies evenly within half of that distance: which of the
-/// delays between is not known, since the likelihood has it up to a quarter of a sample early (decision 0060).
+/// delays between is not known, since the likelihood has it up to a quarter of a sample early (decision 0060). A fit of the force
+/// that has about the same delay may know it closer.
 const DELAY_REACH: f64 = 0.5 * DELAYS_APART * 1.96 / 1.732;
 /// Most delays that are tried.
 const MOST_DELAYS: usize = 6;
@@ -108,7 +110,12 @@ pub(super) fn can_be_asked(record: &Record, fitted: &Estimate) -> bool {
 }
 
 /// `None` where there is no such law, or the observer stops it.
-pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch) -> Option<Likely> {
+pub(super) fn most_likely(
+    record: &Record,
+    fitted: &Estimate,
+    stated: Option<&Parameter>,
+    watch: &mut Watch,
+) -> Option<Likely> {
     let law = &fitted.law;
     let mut search = Search {
         record,
@@ -178,6 +185,7 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
     } else {
         ""
     };
+    let open = DELAY_REACH.min(reach_from(late + HELD_DELAY, stated, record.step()));
     Some(Likely {
         at: top.at,
         sureness: sureness(&top, &free)?,
@@ -185,14 +193,22 @@ pub(super) fn most_likely(record: &Record, fitted: &Estimate, watch: &mut Watch)
         delay: delay.map(|d| {
             [
                 late + HELD_DELAY,
-                libm::hypot(d.reach + d.beside.abs(), DELAY_REACH),
+                libm::hypot(d.reach + d.beside.abs(), open),
             ]
         }),
-        delayed: delay.map_or(0.0, |d| DELAY_REACH * d.slope.abs()),
+        delayed: delay.map_or(0.0, |d| open * d.slope.abs()),
         hopeless: false,
         other,
         exponent: likelier.then_some(EXPONENTIAL),
         against,
+    })
+}
+
+/// How far a delay, samples, is from the ends of the interval in which a fit of the force has it; without end where that has none.
+fn reach_from(delay: f64, stated: Option<&Parameter>, step: f64) -> f64 {
+    let interval = stated.and_then(|own| own.ci95);
+    interval.map_or(f64::INFINITY, |(low, high)| {
+        (delay - low / step).abs().max((high / step - delay).abs())
     })
 }
 
