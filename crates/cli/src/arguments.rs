@@ -29,7 +29,7 @@ pub struct Common {
     /// Threads to use [default: one a core]; results do not depend on it.
     #[arg(long, global = true, display_order = 102, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
-    /// Memory that reading a log may take, such as 2GB or 500MiB; a log that needs more is refused before it is taken
+    /// Memory that a log and its fit may take, such as 2GB or 500MiB; a log that needs more is refused before it is taken
     /// [default: half of this machine].
     #[arg(long, global = true, display_order = 103, value_name = "SIZE", value_parser = memory, allow_hyphen_values = true)]
     pub max_memory: Option<u64>,

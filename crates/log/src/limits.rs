@@ -23,6 +23,20 @@ pub struct Limits {
     pub memory: u64,
 }
 
+impl Limits {
+    /// Refuses `what` with samples that were read, where it would take more than is allowed: so many bytes. `instead` says what
+    /// would take less.
+    ///
+    /// # Errors
+    /// [`Kind::Limit`], without a file.
+    pub fn check(self, what: &str, bytes: u64, instead: &str) -> Result<(), Error> {
+        match bytes <= self.memory {
+            true => Ok(()),
+            false => Err(Budget::from(self).refused(what, Some(bytes), instead)),
+        }
+    }
+}
+
 impl Default for Limits {
     fn default() -> Self {
         let memory = OF_THREAD.get().unwrap_or_else(allowed_memory);
@@ -122,6 +136,12 @@ impl Budget {
 
     /// Refuses what would take so many bytes, `None` where there are too many to count.
     pub(crate) fn refusal(self, what: &str, wanted: Option<u64>) -> Error {
+        let instead = "export fewer columns, a shorter part or a lower rate";
+        self.refused(what, wanted, instead)
+    }
+
+    /// The same with what to do `instead`.
+    fn refused(self, what: &str, wanted: Option<u64>, instead: &str) -> Error {
         let found = match wanted {
             Some(wanted) => format!("{what} would take {} of memory", bytes(wanted)),
             None => format!("{what} would take more memory than can be counted"),
@@ -139,7 +159,7 @@ impl Budget {
             _ => "--max-memory allows more".to_owned(),
         };
         let allowed = format!(
-            "at most {} is allowed; {raise}; or export fewer columns, a shorter part or a lower rate",
+            "at most {} is allowed; {raise}; or {instead}",
             bytes(self.memory)
         );
         Error::new(Kind::Limit, found, allowed)

@@ -535,8 +535,21 @@ fn a_log_beyond_the_memory_that_is_allowed_is_refused() {
     let (_, offered) = err.split_once("--max-memory ").unwrap();
     let (offered, _) = offered.split_once(' ').unwrap();
     // What is offered is enough, and a size that is none is refused.
-    let (code, _, err) = check(offered);
+    let (code, out, err) = check(offered);
     assert!(code < 2, "{offered}: {err}");
+    // A fit takes more than reading does: the log is looked at without, and identified not at all.
+    let fit = "[log-limit] log.csv: a fit of 300000 samples would take 300 MB of memory";
+    assert!(
+        out.contains("log-limit: log.csv: a fit of 300000 samples"),
+        "{out}"
+    );
+    let identified = bench
+        .command(&["identify", "log.csv", "--max-memory", offered, "--out", "a"])
+        .output();
+    let (code, out, err) = crate::split(identified.unwrap());
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(err.contains(fit) && err.contains("crop = ["), "{err}");
+    assert!(!bench.path("a").exists());
     for wrong in ["much", "3", "-1GB", "1e9GB"] {
         let (code, _, err) = check(wrong);
         assert_eq!(code, 2);

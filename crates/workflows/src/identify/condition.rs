@@ -2,7 +2,7 @@
 
 use super::conditioning::{self, conditioned};
 use super::ladder::LinearTerms;
-use super::load::{Asked, Loaded, check_together};
+use super::load::{Asked, Loaded, check_size, check_together};
 use super::logs::paths;
 use crate::error::Error;
 use crate::source::{Source, load_all};
@@ -124,6 +124,7 @@ pub(crate) fn record_of(
 ) -> Result<(Vec<Source>, Record, Terms), Error> {
     let sources = load_all(logs, axis)?;
     check_together(&sources, &[])?;
+    check_size(&sources, &[])?;
     for source in &sources {
         source.check_axis(axis)?;
     }

@@ -10,7 +10,7 @@ use crate::wording::Setting;
 use std::time::Instant;
 use stiction_files::Axis;
 use stiction_identify::LawKind;
-use stiction_log::{Log, Motion};
+use stiction_log::{Limits, Log, Motion};
 
 /// What is asked, of which axis, and since when.
 #[derive(Clone, Copy)]
@@ -70,6 +70,7 @@ pub(super) fn load(
     let ramps: Vec<Source> = ramps.cloned().collect();
     let others = [held_out.as_slice(), &beside.statics, &ramps].concat();
     check_together(&sources, &others)?;
+    check_size(&sources, &held_out)?;
     beside.check_model(options, &sources[0])?;
     for source in sources.iter().chain(&held_out) {
         source.check_axis(axis)?;
@@ -88,6 +89,27 @@ pub(super) fn load(
         beside,
         late: 0.0,
     })
+}
+
+/// Bytes that a sample takes at the peak of a fit: a record, the columns and slopes of the law with the most of them, and replicas.
+/// Measured as 560 to 690 with LuGre, 920 with the elements of GMS.
+const MEMORY_OF_A_SAMPLE: u64 = 1000;
+
+/// Refuses logs whose fit would take more memory than is allowed, before it begins.
+pub(super) fn check_size(fitted: &[Source], held_out: &[Source]) -> Result<(), Error> {
+    let all = || fitted.iter().chain(held_out);
+    let samples: u64 = all().map(|source| source.log.time.len() as u64).sum();
+    let bytes = samples.saturating_mul(MEMORY_OF_A_SAMPLE);
+    let what = format!("a fit of {samples} samples");
+    let instead = "fit a part of the log: crop = [\"0 s\", \"60 s\"] under [log] of the axis file";
+    let allowed = Limits::default().check(&what, bytes, instead);
+    let Err(refused) = allowed else {
+        return Ok(());
+    };
+    Err(Error::File(match all().next() {
+        Some(first) => refused.in_file(&first.path).into(),
+        None => refused.into(),
+    }))
 }
 
 /// Whether two logs have the same samples, bit by bit: one recording in two files, such as one with a line feed more.
