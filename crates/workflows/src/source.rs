@@ -5,7 +5,7 @@ use crate::wording::{Setting, TOGETHER_WITH};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_files::axis::{JoinedColumn, ListedLog, Use};
+use stiction_files::axis::{JoinedColumn, ListedLog, OtherFile, Use};
 use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, JoinedEntry, NotEnabledEntry};
 use stiction_files::{Axis, Hash};
 use stiction_identify::{Samples, Terms};
@@ -190,7 +190,7 @@ fn mapped(
         (true, Cow::Owned(table)) => (Log::of_table(table, mapping), Vec::new()),
         (true, Cow::Borrowed(table)) => (Log::from_table(table, mapping), Vec::new()),
         (false, table) => {
-            let (log, entries) = joined(table.into_owned(), mapping, axis, refused)?;
+            let (log, entries) = joined(path, table.into_owned(), (mapping, axis), refused)?;
             (Ok(log), entries)
         }
     };
@@ -209,9 +209,9 @@ fn mapped(
 
 /// The log of a table with the columns that come from other files.
 fn joined(
+    path: &Path,
     table: Table,
-    mapping: &Mapping,
-    axis: &Axis,
+    (mapping, axis): (&Mapping, &Axis),
     refused: impl Fn(stiction_log::Error) -> Error,
 ) -> Result<(Log, Vec<JoinedEntry>), Error> {
     let own: Vec<&JoinedColumn> = axis.joined.iter().filter(|j| j.file.is_none()).collect();
@@ -224,23 +224,24 @@ fn joined(
     }
     drop(stamped);
     let mut entries = Vec::new();
-    let mut before: Option<(&Path, (Table, String))> = None;
+    let mut before: Option<(&OtherFile, (Table, String))> = None;
     for column in &axis.joined {
-        let Some(file) = column.file.as_deref() else {
+        let Some(given) = &column.file else {
             continue;
         };
+        let file = given.of(path);
         let other = match before.take() {
-            Some((path, read)) if path == file => read,
-            _ => hashed_of(file, axis, &|heads| wanted_of(axis, file, heads))?,
+            Some((last, read)) if last == given => read,
+            _ => hashed_of(&file, axis, &|heads| wanted_of(axis, given, heads))?,
         };
-        let name = stiction_files::shell::text(file);
+        let name = stiction_files::shell::text(&file);
         out.join(&name, &other.0, &column.from).map_err(&refused)?;
         entries.push(JoinedEntry {
             column: column.from.role.to_string(),
             sha256: other.1.clone(),
             path: name,
         });
-        before = Some((file, other));
+        before = Some((given, other));
     }
     let mut log = Log::from_joined(&out).map_err(refused)?;
     // The line that gives a unit is that of the other file.
@@ -255,9 +256,9 @@ fn joined(
 }
 
 /// Which columns of another file may be needed for what is joined from it.
-fn wanted_of(axis: &Axis, file: &Path, heads: &Table) -> Vec<bool> {
+fn wanted_of(axis: &Axis, file: &OtherFile, heads: &Table) -> Vec<bool> {
     let joined = axis.joined.iter();
-    let joined = joined.filter(|column| column.file.as_deref() == Some(file));
+    let joined = joined.filter(|column| column.file.as_ref() == Some(file));
     wanted_by(&joined.collect::<Vec<_>>(), &axis.mapping, heads)
 }
 
@@ -277,10 +278,11 @@ fn wanted_by(joined: &[&JoinedColumn], mapping: &Mapping, heads: &Table) -> Vec<
     wanted
 }
 
-/// Refuses several logs where a column comes from another file, which belongs to one of them.
+/// Refuses several logs where a column comes from one other file, which belongs to one of them.
 pub(crate) fn refuse_several(axis: &Axis, logs: usize) -> Result<(), Error> {
     let mut joined = axis.joined.iter().filter(|_| logs > 1);
-    let Some((joined, file)) = joined.find_map(|j| Some((j, j.file.as_ref()?))) else {
+    let Some((joined, file)) = joined.find_map(|j| Some((j, j.file.as_ref()?.of_one_log()?)))
+    else {
         return Ok(());
     };
     let found = format!(
@@ -288,7 +290,7 @@ pub(crate) fn refuse_several(axis: &Axis, logs: usize) -> Result<(), Error> {
         joined.from.role,
         file.display()
     );
-    let allowed = "one log, which that file belongs to, with an axis file of its own";
+    let allowed = "a file for each log by its name, such as \"{log}_force.csv\" in the folder of log.csv, or one log";
     let key = format!("columns.{}.file", joined.from.role);
     match axis.refuse(&key, found.clone(), allowed, Code::Usage) {
         Some(error) => Err(error.into()),

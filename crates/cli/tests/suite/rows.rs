@@ -208,4 +208,57 @@ fn a_force_from_another_file() {
         let _ = writeln!(said, "{command}\n{err}");
     }
     insta::assert_snapshot!(said);
+
+    // Each log has its own by its name: both are fitted, each with its force, and a batch takes neither force for a log.
+    std::fs::create_dir(dir.join("runs")).unwrap();
+    for (from, to) in [
+        ("motion", "mon"),
+        ("tau", "mon_tau"),
+        ("again", "tue"),
+        ("tau", "tue_tau"),
+    ] {
+        let to = dir.join(format!("runs/{to}.csv"));
+        std::fs::copy(dir.join(format!("{from}.csv")), to).unwrap();
+    }
+    std::fs::write(dir.join("runs/tue.csv"), later(&motion)).unwrap();
+    let stamps = std::fs::read_to_string(dir.join("tau.csv")).unwrap();
+    std::fs::write(dir.join("runs/tue_tau.csv"), later(&stamps)).unwrap();
+    let named = std::fs::read_to_string(dir.join("axis.toml")).unwrap();
+    let named = named
+        .replace("tau.csv", "{log}_tau.csv")
+        .replace("1 min", "-3.5 s");
+    std::fs::write(dir.join("axis.toml"), named).unwrap();
+    let command =
+        "identify runs/mon.csv runs/tue.csv --axis axis.toml --law coulomb-viscous --out c";
+    let (code, _, err) = run(dir, command);
+    assert!(code < 2, "{err}");
+    let result = std::fs::read_to_string(dir.join("c/result.json")).unwrap();
+    let result: serde_json::Value = serde_json::from_str(&result).unwrap();
+    for (i, path) in ["runs/mon_tau.csv", "runs/tue_tau.csv"].iter().enumerate() {
+        assert_eq!(&result["inputs"][i]["joined"][0]["path"], path);
+    }
+    let (_, out, err) = run(
+        dir,
+        "batch runs --axis axis.toml --law coulomb-viscous --out d",
+    );
+    let rows = std::fs::read_to_string(dir.join("d/batch.json")).unwrap();
+    let rows: serde_json::Value = serde_json::from_str(&rows).unwrap();
+    assert_eq!(
+        (&rows["logs"], &rows["identified"]),
+        (&2.into(), &2.into()),
+        "{out}{err}"
+    );
+}
+
+/// The same columns with other time stamps, a day on: a log of its own.
+fn later(text: &str) -> String {
+    let mut out = String::new();
+    for line in text.lines() {
+        let (stamp, rest) = line.split_once(',').unwrap();
+        match stamp.parse::<f64>() {
+            Ok(time) => writeln!(out, "{:.4},{rest}", time + 86400.0).unwrap(),
+            Err(_) => writeln!(out, "{line}").unwrap(),
+        }
+    }
+    out
 }

@@ -5,6 +5,7 @@ use super::limits::AxisLimits;
 use super::listed::{ListedLog, Use};
 use super::search::SearchValues;
 use super::tied::Tied;
+use crate::axis::other::OtherFile;
 use crate::config::Places;
 use crate::error::Error;
 use std::path::{Path, PathBuf};
@@ -18,7 +19,7 @@ use stiction_number::short;
 #[derive(Clone, Debug, PartialEq)]
 pub struct JoinedColumn {
     /// That file; `None` for the log itself, in which the column has time stamps of its own.
-    pub file: Option<PathBuf>,
+    pub file: Option<OtherFile>,
     /// What the column is, and how its clock goes with that of the log.
     pub from: Elsewhere,
 }
@@ -29,7 +30,7 @@ impl JoinedColumn {
         let Some(file) = &self.file else {
             return line.into();
         };
-        let file = toml::Value::String(file.display().to_string());
+        let file = toml::Value::String(file.given().display().to_string());
         line.replacen("{ ", &format!("{{ file = {file}, "), 1)
     }
 }

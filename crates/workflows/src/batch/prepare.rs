@@ -3,7 +3,7 @@
 use super::found::found;
 use crate::error::Error;
 use crate::identify::Options;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use stiction_files::batch::BatchFile;
 use stiction_files::batch::{Listed, RESULTS, SCHEMA, SUMMARY, read_results};
@@ -32,7 +32,7 @@ pub(super) struct OfAxis {
     pub file: Option<PathBuf>,
     /// What stands in it, where it could be read.
     pub axis: Option<Axis>,
-    /// SHA-256 of it and the files that it names.
+    /// SHA-256 of it and the files that it names, but for those that belong to one log each.
     digest: String,
 }
 
@@ -53,10 +53,18 @@ impl OfAxis {
             Err(e) => (None, Some(e.into())),
         };
         let joined = axis.iter().flat_map(|axis| &axis.joined);
-        for other in joined.filter_map(|column| column.file.as_ref()) {
+        for other in joined.filter_map(|column| column.file.as_ref()?.of_one_log()) {
             digest = sha256_of(format!("{digest} {}", hash_of(other)).as_bytes());
         }
         (Self { file, axis, digest }, fault)
+    }
+
+    /// The files that belong to a log by its name.
+    fn of_log(&self, log: &Path) -> Vec<PathBuf> {
+        let joined = self.axis.iter().flat_map(|axis| &axis.joined);
+        let others = joined.filter_map(|column| column.file.as_ref());
+        let of_each = others.filter(|other| other.of_one_log().is_none());
+        of_each.map(|other| other.of(log)).collect()
     }
 }
 
@@ -110,6 +118,10 @@ impl Batch {
                 axis: place,
             });
         }
+        // What belongs to another log is none itself.
+        let others = |entry: &Entry| axes[entry.axis].of_log(&entry.listed.path);
+        let others: HashSet<PathBuf> = logs.iter().flat_map(others).collect();
+        logs.retain(|entry| !others.contains(&entry.listed.path));
         let procedures = &options.procedures;
         let files = procedures
             .statics
@@ -223,7 +235,11 @@ impl Batch {
         };
         let given = entry.listed.temperature.is_some();
         let (settings, digest, reports) = (&self.settings, &axis.digest, self.reports);
-        sha256_of(format!("{sha256}\n{settings}\n{digest}\n{given}\n{reports}\n{path}").as_bytes())
+        let others = axis.of_log(&entry.listed.path);
+        let others: Vec<String> = others.iter().map(|file| hash_of(file)).collect();
+        let others = others.concat();
+        let all = format!("{sha256}\n{settings}\n{digest}{others}\n{given}\n{reports}\n{path}");
+        sha256_of(all.as_bytes())
     }
 
     /// The same of a log that failed, whose error names its path.

@@ -1,5 +1,6 @@
 //! `[columns]`: which column is what.
 
+use crate::axis::other::OtherFile;
 use crate::axis::values::JoinedColumn;
 use crate::config::{Given, Table};
 use crate::error::Error;
@@ -93,7 +94,7 @@ fn column(
     let offset = offset.unwrap_or(Offset::Given(0.0));
     table.end()?;
     let joined = JoinedColumn {
-        file: Some(folder.join(file.path("a recording")?)),
+        file: Some(OtherFile::given_from(folder, file.path("a recording")?)),
         from: Elsewhere { role, time, offset },
     };
     Ok((own, Some(joined)))
