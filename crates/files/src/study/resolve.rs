@@ -67,7 +67,7 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
     };
     let entries = source.parse()?;
     let root = Table::root(source, &entries);
-    let mut study = study(&root, file)?;
+    let mut study = study(&root, source)?;
     let asked = sweeps::asked(&root)?;
     root.end()?;
     let sweeps = asked.iter().map(|sweep| sweep.resolve(source, &entries));
@@ -82,7 +82,8 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
 }
 
 /// The study of a file, without its sweeps: for a value of one of these, the study with that value.
-fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
+fn study(root: &Table<'_>, source: Source<'_>) -> Result<Study, Error> {
+    let file = source.file;
     let name = match root.line("name")?.map(str::trim) {
         None | Some("") => file
             .file_stem()
@@ -93,10 +94,17 @@ fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
     let axis = root.table("axis")?;
     let axis = root.required("axis", axis, "a table [axis] with model = \"model.toml\"")?;
     let folder = file.parent().unwrap_or(Path::new(""));
-    let machine = machine::machine(&axis, folder, None)?;
+    let mut inputs = vec![input(file, source.text)];
+    let machine = machine::machine(&axis, folder, None, &mut inputs)?;
     let other = root.table("second_axis")?;
     let second = match &other {
-        Some(table) => Some(contours::second(root, table, folder, &machine)?),
+        Some(table) => Some(contours::second(
+            root,
+            table,
+            folder,
+            &machine,
+            &mut inputs,
+        )?),
         None if root.table("coupling")?.is_some() => {
             let allowed =
                 "give a table [second_axis] as well: two axes are coupled along a contour";
@@ -104,22 +112,10 @@ fn study(root: &Table<'_>, file: &Path) -> Result<Study, Error> {
         }
         None => None,
     };
-    let mut inputs = vec![file.to_path_buf()];
-    for table in [Some(axis), other].iter().flatten() {
-        if let Some(model) = table.text("model")? {
-            inputs.push(folder.join(model));
-        }
-        if let Some(disturbance) = table.table("disturbance")?
-            && let Some(file) = disturbance.text("file")?
-        {
-            inputs.push(folder.join(file));
-        }
-    }
-    let inputs = inputs.iter().map(|path| input(path));
     let mut study = Study {
         name,
         seed,
-        inputs: inputs.collect::<Result<_, Error>>()?,
+        inputs,
         warnings: Vec::new(),
         paths: Vec::new(),
         second,

@@ -258,7 +258,7 @@ fn kept(form: Form, bytes: &[u8], what: &str) -> ! {
 }
 
 /// Inputs of an ordinary run.
-const FEW: u64 = 20_000;
+const FEW: u64 = 100_000;
 /// And of one for which there is time.
 const MANY: u64 = 300_000;
 

@@ -102,7 +102,7 @@ impl ExportedC {
         let rust = compensator_of(read, &options)?;
         Ok(ExportedC {
             same_model: source.model_sha256.as_deref() == Some(read.sha256.as_str()),
-            files: source.inputs()?,
+            files: source.inputs(),
             folder: name,
             again,
             source,

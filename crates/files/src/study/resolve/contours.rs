@@ -9,6 +9,7 @@ use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::{ContourPlan, Second};
 use crate::study::plan::{Machine, Study};
+use crate::study::result::StudyInput;
 use std::path::Path;
 use stiction_friction::ParamError;
 use stiction_log::Dimension;
@@ -22,14 +23,16 @@ const KINDS: [&str; 5] = ["circle", "corner", "square", "figure-eight", "file"];
 
 type Boxed = Box<dyn PlaneMotion + Send + Sync>;
 
-/// The second axis and what couples both. Its controllers and beliefs come with those of the first.
+/// The second axis and what couples both. Its controllers and beliefs come with those of the first. What was read for it is
+/// added to `inputs`.
 pub(super) fn second(
     root: &Table<'_>,
     table: &Table<'_>,
     folder: &Path,
     first: &Machine,
+    inputs: &mut Vec<StudyInput>,
 ) -> Result<Second, Error> {
-    let machine = machine(table, folder, Some(first.rate))?;
+    let machine = machine(table, folder, Some(first.rate), inputs)?;
     if machine.motion != first.motion {
         let allowed = "linear or rotary, as the first axis";
         return Err(table.refuse("model", "is of the other kind".into(), allowed));

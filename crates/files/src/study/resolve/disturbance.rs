@@ -4,6 +4,7 @@ use super::dimensions::Dimensions;
 use super::file::{FORCE, points};
 use crate::config::Table;
 use crate::error::{Error, Warning};
+use crate::study::result::StudyInput;
 use std::f64::consts::PI;
 use std::path::Path;
 use stiction_log::Dimension;
@@ -11,12 +12,13 @@ use stiction_number::shortest;
 use stiction_servo::disturbance::{Disturbance, Recorded};
 
 /// The disturbance of an axis whose plant is stepped at `rate`, Hz, as a force in the positive direction, and what is said of
-/// its file.
+/// its file, which is added to `inputs`.
 pub(super) fn disturbance(
     axis: &Table<'_>,
     folder: &Path,
     is: &Dimensions,
     rate: f64,
+    inputs: &mut Vec<StudyInput>,
 ) -> Result<(Option<Disturbance>, Option<Warning>), Error> {
     let Some(table) = axis.table("disturbance")? else {
         return Ok((None, None));
@@ -50,6 +52,10 @@ pub(super) fn disturbance(
         _ => {
             let points = points::<1>(&table, folder, is.force, &FORCE)?;
             said = points.warning;
+            inputs.push(StudyInput {
+                path: crate::shell::text(&points.file),
+                sha256: points.sha256,
+            });
             let [mut forces] = points.axes;
             forces.iter_mut().for_each(|force| *force = -*force);
             let begin = points.times[0];

@@ -4,6 +4,7 @@ use super::depends::depends;
 use super::dimensions::Dimensions;
 use super::disturbance::disturbance;
 use super::drive::drive;
+use super::inputs::input;
 use super::published::published;
 use crate::config::Table;
 use crate::config::machine::MASSES;
@@ -11,6 +12,7 @@ use crate::error::{Error, Warning};
 use crate::model::MODEL;
 use crate::study::model::{Model, axis_law};
 use crate::study::plan::Machine;
+use crate::study::result::StudyInput;
 use std::path::Path;
 use stiction_codes::Code;
 use stiction_friction::Damping;
@@ -30,11 +32,12 @@ const MOST_SUBSTEPS: f64 = 100.0;
 /// not show that swing (`docs/codes/long-steps.md`).
 const LONGEST_STEP: f64 = 1.0;
 
-/// An axis; the control rate is that of the first axis where there is one.
+/// An axis; the control rate is that of the first axis where there is one. What was read for it is added to `inputs`.
 pub(super) fn machine(
     table: &Table<'_>,
     folder: &Path,
     first: Option<f64>,
+    inputs: &mut Vec<StudyInput>,
 ) -> Result<Machine, Error> {
     let mut model = match (
         table.get("model"),
@@ -44,6 +47,7 @@ pub(super) fn machine(
         (None, None, Some(given)) => published(&given)?,
         (Some(given), None, None) => {
             let (file, text) = given.file(folder, MODEL)?;
+            inputs.push(input(&file, &text));
             Model::parse(&text, &file)?
         }
         (None, Some(given), None) => {
@@ -114,7 +118,8 @@ pub(super) fn machine(
     let spring = table.not_negative("spring", stiffness)?.unwrap_or(0.0);
     let (substeps, warning) = plant_steps((law.stiffness() + spring) / mass, rate);
     model.warnings.extend(warning);
-    let (disturbance, said) = disturbance(table, folder, &is, rate * f64::from(substeps))?;
+    let stepped = rate * f64::from(substeps);
+    let (disturbance, said) = disturbance(table, folder, &is, stepped, inputs)?;
     model.warnings.extend(said);
     let encoder = table.not_negative("encoder", is.length)?.unwrap_or(0.0);
     let drive = drive(table, &is, rate)?;

@@ -143,7 +143,7 @@ impl<'a> Asked<'a> {
                 swept: Some(swept),
                 ..source
             };
-            let study = super::study(&Table::root(swept, entries), source.file);
+            let study = super::study(&Table::root(swept, entries), source);
             let study = study.map_err(|e| self.with(given, e))?;
             if !taken.get() {
                 let allowed = "a parameter that the law has, a key of [axis], or one that a path, contour, controller, compensator or \

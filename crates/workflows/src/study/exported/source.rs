@@ -1,10 +1,11 @@
 //! The C in a folder, and the program around it that reads inputs and writes forces.
 
 use crate::compile;
-use crate::error::Error;
 use std::fmt::Write;
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
-use stiction_files::sha256;
+use stiction_files::sha256_of;
 use stiction_files::study::result::StudyInput;
 use tempfile::TempDir;
 
@@ -31,8 +32,8 @@ const EXTRAS: [&str; 7] = [
 
 /// Exported C.
 pub(super) struct Source {
-    header: PathBuf,
-    code: PathBuf,
+    /// Header and source, each as it was read.
+    files: [(PathBuf, String); 2],
     /// What its names begin with.
     prefix: String,
     /// Which extras it has.
@@ -65,14 +66,9 @@ impl Source {
             let stem = name.trim_end_matches('h');
             return Err(format!("{name} without {stem}c"));
         }
-        for file in [&header, &code] {
-            let bytes = std::fs::metadata(file).map_or(0, |m| m.len());
-            if bytes > MOST_BYTES {
-                return Err(format!("{} of {bytes} bytes", file.display()));
-            }
-        }
-        let text = std::fs::read_to_string(&header).map_err(|e| format!("{name}: {e}"))?;
-        let prefix = prefix(&text).ok_or_else(|| format!("{name} has no type NAME_params_t"))?;
+        let files = [read(header)?, read(code)?];
+        let text = &files[0].1;
+        let prefix = prefix(text).ok_or_else(|| format!("{name} has no type NAME_params_t"))?;
         let end = format!("}} {prefix}_input_t;");
         let input = text
             .split_once(&end)
@@ -82,7 +78,7 @@ impl Source {
         let parts = ["mass", "gravity", "cogging"];
         let parts = parts
             .into_iter()
-            .filter(|p| has(&text, &format!("part_{p}")));
+            .filter(|p| has(text, &format!("part_{p}")));
         Ok(Source {
             extras: EXTRAS.map(|extra| has(input, extra)),
             parts: parts.map(str::to_string).collect(),
@@ -91,8 +87,7 @@ impl Source {
                 .split_once("Model file: sha256 ")
                 .and_then(|(_, rest)| Some(rest.split_whitespace().next()?.to_string())),
             prefix: prefix.to_string(),
-            header,
-            code,
+            files,
         })
     }
 
@@ -101,15 +96,13 @@ impl Source {
         self.parts.iter().any(|p| p == part)
     }
 
-    /// The files with their hashes.
-    pub fn inputs(&self) -> Result<Vec<StudyInput>, Error> {
-        let input = |file: &PathBuf| {
-            Ok(StudyInput {
-                path: file.display().to_string(),
-                sha256: sha256(file)?,
-            })
+    /// The files with the hashes of what was read, which is what is compiled.
+    pub fn inputs(&self) -> Vec<StudyInput> {
+        let input = |(file, text): &(PathBuf, String)| StudyInput {
+            path: file.display().to_string(),
+            sha256: sha256_of(text.as_bytes()),
         };
-        [&self.header, &self.code].into_iter().map(input).collect()
+        self.files.iter().map(input).collect()
     }
 
     /// A folder with the program of the C.
@@ -119,10 +112,9 @@ impl Source {
             let name = file.file_name().unwrap_or_default();
             name.to_string_lossy().into_owned()
         };
-        let names = [&self.header, &self.code].map(|file| name(file));
-        for (file, name) in [&self.header, &self.code].into_iter().zip(&names) {
-            std::fs::copy(file, place.path().join(name))
-                .map_err(|e| format!("{}: {e}", file.display()))?;
+        let names = self.files.each_ref().map(|(file, _)| name(file));
+        for ((_, text), name) in self.files.iter().zip(&names) {
+            std::fs::write(place.path().join(name), text).map_err(|e| format!("{name}: {e}"))?;
         }
         let mut fields = String::new();
         for (k, extra) in EXTRAS.iter().enumerate().filter(|(k, _)| self.extras[*k]) {
@@ -146,6 +138,23 @@ impl Source {
         )?;
         Ok(place)
     }
+}
+
+/// A file of C with its text.
+fn read(file: PathBuf) -> Result<(PathBuf, String), String> {
+    let fault = |e: std::io::Error| format!("{}: {e}", file.display());
+    if !file.is_file() {
+        return Err(format!("{} is not a file", file.display()));
+    }
+    let mut text = String::new();
+    let open = File::open(&file).map_err(fault)?;
+    open.take(MOST_BYTES + 1)
+        .read_to_string(&mut text)
+        .map_err(fault)?;
+    if text.len() as u64 > MOST_BYTES {
+        return Err(format!("{} of more than 1 MiB", file.display()));
+    }
+    Ok((file, text))
 }
 
 /// What the names in a header begin with.
