@@ -9,7 +9,9 @@ use stiction_files::axis::{JoinedColumn, ListedLog, OtherFile, Use};
 use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, JoinedEntry, NotEnabledEntry};
 use stiction_files::{Axis, Hash};
 use stiction_identify::{Samples, Terms};
-use stiction_log::{Column, Joined, Log, Mapping, ReadOptions, Table, read_table, read_wanted};
+use stiction_log::{
+    Column, Joined, Log, Mapping, ReadOptions, Role, Table, read_table, read_wanted,
+};
 
 /// Beginning of an entry of `detected` about a column that was not read.
 const LEFT_OUT: &str = "left out: ";
@@ -65,7 +67,7 @@ fn hashed(path: &Path, axis: &Axis) -> Result<(Table, String), Error> {
             .for_each(|(all, own)| *all |= own);
         wanted
     };
-    hashed_of(path, axis, &wanted)
+    hashed_of(path, axis, &wanted).map_err(|e| axis.at_key(e).into())
 }
 
 /// The same of the columns of a file that are wanted.
@@ -73,11 +75,11 @@ fn hashed_of(
     path: &Path,
     axis: &Axis,
     wanted: &dyn Fn(&Table) -> Vec<bool>,
-) -> Result<(Table, String), Error> {
+) -> Result<(Table, String), stiction_log::Error> {
     let mut hash = Hash::default();
     let take = |bytes: &[u8]| hash.take(bytes);
-    let table = read_wanted(path, &options(axis), take, wanted);
-    Ok((table.map_err(|e| axis.at_key(e))?, hash.finish()))
+    let table = read_wanted(path, &options(axis), take, wanted)?;
+    Ok((table, hash.finish()))
 }
 
 /// Reads a file and maps it by the axis. Of a log that the axis file lists it is what is fitted, or where nothing is, what is
@@ -232,7 +234,11 @@ fn joined(
         let file = given.of(path);
         let other = match before.take() {
             Some((last, read)) if last == given => read,
-            _ => hashed_of(&file, axis, &|heads| wanted_of(axis, given, heads))?,
+            _ => {
+                let wanted = |heads: &Table| wanted_of(axis, given, heads);
+                hashed_of(&file, axis, &wanted)
+                    .map_err(|e| axis.at_key(named_by(column.from.role, e)))?
+            }
         };
         let name = stiction_files::shell::text(&file);
         out.join(&name, &other.0, &column.from).map_err(&refused)?;
@@ -253,6 +259,17 @@ fn joined(
         }
     }
     Ok((log, entries))
+}
+
+/// The refusal of another file, at the key that names it where it is not of one of its own.
+fn named_by(role: Role, mut error: stiction_log::Error) -> stiction_log::Error {
+    if error.allowed.is_empty() {
+        error.allowed = "name a recording that is there, from the folder of the axis file, or with {log} from that of the log".into();
+    }
+    match error.setting() {
+        Some(_) => error,
+        None => error.of_setting(format!("columns.{role}.file")),
+    }
 }
 
 /// Which columns of another file may be needed for what is joined from it.

@@ -248,6 +248,10 @@ fn a_force_from_another_file() {
         (&2.into(), &2.into()),
         "{out}{err}"
     );
+    std::fs::remove_file(dir.join("runs/tue_tau.csv")).unwrap();
+    let (code, _, err) = run(dir, "check runs/tue.csv --axis axis.toml");
+    let said = "[log-io] axis.toml: line 2, column 18, columns.force.file: runs/tue_tau.csv: cannot be read";
+    assert!(code == 2 && err.contains(said), "{err}");
 }
 
 /// The same columns with other time stamps, a day on: a log of its own.
