@@ -25,6 +25,7 @@ def main(library: Path, folder: Path) -> Path:
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     oldest = project["requires-python"].removeprefix(">=").replace(".", "")
     tag = f"cp{oldest}-abi3-{platform}"
+    extras = project["optional-dependencies"]
     about = f"stiction-{version}.dist-info"
     metadata = [
         "Metadata-Version: 2.4",
@@ -33,6 +34,8 @@ def main(library: Path, folder: Path) -> Path:
         f"Summary: {project['description']}",
         f"Requires-Python: {project['requires-python']}",
         *(f"Requires-Dist: {needed}" for needed in project["dependencies"]),
+        *(f"Provides-Extra: {extra}" for extra in extras),
+        *(f'Requires-Dist: {needed}; extra == "{extra}"' for extra, all_of_it in extras.items() for needed in all_of_it),
     ]
     wheel = ["Wheel-Version: 1.0", "Generator: assemble.py", "Root-Is-Purelib: false", f"Tag: {tag}"]
     sources = sorted(path for path in PACKAGE.iterdir() if path.suffix in {".py", ".pyi"} or path.name == "py.typed")

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     import numpy
     from numpy.typing import NDArray
 
+    from ._plot import Plots
+
 
 class Covariance(NamedTuple):
     """Covariance of the identified parameters, in the squares and products of their units."""
@@ -231,6 +233,13 @@ class Fit:
         exported = write_code(self._native.model_toml(), None, options, out, force)
         _warn(exported.warnings, 2)
         return exported
+
+    @property
+    def plot(self) -> Plots:
+        """Pictures with matplotlib: `plot.force()`, `plot.intervals()`, `plot.map(log)`, `plot.presliding(log)`."""
+        from ._plot import Plots
+
+        return Plots(self)
 
     def report(self) -> str:
         """The report: one HTML document without scripts."""

@@ -1,4 +1,4 @@
-"""The blocks of docs/python.md run as they stand, one after the other."""
+"""The blocks of docs/python.md and docs/python-from.md run as they stand, one after the other."""
 
 from __future__ import annotations
 
@@ -9,19 +9,31 @@ from typing import Any
 import pytest
 from conftest import quietly
 
-GUIDE = Path(__file__).parents[2] / "docs" / "python.md"
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def run_blocks(page: str, least: int) -> None:
+    path = DOCS / page
+    text = path.read_text(encoding="utf-8")
+    names: dict[str, Any] = {}
+    blocks = list(re.finditer(r"^```python\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE))
+    assert len(blocks) >= least
+    for block in blocks:
+        # Line numbers in an error are those of the page.
+        above = "\n" * text[: block.start(1)].count("\n")
+        quietly(exec, compile(above + block.group(1), str(path), "exec"), names)
 
 
 def test_every_block_of_the_guide_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    text = GUIDE.read_text(encoding="utf-8")
-    names: dict[str, Any] = {}
-    blocks = list(re.finditer(r"^```python\n(.*?)^```$", text, flags=re.DOTALL | re.MULTILINE))
-    assert len(blocks) >= 8
-    for block in blocks:
-        # Line numbers in an error are those of the page.
-        above = "\n" * text[: block.start(1)].count("\n")
-        quietly(exec, compile(above + block.group(1), str(GUIDE), "exec"), names)
+    run_blocks("python.md", 8)
     assert (tmp_path / "result" / "model.toml").is_file()
     assert (tmp_path / "study" / "study.json").is_file()
     assert any(path.suffix == ".c" for path in (tmp_path / "controller").iterdir())
+
+
+def test_what_others_write_now_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    run_blocks("python-from.md", 3)
+    assert any(path.suffix == ".m" for path in (tmp_path / "for-matlab").rglob("*"))
+    assert any("damping" in path.read_text() for path in (tmp_path / "for-mujoco").glob("*.xml"))
