@@ -128,6 +128,11 @@ const PACKAGES: &[Package] = &[
         why: "the C library of 64-bit ARM",
     },
     Package {
+        name: "chromium",
+        program: Some("chromium"),
+        why: "opens the page of stiction studio",
+    },
+    Package {
         name: "gcc-mingw-w64-x86-64-win32",
         program: Some("x86_64-w64-mingw32-gcc"),
         why: "compiles exported FMUs for Windows",

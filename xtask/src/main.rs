@@ -12,6 +12,7 @@ mod shell;
 mod soak;
 mod test;
 mod tools;
+mod web;
 mod wheel;
 
 use std::process::ExitCode;
@@ -65,6 +66,11 @@ const TASKS: &[Task] = &[
         run: wheel::release,
     },
     Task {
+        name: "studio",
+        help: "build the page of stiction studio anew, go through it in a browser, keep pictures of it",
+        run: web::renew,
+    },
+    Task {
         name: "validation",
         help: "identify the measured recordings and rewrite docs/validation.md",
         run: validation,
@@ -99,7 +105,8 @@ const TASKS: &[Task] = &[
 fn setup() -> shell::Outcome {
     debian::install()?;
     python::install()?;
-    tools::install()
+    tools::install()?;
+    web::install()
 }
 
 fn validation() -> shell::Outcome {

@@ -1,7 +1,7 @@
 //! Everything CI checks, the quick refusals first.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{instructions, licences, package, setup, tools, wheel};
+use crate::{instructions, licences, package, setup, tools, web, wheel};
 use std::thread;
 
 /// Every target that has tests; examples and benchmarks are only checked, with the lints.
@@ -14,7 +14,10 @@ const BARE: &str =
 pub fn run() -> Outcome {
     shell::run(cargo("fmt --all --check"))?;
     // Installing waits for the network and is not in the way of the compiler.
-    let aside = thread::spawn(setup);
+    let aside = thread::spawn(|| {
+        setup()?;
+        web::check()
+    });
     let built = build();
     aside
         .join()
@@ -24,6 +27,7 @@ pub fn run() -> Outcome {
     shell::run(tools::command(&tools::NEXTEST, TESTS)?)?;
     // nextest runs no doctests.
     shell::run(cargo("test --quiet --workspace --doc"))?;
+    web::test()?;
     wheel::test()
 }
 

@@ -57,6 +57,9 @@ pub enum Command {
     Reproduce(Reproduce),
     /// Write the compensator of a model as code or tables for a controller.
     Export(Export),
+    /// Open a folder on a local page: logs, identification, studies and exports by looking.
+    #[cfg(feature = "studio")]
+    Studio(Studio),
     /// Print the completions for a shell.
     Completions(Completions),
     /// Print the manual page, or that of a command.
@@ -108,7 +111,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 }
 
 /// The names of all commands.
-pub const COMMANDS: [&str; 12] = [
+pub const COMMANDS: &[&str] = &[
     "demo",
     "check",
     "identify",
@@ -119,6 +122,8 @@ pub const COMMANDS: [&str; 12] = [
     "simulate",
     "reproduce",
     "export",
+    #[cfg(feature = "studio")]
+    "studio",
     "completions",
     "man",
 ];
@@ -695,4 +700,18 @@ pub enum Target {
     Tf5200,
     /// Numbers for the friction compensation that drives have built in.
     DriveTable,
+}
+
+#[cfg(feature = "studio")]
+#[derive(Clone, Debug, Args)]
+pub struct Studio {
+    /// Folder to work in; nothing outside of it is read or written [default: the current one].
+    #[arg(value_name = "FOLDER")]
+    pub folder: Option<PathBuf>,
+    /// Port of this machine to listen on [default: one that is free].
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    pub port: Option<u16>,
+    /// Print the address and open no browser.
+    #[arg(long)]
+    pub no_open: bool,
 }

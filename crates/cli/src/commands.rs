@@ -52,6 +52,8 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Simulate(simulate) => self::simulate(simulate, common),
         Command::Reproduce(reproduce) => self::reproduce(reproduce, common),
         Command::Export(export) => self::export(export, common),
+        #[cfg(feature = "studio")]
+        Command::Studio(typed) => crate::studio::run(typed, common),
         Command::Completions(wanted) => text(&brought::completions(wanted.shell), common),
         Command::Man(wanted) => text(&brought::manual(wanted.command.as_deref()), common),
     };

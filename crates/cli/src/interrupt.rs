@@ -12,6 +12,9 @@ static ASKED: OnceLock<Instant> = OnceLock::new();
 static NOTHING_YET: AtomicBool = AtomicBool::new(false);
 /// Whether the command writes nothing that would be.
 static NOTHING_EVER: AtomicBool = AtomicBool::new(false);
+/// Whether the command runs until it is interrupted.
+#[cfg(feature = "studio")]
+static USUAL_END: AtomicBool = AtomicBool::new(false);
 /// Time in which further ones count as the first: a key that is held down, a wrapper that passes the signal on. What there is
 /// takes less than that to write.
 const SAME: Duration = Duration::from_secs(2);
@@ -20,6 +23,10 @@ const SAME: Duration = Duration::from_secs(2);
 pub fn listen() {
     // Without a handler Ctrl-C still ends the process, only without saving.
     let _ = ctrlc::set_handler(|| {
+        #[cfg(feature = "studio")]
+        if USUAL_END.load(Ordering::SeqCst) {
+            std::process::exit(0);
+        }
         if NOTHING_YET.load(Ordering::SeqCst) || NOTHING_EVER.load(Ordering::SeqCst) {
             // With standard error closed only the exit code is left to tell.
             let _ = writeln!(
@@ -37,6 +44,12 @@ pub fn listen() {
 /// The command writes nothing that an interrupt would lose.
 pub fn nothing_to_keep() {
     NOTHING_EVER.store(true, Ordering::SeqCst);
+}
+
+/// The command runs until it is interrupted, which is its usual end.
+#[cfg(feature = "studio")]
+pub fn usual_end() {
+    USUAL_END.store(true, Ordering::SeqCst);
 }
 
 /// Nothing would be lost yet: a log is being read.

@@ -12,6 +12,8 @@ mod next;
 mod output;
 mod panics;
 mod progress;
+#[cfg(feature = "studio")]
+mod studio;
 mod wording;
 
 use arguments::Arguments;

@@ -208,22 +208,8 @@ fn rate(progress: &Progress, before: f64, took: Duration) -> Option<String> {
 fn line(progress: &Progress, elapsed: Duration) -> String {
     let percent = (100.0 * progress.fraction) as u64;
     let message = message(progress).map_or_else(String::new, |said| format!(", {said}"));
-    let stage = name(progress.stage);
+    let stage = stiction::commands::stage(progress.stage);
     format!("{} s: {stage}, {percent} %{message}", elapsed.as_secs())
-}
-
-fn name(stage: Stage) -> &'static str {
-    match stage {
-        Stage::Tuning => "choosing cut-offs",
-        Stage::Calibration => "measuring the bias",
-        Stage::Search => "searching",
-        Stage::Scan => "scanning the box",
-        Stage::Coarse => "first descents",
-        Stage::Fine | Stage::Finish => "least squares",
-        Stage::CrossValidation => "comparing laws",
-        Stage::Logs { .. } => "identifying",
-        Stage::Experiments { .. } => "simulating",
-    }
 }
 
 /// What is said beside the part that is done.
@@ -248,7 +234,8 @@ impl Observer for Bar {
         if new {
             self.stage = Some(progress.stage);
             self.bar.reset();
-            self.bar.set_prefix(name(progress.stage));
+            self.bar
+                .set_prefix(stiction::commands::stage(progress.stage));
             self.first = (Instant::now(), progress.fraction);
         }
         self.bar.set_position((1000.0 * progress.fraction) as u64);

@@ -12,7 +12,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, OnceLock};
 use std::thread;
 use std::time::Duration;
-use stiction::{Control, Observer, Progress, Stage};
+use stiction::{Control, Observer, Progress};
 
 /// Between two looks for signals and progress.
 const BETWEEN: Duration = Duration::from_millis(20);
@@ -159,27 +159,15 @@ fn tell(py: Python<'_>, how: &How, shared: &Shared) -> PyResult<()> {
         return Ok(());
     };
     let error = last.best.is_finite().then_some(last.best);
-    let answer = progress.call1(py, (name(last.stage), last.fraction, error))?;
+    let answer = progress.call1(
+        py,
+        (stiction::commands::stage(last.stage), last.fraction, error),
+    )?;
     // `None` and everything else go on.
     if answer.extract::<bool>(py).is_ok_and(|goes_on| !goes_on) {
         shared.stop.store(true, Ordering::Relaxed);
     }
     Ok(())
-}
-
-/// What is being done, in the words of the terminal.
-fn name(stage: Stage) -> &'static str {
-    match stage {
-        Stage::Tuning => "choosing cut-offs",
-        Stage::Calibration => "measuring the bias",
-        Stage::Search => "searching",
-        Stage::Scan => "scanning the box",
-        Stage::Coarse => "first descents",
-        Stage::Fine | Stage::Finish => "least squares",
-        Stage::CrossValidation => "comparing laws",
-        Stage::Logs { .. } => "identifying",
-        Stage::Experiments { .. } => "simulating",
-    }
 }
 
 /// What a panic said.

@@ -15,12 +15,38 @@ pub mod drift {
     pub use stiction_workflows::drift::{DriftOutcome, Limit, drift};
 }
 
+/// A recording in SI with how its columns were understood.
+pub mod recording {
+    pub use stiction_log::{Channel, Log, Mapping, Role, Selector, Understood};
+}
+
+/// A table as its file has it.
+pub mod log_table {
+    pub use stiction_log::Table;
+}
+
 /// Forms of files, and how they are written.
 pub use stiction_files::{
     Bundle, Error as FileError, Kept, Remedy, Runs, axis, check_folder, check_folder_of,
     check_inputs, compare_file, has_runs, plan, reproduce_file, shell, study, visible,
     write_atomic,
 };
+/// What is being done, in the words of the terminal.
+pub fn stage(stage: stiction_identify::Stage) -> &'static str {
+    use stiction_identify::Stage;
+    match stage {
+        Stage::Tuning => "choosing cut-offs",
+        Stage::Calibration => "measuring the bias",
+        Stage::Search => "searching",
+        Stage::Scan => "scanning the box",
+        Stage::Coarse => "first descents",
+        Stage::Fine | Stage::Finish => "least squares",
+        Stage::CrossValidation => "comparing laws",
+        Stage::Logs { .. } => "identifying",
+        Stage::Experiments { .. } => "simulating",
+    }
+}
+
 /// Integration steps of a simulated candidate.
 pub use stiction_identify::candidates::Scheme;
 /// Numbers as people read them.

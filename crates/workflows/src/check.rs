@@ -6,7 +6,7 @@ mod shows;
 mod tracking;
 
 pub use init::{Started, init};
-pub use motion::Motion;
+pub use motion::{Motion, speeds};
 pub use shows::Shows;
 pub use tracking::{Peak, Tracking, TrackingChange};
 

@@ -58,7 +58,7 @@ impl Motion {
     pub(super) fn of(log: &Log) -> Option<Self> {
         let n = log.time.len();
         let seconds = log.time.last()? - log.time.first()?;
-        let (velocity, error, window) = speeds(log)?;
+        let (velocity, error, window) = speeds_within(log)?;
         let mut sizes: Vec<f64> = velocity.iter().map(|v| v.abs()).collect();
         sizes.sort_by(f64::total_cmp);
         let top_speed = sizes[((1.0 - ABOVE_TOP) * (n - 1) as f64) as usize];
@@ -132,8 +132,14 @@ impl Motion {
     }
 }
 
+/// The velocity of each sample, m/s or rad/s: of the position over a window just long enough for its encoder steps and noise,
+/// as recorded where there is none; `None` without either.
+pub fn speeds(log: &Log) -> Option<Vec<f64>> {
+    Some(speeds_within(log)?.0)
+}
+
 /// Speeds with their error and the window, in samples to each side, that they are taken over.
-fn speeds(log: &Log) -> Option<(Vec<f64>, f64, usize)> {
+fn speeds_within(log: &Log) -> Option<(Vec<f64>, f64, usize)> {
     let n = log.time.len();
     let Some(x) = &log.position else {
         let velocity = log.velocity.clone()?;

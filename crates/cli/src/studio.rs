@@ -1,0 +1,54 @@
+//! `stiction studio`: the page is served until the command is interrupted.
+
+use crate::arguments::{self, Common};
+use crate::exit::Exit;
+use crate::interrupt;
+use crate::output;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use stiction::Error;
+use stiction::commands::FileError;
+use stiction_studio::Studio;
+
+/// Serves a folder. It becomes the working directory, so that results name their inputs as the command line does there.
+pub fn run(typed: &arguments::Studio, common: &Common) -> Result<Exit, Error> {
+    let folder = typed.folder.as_deref().unwrap_or(Path::new("."));
+    let refused = |e: std::io::Error| FileError::output(folder, e.to_string());
+    // Work of a page is stopped, and what it found kept, by its own button.
+    interrupt::usual_end();
+    std::env::set_current_dir(folder).map_err(refused)?;
+    let studio = Studio::open(Path::new("."), typed.port.unwrap_or(0)).map_err(refused)?;
+    let listening = |address: &str| {
+        let told = match common.json {
+            true => output::json(&serde_json::json!({ "address": address })),
+            false => output::print(&format!(
+                "{address}\nopen this address on this machine; Ctrl-C ends the page\n"
+            )),
+        };
+        if told.is_ok() && !typed.no_open {
+            open(address);
+        }
+    };
+    studio.serve(listening).map_err(refused)?;
+    Ok(Exit::Done)
+}
+
+/// Opens the browser of the desktop, where there is one.
+fn open(address: &str) {
+    let program = match std::env::consts::OS {
+        "macos" => "open",
+        "windows" => "explorer",
+        _ => "xdg-open",
+    };
+    let started = Command::new(program)
+        .arg(address)
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn();
+    if started.is_err() {
+        // The address is there to be opened by hand.
+        let _ = writeln!(std::io::stderr(), "stiction: no browser could be started");
+    }
+}

@@ -1,0 +1,236 @@
+//! What the page may ask for, each a small function over the workspace, the logs and the work.
+
+mod events;
+mod files;
+mod marks;
+mod opened;
+mod upload;
+
+use crate::asked::Asked;
+use crate::assets::asset;
+use crate::jobs::View;
+use crate::logs::{self, About, Correction};
+use crate::refused::Refused;
+use crate::server::Shared;
+use axum::extract::{DefaultBodyLimit, Path, Query, State};
+use axum::http::header::{CONTENT_TYPE, SET_COOKIE};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Json, Router};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Largest body of a request that is no upload, bytes.
+const BODY: usize = 256 << 10;
+
+type App = State<Arc<Shared>>;
+type Answer<T> = Result<Json<T>, Refused>;
+
+/// All of it.
+pub fn router() -> Router<Arc<Shared>> {
+    let uploads = Router::new()
+        .route("/api/upload", post(upload::upload))
+        .layer(DefaultBodyLimit::disable());
+    Router::new()
+        .route("/api/session", post(session))
+        .route("/api/workspace", get(workspace))
+        .route("/api/log", get(log))
+        .route("/api/tiles", get(tiles))
+        .route("/api/map", get(map))
+        .route("/api/table", get(table))
+        .route("/api/correct", post(correct))
+        .route("/api/mark", post(marks::mark))
+        .route("/api/text", get(files::read).put(files::write))
+        .route("/api/study", post(files::study))
+        .route("/api/targets", get(targets))
+        .route("/api/command", post(command))
+        .route("/api/jobs", post(begin).get(jobs))
+        .route("/api/jobs/{id}/stop", post(stop))
+        .route("/api/events", get(events::events))
+        .route("/api/ticket", post(opened::ticket))
+        .route("/open/{ticket}/{name}", get(opened::open))
+        .layer(DefaultBodyLimit::max(BODY))
+        .merge(uploads)
+        .fallback(get(asset))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Token {
+    token: String,
+}
+
+async fn session(State(shared): App, Json(asked): Json<Token>) -> Result<Response, Refused> {
+    let Some((cookie, key)) = shared.keys.exchange(&asked.token) else {
+        return Err(Refused::forbidden(
+            "this is not the token of this run; open the address that stiction studio printed",
+        ));
+    };
+    let body = Json(serde_json::json!({ "key": key }));
+    Ok(([(SET_COOKIE, cookie)], body).into_response())
+}
+
+async fn workspace(State(shared): App) -> Answer<serde_json::Value> {
+    blocking(shared, |shared| {
+        Ok(serde_json::json!({
+            "folder": shared.workspace.folder().to_string_lossy(),
+            "version": env!("CARGO_PKG_VERSION"),
+            "files": shared.workspace.list(),
+        }))
+    })
+    .await
+    .map(Json)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Log {
+    name: String,
+    axis: Option<String>,
+}
+
+async fn log(State(shared): App, Query(asked): Query<Log>) -> Answer<About> {
+    let found = read(shared, move |shared| {
+        let Log { name, axis } = &asked;
+        shared.logs.log(&shared.workspace, name, axis.as_deref())
+    });
+    Ok(Json(found.await?.about.clone()))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Drawn {
+    name: String,
+    axis: Option<String>,
+    /// Whether it is a table that stiction wrote, and no log.
+    #[serde(default)]
+    table: bool,
+    /// Which run of it.
+    #[serde(default)]
+    run: usize,
+    /// Separated by commas.
+    #[serde(default)]
+    channels: String,
+    from: f64,
+    to: f64,
+    #[serde(default)]
+    pixels: usize,
+}
+
+impl Drawn {
+    fn of(&self, shared: &Shared) -> Result<Arc<logs::Loaded>, Refused> {
+        match self.table {
+            true => shared.logs.table(&shared.workspace, &self.name, self.run),
+            false => {
+                let axis = self.axis.as_deref();
+                shared.logs.log(&shared.workspace, &self.name, axis)
+            }
+        }
+    }
+}
+
+async fn tiles(State(shared): App, Query(asked): Query<Drawn>) -> Result<Response, Refused> {
+    let bytes = read(shared, move |shared| {
+        let loaded = asked.of(shared)?;
+        let names: Vec<&str> = asked.channels.split(',').collect();
+        let part = (asked.from, asked.to);
+        logs::tiles(&loaded.series, &names, part, asked.pixels)
+    });
+    Ok(binary(bytes.await?))
+}
+
+async fn map(State(shared): App, Query(asked): Query<Drawn>) -> Result<Response, Refused> {
+    let bytes = read(shared, move |shared| {
+        let loaded = asked.of(shared)?;
+        Ok(logs::map(&loaded.series, (asked.from, asked.to)))
+    });
+    Ok(binary(bytes.await?))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Table {
+    name: String,
+    #[serde(default)]
+    run: usize,
+}
+
+async fn table(State(shared): App, Query(asked): Query<Table>) -> Answer<serde_json::Value> {
+    let found = read(shared, move |shared| {
+        let Table { name, run } = &asked;
+        let found = shared.logs.table(&shared.workspace, name, *run)?;
+        let runs = logs::runs(&shared.workspace.file(name)?)?;
+        Ok((found, runs))
+    });
+    let (found, runs) = found.await?;
+    let time = &found.series.time;
+    Ok(Json(serde_json::json!({
+        "from": time.first(),
+        "to": time.last(),
+        "channels": found.about.channels,
+        "runs": runs,
+    })))
+}
+
+async fn correct(State(shared): App, Json(asked): Json<Correction>) -> Answer<Vec<String>> {
+    let changes = read(shared, move |shared| {
+        logs::correct(&shared.workspace, &asked)
+    });
+    changes.await.map(Json)
+}
+
+/// A target of the export.
+#[derive(Serialize)]
+struct Target {
+    name: &'static str,
+    simulated: bool,
+}
+
+async fn targets() -> Json<Vec<Target>> {
+    let all = stiction::Target::ALL.into_iter();
+    let one = |target: stiction::Target| Target {
+        name: target.name(),
+        simulated: target.is_simulated(),
+    };
+    Json(all.map(one).collect())
+}
+
+/// The command line that does what would be begun.
+async fn command(Json(asked): Json<Asked>) -> Json<String> {
+    Json(asked.command())
+}
+
+async fn begin(State(shared): App, Json(asked): Json<Asked>) -> Answer<u64> {
+    shared.jobs.begin(&shared.workspace, asked).map(Json)
+}
+
+async fn jobs(State(shared): App) -> Json<Vec<View>> {
+    Json(shared.jobs.all())
+}
+
+async fn stop(State(shared): App, Path(id): Path<u64>) -> Answer<()> {
+    shared.jobs.stop(id).map(Json)
+}
+
+fn binary(bytes: Vec<u8>) -> Response {
+    ([(CONTENT_TYPE, "application/octet-stream")], bytes).into_response()
+}
+
+/// Does what reads or writes files away from the threads that answer.
+async fn blocking<T: Send + 'static>(
+    shared: Arc<Shared>,
+    work: impl FnOnce(&Shared) -> Result<T, Refused> + Send + 'static,
+) -> Result<T, Refused> {
+    tokio::task::spawn_blocking(move || work(&shared)).await?
+}
+
+/// The same for what may need much memory or time: two at once, the others wait.
+async fn read<T: Send + 'static>(
+    shared: Arc<Shared>,
+    work: impl FnOnce(&Shared) -> Result<T, Refused> + Send + 'static,
+) -> Result<T, Refused> {
+    let own = shared.clone();
+    let one = own.readers.acquire().await;
+    let _one = one.map_err(|_| Refused::internal("a lock"))?;
+    blocking(shared, work).await
+}

@@ -1,0 +1,142 @@
+//! The text files of the folder, read and edited; what is written is what a text editor would write, once the engine has read it.
+
+use super::{Answer, App, blocking};
+use crate::refused::Refused;
+use axum::Json;
+use axum::extract::{Query, State};
+use serde::{Deserialize, Serialize};
+use std::io::Read;
+use std::path::Path;
+use stiction::commands::{study, visible, write_atomic};
+use stiction::{Axis, ModelFile, Study};
+
+/// Largest text that is read, bytes.
+const LARGEST: u64 = 64 << 20;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Named {
+    name: String,
+}
+
+/// A text as it was found.
+#[derive(Serialize)]
+pub struct Text {
+    text: String,
+}
+
+/// Reads a text file.
+pub async fn read(State(shared): App, Query(asked): Query<Named>) -> Answer<Text> {
+    let text = blocking(shared, move |shared| {
+        text(&shared.workspace.file(&asked.name)?)
+    });
+    text.await.map(|text| Json(Text { text }))
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Written {
+    name: String,
+    text: String,
+    /// The text that was read before; empty for a new file.
+    before: String,
+}
+
+/// Writes a TOML file: one that the engine can read, over what the page has seen.
+pub async fn write(State(shared): App, Json(asked): Json<Written>) -> Answer<()> {
+    let done = blocking(shared, move |shared| {
+        let Written {
+            name,
+            text: new,
+            before,
+        } = &asked;
+        if !name.ends_with(".toml") {
+            return Err(Refused::forbidden(format!(
+                "{name}: only TOML files are edited here"
+            )));
+        }
+        let path = shared.workspace.place(name)?;
+        let now = match path.is_file() {
+            true => text(&path)?,
+            false => String::new(),
+        };
+        if now != *before {
+            return Err(Refused::conflict(format!(
+                "{name} was changed by another program meanwhile; read it again"
+            )));
+        }
+        shared.workspace.holds_named(new, &path)?;
+        readable(&path, new)?;
+        write_atomic(&path, visible::toml(new.clone()).as_bytes())?;
+        Ok(())
+    });
+    done.await.map(Json)
+}
+
+/// Refuses a text that the engine could not read, with its words.
+fn readable(path: &Path, text: &str) -> Result<(), Refused> {
+    let name = path
+        .file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .to_lowercase();
+    if name.contains("model") {
+        ModelFile::parse(text)?;
+    } else if name.contains("study") {
+        // It names files beside it, so it is read where it will be.
+        let beside = tempfile::Builder::new()
+            .prefix(crate::workspace::UNFINISHED)
+            .tempfile_in(
+                path.parent()
+                    .filter(|dir| dir.is_dir())
+                    .unwrap_or(Path::new(".")),
+            )?;
+        std::fs::write(beside.path(), text)?;
+        Study::read(beside.path()).map_err(|e| {
+            let said = e.to_string();
+            let own = beside.path().display().to_string();
+            Refused::bad(said.replace(&own, &path.display().to_string()))
+        })?;
+    } else if !name.contains("plan") {
+        Axis::parse(text)?;
+    }
+    Ok(())
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Begun {
+    model: Option<String>,
+    name: String,
+}
+
+/// Begins a study as `stiction simulate --init` does.
+pub async fn study(State(shared): App, Json(asked): Json<Begun>) -> Answer<()> {
+    let done = blocking(shared, move |shared| {
+        let path = shared.workspace.place(&asked.name)?;
+        if path.symlink_metadata().is_ok() {
+            return Err(Refused::conflict(format!(
+                "{}: is there already",
+                asked.name
+            )));
+        }
+        let model = asked
+            .model
+            .as_ref()
+            .map(|model| shared.workspace.file(model));
+        let started = study::start(model.transpose()?.as_deref(), &path)?;
+        write_atomic(&path, visible::toml(started.text).as_bytes())?;
+        Ok(())
+    });
+    done.await.map(Json)
+}
+
+fn text(path: &Path) -> Result<String, Refused> {
+    let mut out = String::new();
+    let file = std::fs::File::open(path)?;
+    file.take(LARGEST + 1).read_to_string(&mut out)?;
+    match out.len() as u64 > LARGEST {
+        true => Err(Refused::too_large(format!("more than {LARGEST} bytes"))),
+        false => Ok(out),
+    }
+}

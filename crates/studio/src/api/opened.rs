@@ -1,0 +1,180 @@
+//! Files that a browser opens in a tab or saves.
+
+use super::{Answer, App};
+use crate::guard::SHOWN;
+use crate::refused::Refused;
+use crate::server::Shared;
+use crate::tickets::Opened;
+use axum::Json;
+use axum::body::Body;
+use axum::extract::{Path, State};
+use axum::http::HeaderValue;
+use axum::http::header::{CONTENT_DISPOSITION, CONTENT_SECURITY_POLICY, CONTENT_TYPE};
+use axum::response::{IntoResponse, Response};
+use futures_core::Stream;
+use serde::Deserialize;
+use std::convert::Infallible;
+use std::fs::File;
+use std::io::{Read, Seek, SeekFrom, Write};
+use std::pin::Pin;
+use std::task::{Context, Poll};
+use tokio::sync::mpsc;
+use zip::write::SimpleFileOptions;
+
+/// Bytes of a file that are sent at once.
+const CHUNK: usize = 1 << 16;
+/// Chunks that wait for the browser.
+const WAITING: usize = 4;
+/// Most files of a zip, and folders below each other in it.
+const MOST_FILES: usize = 2000;
+const DEEPEST: usize = 6;
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Asked {
+    name: String,
+    /// `show`, `save` or `zip`.
+    how: String,
+}
+
+/// The address under which a browser opens a file, or saves it or a folder.
+pub async fn ticket(State(shared): App, Json(asked): Json<Asked>) -> Answer<String> {
+    let Asked { name, how } = asked;
+    let last = name.rsplit('/').next().unwrap_or_default().to_string();
+    let (opened, last) = match how.as_str() {
+        "show" if name.ends_with(".html") => (Opened::Shown(name.clone()), last),
+        "save" => (Opened::Saved(name.clone()), last),
+        "zip" => (Opened::Zipped(name.clone()), format!("{last}.zip")),
+        _ => {
+            return Err(Refused::bad(
+                "show an HTML file, save a file, or zip a folder",
+            ));
+        }
+    };
+    match &opened {
+        Opened::Zipped(name) => shared.workspace.dir(name)?,
+        Opened::Shown(name) | Opened::Saved(name) => shared.workspace.file(name)?,
+    };
+    let ticket = shared.tickets.give(opened)?;
+    Ok(Json(format!("/open/{ticket}/{}", escaped(&last))))
+}
+
+/// What stands in an address as it is.
+fn escaped(text: &str) -> String {
+    let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-_.".contains(&byte);
+    let one = |byte: u8| match plain(byte) {
+        true => char::from(byte).to_string(),
+        false => format!("%{byte:02X}"),
+    };
+    text.bytes().map(one).collect()
+}
+
+/// What an address stands for.
+pub async fn open(
+    State(shared): App,
+    Path((ticket, _)): Path<(String, String)>,
+) -> Result<Response, Refused> {
+    let opened = shared.tickets.take(&ticket);
+    let opened = opened.ok_or_else(|| {
+        Refused::missing("this address is of an earlier run of stiction studio, or too old")
+    })?;
+    let own = opened.clone();
+    let file = super::read(shared, move |shared| file_of(shared, &own)).await?;
+    let (kind, shown) = match &opened {
+        Opened::Shown(_) => ("text/html; charset=utf-8", "inline"),
+        Opened::Saved(_) => ("application/octet-stream", "attachment"),
+        Opened::Zipped(_) => ("application/zip", "attachment"),
+    };
+    let mut response = Body::from_stream(Sent::of(file)).into_response();
+    let headers = response.headers_mut();
+    headers.insert(CONTENT_TYPE, HeaderValue::from_static(kind));
+    headers.insert(CONTENT_DISPOSITION, HeaderValue::from_static(shown));
+    headers.insert(CONTENT_SECURITY_POLICY, HeaderValue::from_static(SHOWN));
+    Ok(response)
+}
+
+fn file_of(shared: &Shared, opened: &Opened) -> Result<File, Refused> {
+    match opened {
+        Opened::Shown(name) | Opened::Saved(name) => Ok(File::open(shared.workspace.file(name)?)?),
+        Opened::Zipped(name) => {
+            let dir = shared.workspace.dir(name)?;
+            let mut zip = zip::ZipWriter::new(tempfile::tempfile()?);
+            let mut left = MOST_FILES;
+            pack(&mut zip, &dir, "", DEEPEST, &mut left)?;
+            let mut file = zip.finish().map_err(|e| Refused::internal(e.to_string()))?;
+            file.seek(SeekFrom::Start(0))?;
+            Ok(file)
+        }
+    }
+}
+
+/// Packs the files of a folder, sorted, all with the same date: the same files give the same bytes.
+fn pack(
+    zip: &mut zip::ZipWriter<File>,
+    dir: &std::path::Path,
+    before: &str,
+    deep: usize,
+    left: &mut usize,
+) -> Result<(), Refused> {
+    let mut entries: Vec<_> = std::fs::read_dir(dir)?.flatten().collect();
+    entries.sort_by_key(std::fs::DirEntry::file_name);
+    for entry in entries {
+        let kind = entry.file_type()?;
+        let Ok(name) = entry.file_name().into_string() else {
+            continue;
+        };
+        let whole = format!("{before}{name}");
+        if kind.is_dir() && deep > 1 {
+            pack(zip, &entry.path(), &format!("{whole}/"), deep - 1, left)?;
+        } else if kind.is_file() && !name.starts_with('.') {
+            *left = left.checked_sub(1).ok_or_else(|| {
+                Refused::too_large(format!(
+                    "more than {MOST_FILES} files; copy the folder by hand"
+                ))
+            })?;
+            let fault = |e: zip::result::ZipError| Refused::internal(e.to_string());
+            zip.start_file(whole, SimpleFileOptions::default())
+                .map_err(fault)?;
+            let mut file = File::open(entry.path())?;
+            let mut buffer = vec![0; CHUNK];
+            loop {
+                match file.read(&mut buffer)? {
+                    0 => break,
+                    read => zip.write_all(&buffer[..read])?,
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A file on its way to a browser, a few chunks ahead of it.
+struct Sent(mpsc::Receiver<Vec<u8>>);
+
+impl Sent {
+    fn of(mut file: File) -> Self {
+        let (sender, receiver) = mpsc::channel(WAITING);
+        tokio::task::spawn_blocking(move || {
+            loop {
+                let mut chunk = vec![0; CHUNK];
+                let Ok(read) = file.read(&mut chunk) else {
+                    break;
+                };
+                chunk.truncate(read);
+                // Who has gone away wants no more of it.
+                if read == 0 || sender.blocking_send(chunk).is_err() {
+                    break;
+                }
+            }
+        });
+        Self(receiver)
+    }
+}
+
+impl Stream for Sent {
+    type Item = Result<Vec<u8>, Infallible>;
+
+    fn poll_next(mut self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Option<Self::Item>> {
+        self.0.poll_recv(cx).map(|chunk| chunk.map(Ok))
+    }
+}

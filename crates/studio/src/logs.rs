@@ -1,0 +1,280 @@
+//! Recordings and other tables as the page draws them: read once by the engine, kept with a pyramid for each channel, the least
+//! recently used let go of.
+
+mod columns;
+mod drawn;
+mod runs;
+mod series;
+
+pub use columns::{Correction, correct};
+pub use drawn::{map, tiles};
+pub use runs::runs;
+pub use series::{Channel, Series};
+
+use crate::refused::Refused;
+use crate::workspace::Workspace;
+use serde::Serialize;
+use std::path::Path;
+use std::sync::{Arc, Mutex};
+use std::time::SystemTime;
+use stiction::commands::axis::Marks;
+use stiction::commands::{Source, load, table};
+use stiction::{Axis, Severity};
+
+/// Most that are kept.
+const MOST: usize = 4;
+/// Most findings and left-out stretches that are told of, each.
+const MOST_TOLD: usize = 200;
+
+/// What was read: name, size and time of the file, and how: the hash of the axis file, or the run of a table.
+#[derive(Clone, Debug, PartialEq)]
+struct Key {
+    name: String,
+    bytes: u64,
+    modified: Option<SystemTime>,
+    how: Option<String>,
+}
+
+/// The tables that are kept, the latest last.
+#[derive(Debug, Default)]
+pub struct Logs(Mutex<Vec<(Key, Arc<Loaded>)>>);
+
+/// A recording with what was found in it, or another table.
+#[derive(Debug)]
+pub struct Loaded {
+    /// What is drawn.
+    pub series: Series,
+    /// What is told.
+    pub about: About,
+}
+
+/// What is told of a log.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct About {
+    pub samples: usize,
+    pub rate_hz: f64,
+    pub seconds: f64,
+    /// `linear` or `rotary`.
+    pub motion: String,
+    pub force_unit: String,
+    /// How the file was understood.
+    pub detected: Vec<String>,
+    pub findings: Vec<Found>,
+    /// Stretches that are not fitted.
+    pub excluded: Vec<LeftOut>,
+    pub columns: Vec<Column>,
+    pub channels: Vec<Drawable>,
+    pub marks: Stretches,
+    /// Why it could not be read, if so; then only columns are known.
+    pub refused: Option<String>,
+}
+
+/// A channel that can be drawn.
+#[derive(Clone, Debug, Serialize)]
+pub struct Drawable {
+    pub name: String,
+    pub unit: String,
+    /// Whether it follows from another one.
+    pub derived: bool,
+}
+
+/// Something found, with its time where it has one.
+#[derive(Clone, Debug, Serialize)]
+pub struct Found {
+    pub code: String,
+    pub severity: &'static str,
+    pub message: String,
+    pub at_s: Option<f64>,
+}
+
+/// A stretch that is not fitted.
+#[derive(Clone, Debug, Serialize)]
+pub struct LeftOut {
+    pub code: String,
+    pub from_s: f64,
+    pub to_s: f64,
+}
+
+/// A column of the file.
+#[derive(Clone, Debug, Serialize)]
+pub struct Column {
+    /// Counted from 1.
+    pub number: usize,
+    pub name: String,
+    /// What it is taken for.
+    pub role: Option<String>,
+    /// The unit that it is read in; before it is understood, that in the file.
+    pub unit: String,
+    pub reason: String,
+    /// Whether nothing gave the unit.
+    pub assumed: bool,
+}
+
+/// Parts of a log, s from its first sample.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Stretches {
+    pub crop: Option<(f64, f64)>,
+    pub fit: Vec<(f64, f64)>,
+    pub validate: Vec<(f64, f64)>,
+    pub validate_all: bool,
+}
+
+impl From<Marks> for Stretches {
+    fn from(marks: Marks) -> Self {
+        Self {
+            crop: marks.crop,
+            fit: marks.fit,
+            validate: marks.validate,
+            validate_all: marks.validate_all,
+        }
+    }
+}
+
+impl Logs {
+    /// A log of the workspace as an axis file of it says, or as it is found.
+    pub fn log(
+        &self,
+        workspace: &Workspace,
+        name: &str,
+        axis: Option<&str>,
+    ) -> Result<Arc<Loaded>, Refused> {
+        let path = workspace.file(name)?;
+        let read = axis
+            .map(|axis| read_axis(workspace, axis, &[&path]))
+            .transpose()?;
+        let text = read.as_ref().and_then(|axis| axis.sha256());
+        let key = Key::of(name, &path, Some(text.unwrap_or_default().to_string()))?;
+        self.kept(key, || {
+            let axis = read.unwrap_or_default();
+            let marks = axis.marks(&path).into();
+            let whole = axis.of_whole(&path);
+            Ok(match load(&path, &whole) {
+                Ok(source) => loaded(source, marks),
+                Err(e) => Loaded {
+                    series: Series::default(),
+                    about: About {
+                        columns: columns::unread(&path, &whole)?,
+                        marks,
+                        refused: Some(Refused::from(e).message().to_string()),
+                        ..About::default()
+                    },
+                },
+            })
+        })
+    }
+
+    /// A run of a table that stiction wrote, such as `fit.csv`.
+    pub fn table(
+        &self,
+        workspace: &Workspace,
+        name: &str,
+        run: usize,
+    ) -> Result<Arc<Loaded>, Refused> {
+        let path = workspace.file(name)?;
+        let key = Key::of(name, &path, Some(format!("run {run}")))?;
+        self.kept(key, || {
+            let table = table(&path, &Axis::default())?;
+            let series = Series::of_table(table, run);
+            let about = About {
+                samples: series.time.len(),
+                channels: series.about(),
+                ..About::default()
+            };
+            Ok(Loaded { series, about })
+        })
+    }
+
+    fn kept(
+        &self,
+        key: Key,
+        read: impl FnOnce() -> Result<Loaded, Refused>,
+    ) -> Result<Arc<Loaded>, Refused> {
+        let fault = |_| Refused::internal("a lock");
+        {
+            let mut kept = self.0.lock().map_err(fault)?;
+            if let Some(at) = kept.iter().position(|(own, _)| *own == key) {
+                let found = kept.remove(at);
+                kept.push(found.clone());
+                return Ok(found.1);
+            }
+            // What the file held before is no use any more, and its memory is needed.
+            kept.retain(|(own, _)| own.name != key.name);
+            while kept.len() >= MOST {
+                kept.remove(0);
+            }
+        }
+        let found = Arc::new(read()?);
+        let mut kept = self.0.lock().map_err(fault)?;
+        kept.push((key, found.clone()));
+        Ok(found)
+    }
+}
+
+impl Key {
+    fn of(name: &str, path: &Path, how: Option<String>) -> Result<Self, Refused> {
+        let about = std::fs::metadata(path)?;
+        Ok(Self {
+            name: name.into(),
+            bytes: about.len(),
+            modified: about.modified().ok(),
+            how,
+        })
+    }
+}
+
+/// An axis file of the workspace, of which no log lies outside, and no file that a column of one of these logs comes from.
+pub fn read_axis(workspace: &Workspace, name: &str, logs: &[&Path]) -> Result<Axis, Refused> {
+    let axis = Axis::read(workspace.file(name)?)?;
+    let listed = axis.logs.iter().map(|log| log.file.as_path());
+    let logs: Vec<&Path> = listed.chain(logs.iter().copied()).collect();
+    for log in &logs {
+        workspace.holds(log)?;
+    }
+    for other in axis.joined.iter().filter_map(|joined| joined.file.as_ref()) {
+        if let Some(file) = other.of_one_log() {
+            workspace.holds(file)?;
+        }
+        for log in &logs {
+            workspace.holds(&other.of(log))?;
+        }
+    }
+    Ok(axis)
+}
+
+fn loaded(source: Source, marks: Stretches) -> Loaded {
+    let log = &source.log;
+    let at = |sample: usize| log.time.get(sample).copied();
+    let findings = log.findings.iter().take(MOST_TOLD).map(|found| Found {
+        code: found.code.to_string(),
+        severity: match found.severity {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+        },
+        message: found.message.clone(),
+        at_s: found.at.and_then(at),
+    });
+    let excluded = log.excluded.iter().take(MOST_TOLD).filter_map(|out| {
+        Some(LeftOut {
+            code: out.code.to_string(),
+            from_s: at(out.samples.start)?,
+            to_s: at(out.samples.end.saturating_sub(1))?,
+        })
+    });
+    let mut about = About {
+        samples: log.time.len(),
+        rate_hz: log.rate_hz,
+        seconds: log.time.last().copied().unwrap_or(0.0),
+        motion: log.motion.to_string(),
+        force_unit: log.force_unit.clone(),
+        detected: source.detected.clone(),
+        findings: findings.collect(),
+        excluded: excluded.collect(),
+        columns: log.columns.iter().map(columns::understood).collect(),
+        channels: Vec::new(),
+        marks,
+        refused: None,
+    };
+    let series = Series::of_log(source.log);
+    about.channels = series.about();
+    Loaded { series, about }
+}

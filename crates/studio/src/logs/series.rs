@@ -1,0 +1,133 @@
+//! Columns over time, each with its pyramid.
+
+use super::Drawable;
+use crate::pyramid::Pyramid;
+use stiction::commands::check::speeds;
+use stiction::commands::{log_table, recording};
+
+/// Channels over a common time.
+#[derive(Debug, Default)]
+pub struct Series {
+    /// s, never falling.
+    pub time: Vec<f64>,
+    /// What is drawn over it.
+    pub channels: Vec<Channel>,
+}
+
+/// A channel.
+#[derive(Debug)]
+pub struct Channel {
+    /// `position`, `force`.
+    pub name: String,
+    pub unit: String,
+    /// Whether it follows from another one.
+    pub derived: bool,
+    pub values: Vec<f64>,
+    pub pyramid: Pyramid,
+}
+
+/// Whether a column of a table that stiction writes is its time, by its name with or without a unit.
+pub fn is_time(name: &str) -> bool {
+    ["t", "time"].contains(&name.split(' ').next().unwrap_or_default())
+}
+
+impl Channel {
+    fn new(name: &str, unit: &str, values: Vec<f64>) -> Self {
+        Self {
+            name: name.into(),
+            unit: unit.into(),
+            derived: false,
+            pyramid: Pyramid::new(&values),
+            values,
+        }
+    }
+}
+
+impl Series {
+    /// The channels of a log, SI; a velocity that was not recorded follows from the position.
+    pub fn of_log(mut log: recording::Log) -> Self {
+        let speeds = match log.velocity {
+            Some(_) => None,
+            None => speeds(&log),
+        };
+        let length = log.motion.position().si_text();
+        let speed = log.motion.velocity().si_text();
+        let force = log.force_unit.clone();
+        let load = log.load_unit.clone();
+        let all = [
+            ("position", &length, log.position.take()),
+            ("velocity", &speed, log.velocity.take()),
+            ("force", &force, log.force.take()),
+            ("reference", &length, log.reference.take()),
+            ("external", &force, log.external.take()),
+            ("load", &load, log.load.take()),
+            ("temperature", &"K".to_string(), log.temperature.take()),
+        ];
+        let mut channels: Vec<Channel> = all
+            .into_iter()
+            .filter_map(|(name, unit, values)| Some(Channel::new(name, unit, values?)))
+            .collect();
+        if let Some(values) = speeds {
+            let at = channels.iter().position(|own| own.name == "force");
+            let channel = Channel {
+                derived: true,
+                ..Channel::new("velocity", &speed, values)
+            };
+            channels.insert(at.unwrap_or(channels.len()), channel);
+        }
+        Self {
+            time: log.time,
+            channels,
+        }
+    }
+
+    /// The numeric columns of a table over its time, of one run where there are several: a run ends where the time falls.
+    pub fn of_table(table: log_table::Table, run: usize) -> Self {
+        let mut columns = table.columns;
+        let is_clock = |column: &stiction::Column| is_time(&column.name);
+        let Some(at) = columns.iter().position(is_clock) else {
+            return Self::default();
+        };
+        let mut time = columns.remove(at).values;
+        let falls = time.windows(2).enumerate();
+        let falls = falls.filter(|(_, pair)| pair[1] < pair[0]);
+        let mut ends: Vec<usize> = falls.map(|(at, _)| at + 1).collect();
+        ends.push(time.len());
+        let run = run.min(ends.len() - 1);
+        let start = run.checked_sub(1).map_or(0, |before| ends[before]);
+        let cut = |values: &mut Vec<f64>| {
+            values.truncate(ends[run]);
+            values.drain(..start.min(values.len()));
+        };
+        cut(&mut time);
+        let channels = columns.into_iter().map(|mut column| {
+            cut(&mut column.values);
+            let unit = column.unit.as_deref().unwrap_or("");
+            Channel::new(&column.name, unit, column.values)
+        });
+        let channels = channels.collect();
+        Self { time, channels }
+    }
+
+    /// What can be drawn.
+    pub fn about(&self) -> Vec<Drawable> {
+        let one = |channel: &Channel| Drawable {
+            name: channel.name.clone(),
+            unit: channel.unit.clone(),
+            derived: channel.derived,
+        };
+        self.channels.iter().map(one).collect()
+    }
+
+    /// A channel by name.
+    pub fn channel(&self, name: &str) -> Option<&Channel> {
+        self.channels.iter().find(|own| own.name == name)
+    }
+
+    /// The samples from one time to another, one more at each side, so that lines leave the picture.
+    pub fn range(&self, from: f64, to: f64) -> std::ops::Range<usize> {
+        let start = self.time.partition_point(|t| *t < from).saturating_sub(1);
+        let end = self.time.partition_point(|t| *t <= to) + 1;
+        start..end.clamp(start, self.time.len())
+    }
+}

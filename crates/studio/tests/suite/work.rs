@@ -1,0 +1,240 @@
+//! What the page asks of the engine.
+
+use crate::client::{Served, open};
+use std::time::{Duration, Instant};
+
+/// A log of an axis that moves to and fro, with Coulomb and viscous friction.
+fn log(served: &Served, name: &str) {
+    let mut text = String::from("time [s],x [mm],F [N]\n");
+    for k in 0..8000 {
+        let t = 1e-3 * f64::from(k);
+        let (x, v) = (0.05 * (6.0 * t).sin(), 0.3 * (6.0 * t).cos());
+        let force = 20.0 * v.signum() + 60.0 * v - 9.0 * 36.0 * x;
+        text.push_str(&format!("{t},{},{force}\n", 1e3 * x));
+    }
+    std::fs::write(served.path().join(name), text).unwrap();
+}
+
+/// Waits for work to end, and gives it.
+fn ended(served: &Served, id: u64) -> serde_json::Value {
+    let began = Instant::now();
+    loop {
+        let all = served.ask("GET", "/api/jobs", "").json();
+        let job = all
+            .as_array()
+            .unwrap()
+            .iter()
+            .find(|job| job["id"] == id)
+            .unwrap()
+            .clone();
+        if job["state"] == "done" || job["state"] == "failed" {
+            return job;
+        }
+        assert!(began.elapsed() < Duration::from_secs(300), "{job}");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+#[test]
+fn a_log_is_described_corrected_and_drawn() {
+    let served = open();
+    log(&served, "run.csv");
+    let about = served.ask("GET", "/api/log?name=run.csv", "").json();
+    assert_eq!(about["samples"], 8000);
+    assert_eq!(about["motion"], "linear");
+    let channels: Vec<&str> = about["channels"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|c| c["name"].as_str().unwrap())
+        .collect();
+    assert_eq!(channels, ["position", "velocity", "force"]);
+    // The unit is another one than the file says.
+    let asked = "{\"log\":\"run.csv\",\"axis\":\"axis.toml\",\"role\":\"position\",\"column\":2,\"name\":\"x [mm]\",\"unit\":\"cm\"}";
+    let changes = served.ask("POST", "/api/correct", asked);
+    assert_eq!(changes.status, 200, "{}", changes.text());
+    let axis = std::fs::read_to_string(served.path().join("axis.toml")).unwrap();
+    assert!(
+        axis.contains("position = { column = \"x [mm]\", unit = \"cm\" }"),
+        "{axis}"
+    );
+    let asked = "{\"log\":\"run.csv\",\"axis\":\"axis.toml\",\"role\":\"position\",\"column\":2,\"unit\":\"furlong\"}";
+    let refused = served.ask("POST", "/api/correct", asked);
+    assert_eq!(refused.status, 422, "{}", refused.text());
+    assert!(refused.text().contains("furlong"), "{}", refused.text());
+    assert_eq!(
+        std::fs::read_to_string(served.path().join("axis.toml")).unwrap(),
+        axis
+    );
+    // A stretch that is marked does not hide the rest from the page.
+    let asked = "{\"log\":\"run.csv\",\"axis\":\"axis.toml\",\"as\":\"crop\",\"from\":1.0,\"to\":6.0,\"seconds\":7.999}";
+    assert_eq!(served.ask("POST", "/api/mark", asked).status, 200);
+    let about = served
+        .ask("GET", "/api/log?name=run.csv&axis=axis.toml", "")
+        .json();
+    assert_eq!(about["samples"], 8000);
+    assert_eq!(about["marks"]["crop"], serde_json::json!([1.0, 6.0]));
+    let tiles = served.ask(
+        "GET",
+        "/api/tiles?name=run.csv&axis=axis.toml&channels=position&from=0&to=8&pixels=500",
+        "",
+    );
+    let number = |at: usize| f64::from_le_bytes(tiles.body[at..at + 8].try_into().unwrap());
+    let count = u32::from_le_bytes(tiles.body[..4].try_into().unwrap()) as usize;
+    assert_eq!(tiles.body.len(), 16 + 8 * 3 * count);
+    let highest = (0..count)
+        .map(|k| number(16 + 8 * (2 * count + k)))
+        .fold(0.0, f64::max);
+    assert!((highest - 0.5).abs() < 1e-3, "{highest}");
+    let map = served.ask("GET", "/api/map?name=run.csv&from=1&to=2", "");
+    assert_eq!(
+        u32::from_le_bytes(map.body[..4].try_into().unwrap()),
+        1001,
+        "{}",
+        map.body.len()
+    );
+}
+
+#[test]
+fn columns_that_are_not_clear_are_decided_by_a_click() {
+    let served = open();
+    let rows: String = (0..3000)
+        .map(|k| {
+            let t = 1e-3 * f64::from(k);
+            format!("{t},{},{}\n", (9.0 * t).sin(), (9.0 * t).cos().signum())
+        })
+        .collect();
+    std::fs::write(served.path().join("odd.csv"), format!("a,b,c\n{rows}")).unwrap();
+    let about = served.ask("GET", "/api/log?name=odd.csv", "").json();
+    assert!(about["refused"].is_string(), "{about}");
+    assert_eq!(about["columns"].as_array().unwrap().len(), 3);
+    for (role, column, unit) in [("time", 1, "s"), ("position", 2, "mm"), ("force", 3, "N")] {
+        let asked = format!(
+            "{{\"log\":\"odd.csv\",\"axis\":\"axis.toml\",\"role\":\"{role}\",\"column\":{column},\"unit\":\"{unit}\"}}"
+        );
+        let done = served.ask("POST", "/api/correct", &asked);
+        assert_eq!(done.status, 200, "{}", done.text());
+    }
+    let about = served
+        .ask("GET", "/api/log?name=odd.csv&axis=axis.toml", "")
+        .json();
+    assert!(about["refused"].is_null(), "{about}");
+}
+
+#[test]
+fn work_is_seen_stopped_and_found_again() {
+    let served = open();
+    log(&served, "run.csv");
+    let asked = "{\"kind\":\"identify\",\"logs\":[\"run.csv\"],\"out\":\"result\"}";
+    assert_eq!(
+        served.ask("POST", "/api/command", asked).json(),
+        "stiction identify run.csv --out result"
+    );
+    let id = served
+        .ask("POST", "/api/jobs", asked)
+        .json()
+        .as_u64()
+        .unwrap();
+    let twice = served.ask("POST", "/api/jobs", asked);
+    assert_eq!(twice.status, 409, "{}", twice.text());
+    let stopped = served.ask("POST", &format!("/api/jobs/{id}/stop"), "{}");
+    let job = ended(&served, id);
+    assert_eq!(job["state"], "done", "{job}");
+    if stopped.status == 200 && job["verdict"] == "interrupted" {
+        assert!(served.path().join("result/result.json").is_file());
+    }
+    // Refused work says why, in the words of the command line.
+    let asked = "{\"kind\":\"simulate\",\"study\":\"run.csv\",\"out\":\"study\"}";
+    let id = served
+        .ask("POST", "/api/jobs", asked)
+        .json()
+        .as_u64()
+        .unwrap();
+    let job = ended(&served, id);
+    assert_eq!(job["state"], "failed", "{job}");
+    assert!(job["text"].as_str().unwrap().contains("run.csv"), "{job}");
+}
+
+#[test]
+fn what_a_file_names_outside_of_the_folder_is_not_read() {
+    let served = open();
+    log(&served, "run.csv");
+    let outside = tempfile::tempdir().unwrap();
+    let secret = outside.path().join("secret.csv");
+    std::fs::copy(served.path().join("run.csv"), &secret).unwrap();
+    let axis = format!("[[log]]\nfile = {:?}\n", secret.to_string_lossy());
+    std::fs::write(served.path().join("axis.toml"), axis).unwrap();
+    let answer = served.ask("GET", "/api/log?name=run.csv&axis=axis.toml", "");
+    assert_eq!(answer.status, 403, "{}", answer.text());
+    let asked = "{\"kind\":\"identify\",\"logs\":[],\"axis\":\"axis.toml\",\"out\":\"result\"}";
+    let id = served
+        .ask("POST", "/api/jobs", asked)
+        .json()
+        .as_u64()
+        .unwrap();
+    assert_eq!(ended(&served, id)["state"], "failed");
+    assert!(!served.path().join("result").exists());
+    // Neither is a model that a study names.
+    let model = outside.path().join("model.toml");
+    std::fs::write(&model, "secret = 777000777\n").unwrap();
+    let study = format!("[axis]\nmodel = {:?}\n", model.to_string_lossy());
+    let body = serde_json::json!({ "name": "study.toml", "text": &study, "before": "" });
+    let answer = served.ask("PUT", "/api/text", &body.to_string());
+    assert_eq!(answer.status, 403, "{}", answer.text());
+    std::fs::write(served.path().join("study.toml"), &study).unwrap();
+    let asked = "{\"kind\":\"simulate\",\"study\":\"study.toml\",\"out\":\"study\"}";
+    let id = served
+        .ask("POST", "/api/jobs", asked)
+        .json()
+        .as_u64()
+        .unwrap();
+    let job = ended(&served, id);
+    assert_eq!(job["state"], "failed", "{job}");
+    assert!(
+        !job["text"].as_str().unwrap().contains("777000777"),
+        "{job}"
+    );
+}
+
+#[test]
+fn text_is_written_over_what_was_seen_and_only_if_it_can_be_read() {
+    let served = open();
+    let put = |text: &str, before: &str| {
+        let body = serde_json::json!({ "name": "axis.toml", "text": text, "before": before });
+        served.ask("PUT", "/api/text", &body.to_string())
+    };
+    assert_eq!(put("kind = \"linear\"\n", "").status, 200);
+    let refused = put("kind = \"round\"\n", "kind = \"linear\"\n");
+    assert_eq!(refused.status, 422, "{}", refused.text());
+    assert!(refused.text().contains("line 1"), "{}", refused.text());
+    assert_eq!(put("kind = \"rotary\"\n", "something else").status, 409);
+    let read = served.ask("GET", "/api/text?name=axis.toml", "").json();
+    assert_eq!(read["text"], "kind = \"linear\"\n");
+}
+
+#[test]
+fn a_zip_has_the_files_of_a_folder() {
+    let served = open();
+    std::fs::create_dir_all(served.path().join("code/src")).unwrap();
+    std::fs::write(served.path().join("code/a.c"), "int a;\n").unwrap();
+    std::fs::write(served.path().join("code/src/b.c"), "int b;\n").unwrap();
+    let ticket = served
+        .ask("POST", "/api/ticket", "{\"name\":\"code\",\"how\":\"zip\"}")
+        .json();
+    let ticket = ticket.as_str().unwrap();
+    assert!(ticket.ends_with("/code.zip"), "{ticket}");
+    let answer = served.send("GET", ticket, &served.own(), b"");
+    let mut zip = zip::ZipArchive::new(std::io::Cursor::new(&answer.body)).unwrap();
+    let names: Vec<String> = zip
+        .file_names()
+        .map(|name| name.unwrap().into_owned())
+        .collect();
+    assert_eq!(names, ["a.c", "src/b.c"]);
+    let text = std::io::read_to_string(zip.by_name("src/b.c").unwrap()).unwrap();
+    assert_eq!(text, "int b;\n");
+    // The same bytes again.
+    assert_eq!(
+        served.send("GET", ticket, &served.own(), b"").body,
+        answer.body
+    );
+}

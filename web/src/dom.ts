@@ -1,0 +1,71 @@
+// Elements made in one call; texts from files only ever become text.
+
+type Child = Node | string | null | undefined | false;
+type Attributes = Record<string, unknown>;
+
+/** An element with attributes (`on...` are listeners, `true` is present, false and null absent) and children. */
+export function h<K extends keyof HTMLElementTagNameMap>(
+  tag: K,
+  attributes: Attributes = {},
+  ...children: Child[]
+): HTMLElementTagNameMap[K] {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === false || value === null || value === undefined) continue;
+    if (name.startsWith("on") && typeof value === "function") {
+      element.addEventListener(name.slice(2), value as EventListener);
+    } else if (name === "value" || name === "checked" || name === "disabled" || name === "selected") {
+      (element as unknown as Attributes)[name] = value;
+    } else {
+      element.setAttribute(name, value === true ? "" : String(value));
+    }
+  }
+  put(element, ...children);
+  return element;
+}
+
+/** Replaces what is in an element. */
+export function put(element: Element, ...children: Child[]): void {
+  element.replaceChildren(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false));
+}
+
+let ids = 0;
+
+/** A control with its label above it. */
+export function field(label: string, control: HTMLElement, hint?: string): HTMLElement {
+  ids += 1;
+  control.id ||= `field-${ids}`;
+  if (hint) control.setAttribute("aria-describedby", `${control.id}-hint`);
+  return h(
+    "div",
+    { class: "field" },
+    h("label", { for: control.id }, label),
+    control,
+    hint ? h("small", { id: `${control.id}-hint` }, hint) : null,
+  );
+}
+
+/** A choice of one. */
+export function choice(options: [value: string, label: string][], value: string, onchange: (value: string) => void): HTMLSelectElement {
+  const select = h("select", { onchange: () => onchange(select.value) });
+  put(select, ...options.map(([own, label]) => h("option", { value: own, selected: own === value }, label)));
+  return select;
+}
+
+/** Says something to who sees the page and to who hears it. */
+export function say(text: string, kind: "note" | "error" = "note"): void {
+  const place = document.getElementById("said");
+  if (!place) return;
+  put(place, h("div", { class: `toast ${kind}` }, h("span", {}, text), h("button", { class: "quiet", "aria-label": "Close this message", onclick: () => put(place) }, "×")));
+}
+
+/** Does something, and says what went wrong with it. */
+export async function attempt<T>(work: () => Promise<T>): Promise<T | undefined> {
+  try {
+    return await work();
+  } catch (error) {
+    if (error instanceof DOMException && error.name === "AbortError") return undefined;
+    say(error instanceof Error ? error.message : String(error), "error");
+    return undefined;
+  }
+}

@@ -1,0 +1,94 @@
+// Points of one channel over another, such as the force over the velocity: what is brushed, drawn as it was logged.
+
+import uPlot from "uplot";
+import { color, onTheme } from "./colors";
+import { h, put } from "./dom";
+import { axisNumber } from "./trace";
+
+export interface Points { x: Float64Array; y: Float64Array }
+
+export class PointMap {
+  readonly element: HTMLElement;
+  private plot: uPlot | null = null;
+  private points: Points = { x: new Float64Array(), y: new Float64Array() };
+  private readonly stage = h("div", {});
+  private readonly resize = new ResizeObserver(() => this.build());
+  private readonly noTheme: () => void;
+
+  constructor(private readonly title: string, private labels: [x: string, y: string], private readonly height: number) {
+    this.element = h("figure", { class: "map" }, h("figcaption", {}, title), this.stage);
+    this.resize.observe(this.element);
+    this.noTheme = onTheme(() => this.build());
+  }
+
+  end(): void {
+    this.resize.disconnect();
+    this.noTheme();
+    this.plot?.destroy();
+  }
+
+  draw(points: Points, labels = this.labels): void {
+    this.points = points;
+    this.labels = labels;
+    this.build();
+  }
+
+  private build(): void {
+    this.plot?.destroy();
+    put(this.stage);
+    const width = this.element.clientWidth;
+    if (width < 50) return;
+    const axis = { stroke: color("muted"), grid: { stroke: color("grid"), width: 1 }, ticks: { stroke: color("grid"), width: 1 }, font: "12px system-ui", labelSize: 18, labelFont: "12px system-ui" };
+    const [low, high] = extent(this.points.x);
+    const [least, most] = extent(this.points.y);
+    const values = (_: uPlot, all: number[]) => all.map((value) => axisNumber(value, all));
+    this.plot = new uPlot(
+      {
+        width,
+        height: this.height,
+        legend: { show: false },
+        cursor: { show: false },
+        padding: [8, 14, 0, 0],
+        scales: { x: { time: false, range: [low, high] }, y: { range: [least, most] } },
+        axes: [
+          { ...axis, label: this.labels[0], size: 34, values, space: 70 },
+          { ...axis, label: this.labels[1], size: 58, values },
+        ],
+        series: [{}, { paths: () => null, points: { show: false } }],
+        hooks: { draw: [(own) => this.dots(own)] },
+      },
+      [[low, high], [least, most]],
+      this.stage,
+    );
+    this.plot.root.setAttribute("role", "img");
+    this.plot.root.setAttribute("aria-label", `${this.title}: ${this.labels[1]} over ${this.labels[0]}, ${this.points.x.length} points`);
+  }
+
+  private dots(plot: uPlot): void {
+    const { ctx } = plot;
+    const size = Math.max(1.5 * devicePixelRatio, 1);
+    ctx.save();
+    ctx.globalAlpha = this.points.x.length > 2000 ? 0.45 : 0.8;
+    ctx.fillStyle = color("line-1");
+    for (let k = 0; k < this.points.x.length; k += 1) {
+      const x = this.points.x[k]!;
+      const y = this.points.y[k]!;
+      if (Number.isNaN(x) || Number.isNaN(y)) continue;
+      ctx.fillRect(plot.valToPos(x, "x", true) - size / 2, plot.valToPos(y, "y", true) - size / 2, size, size);
+    }
+    ctx.restore();
+  }
+}
+
+/** Ends of an axis, a little beyond what is drawn. */
+function extent(values: Float64Array): [number, number] {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const value of values) {
+    if (value < low) low = value;
+    if (value > high) high = value;
+  }
+  if (!(high >= low)) return [0, 1];
+  const beside = 0.05 * (high - low) || Math.abs(high) || 1;
+  return [low - beside, high + beside];
+}

@@ -1,0 +1,45 @@
+// Numbers as people read them. Nothing is computed here but digits.
+
+/** Four significant digits. */
+export function short(value: number | null | undefined): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e5 || size < 1e-3) {
+    const [digits = "", power = ""] = value.toExponential(3).split("e");
+    return `${digits}e${power.replace("+", "")}`.replace("-", "−").replace("e-", "e−");
+  }
+  return value.toPrecision(4).replace("-", "−");
+}
+
+/** A unit as it is printed. */
+export function unit(text: string): string {
+  return text === "1" ? "" : text.replaceAll("*", "·").replaceAll("^2", "²");
+}
+
+/** A length in the unit that suits its size; anything else as it is. */
+export function length(value: number, of: string): string {
+  const size = Math.abs(value);
+  if (of === "m" && size > 0 && size < 1e-3) return `${short(value * 1e6)} µm`;
+  if (of === "m" && size > 0 && size < 1) return `${short(value * 1e3)} mm`;
+  return `${short(value)} ${unit(of)}`;
+}
+
+/** A duration. */
+export function seconds(value: number): string {
+  if (value < 10) return `${value.toFixed(1)} s`;
+  if (value < 90) return `${value.toFixed(0)} s`;
+  return `${Math.floor(value / 60)} min ${Math.round(value % 60)} s`;
+}
+
+/** A number of bytes. */
+export function bytes(value: number): string {
+  const units = ["B", "kB", "MB", "GB"];
+  let at = 0;
+  let size = value;
+  while (size >= 1000 && at < units.length - 1) {
+    size /= 1000;
+    at += 1;
+  }
+  return `${size >= 100 || at === 0 ? size.toFixed(0) : size.toFixed(1)} ${units[at]}`;
+}

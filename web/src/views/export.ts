@@ -1,0 +1,116 @@
+// The compensator as code or numbers for a controller.
+
+import { get, open } from "../api";
+import { commandLine } from "../command";
+import { attempt, choice, field, h, put } from "../dom";
+import { begin, isRunning, latest, printed, progress } from "../jobs";
+import { exists, files, onChange, state } from "../state";
+
+const WORDS: Record<string, string> = {
+  c: "C99", cpp: "C++ for Arduino and others", ros2: "C++ as a ROS 2 node's class", st: "Structured Text (IEC 61131-3)", tcpou: "TwinCAT 3 objects", plcopen: "PLCopen XML",
+  rust: "Rust, no_std", mujoco: "MuJoCo joint", modelica: "Modelica", urdf: "URDF joint", sdf: "SDFormat joint", isaaclab: "Isaac Lab actuator", hal: "LinuxCNC HAL component",
+  fmu: "FMU 2.0 and 3.0", matlab: "MATLAB, Octave and Simulink", tf5200: "TwinCAT CNC friction table", "drive-table": "Numbers for a drive's own compensation",
+};
+
+interface Exported { warnings: { code: string; message: string }[]; written: string[]; trustworthy: boolean }
+
+export class ExportView {
+  readonly element = h("div", { class: "view export" });
+  private readonly command = commandLine();
+  private readonly form = h("section", { class: "form", "aria-label": "What is exported" });
+  private readonly found = h("section", { class: "found", "aria-label": "The files", "aria-live": "polite" });
+  private readonly stop: () => void;
+  private targets: { name: string; simulated: boolean }[] = [];
+  private model = "";
+  private target = "c";
+  private cycle = "0.001";
+  private gain = "";
+  private limit = "";
+  private rated = "";
+  private adapt = false;
+  private replace = false;
+  private out = "";
+
+  constructor() {
+    put(this.element, h("div", { class: "head" }, h("h2", {}, "Export"), h("span", { class: "muted" }, "the compensator as code or numbers for a controller")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.found)), this.command.element);
+    const own = `${state.chosen.result}/model.toml`;
+    this.model = exists(own) ? own : (files("model")[0]?.name ?? "");
+    this.stop = onChange((reason) => {
+      if (reason === "files") this.drawForm();
+      this.drawFound();
+    });
+    void attempt(async () => {
+      this.targets = await get("/api/targets");
+      this.drawForm();
+    });
+    this.drawFound();
+  }
+
+  end(): void { this.stop(); }
+
+  private asked() {
+    const number = (text: string) => (text === "" ? null : Number(text));
+    return { kind: "export", model: this.model, target: this.target, cycle_time: Number(this.cycle), gain: number(this.gain), limit: number(this.limit), rated_force: number(this.rated), adapt: this.adapt, out: this.out, force: this.replace };
+  }
+
+  private drawForm(): void {
+    const models = files("model");
+    if (!models.length) {
+      put(this.form, h("p", {}, "There is no model yet: identify one first."));
+      this.command.show("stiction export result/model.toml --target c --out code");
+      return;
+    }
+    if (!this.model) this.model = models[0]!.name;
+    const folder = this.model.includes("/") ? this.model.slice(0, this.model.lastIndexOf("/") + 1) : "";
+    this.out = `${folder}${this.target}`;
+    const again = () => this.command.of(this.asked());
+    const number = (value: string, placeholder: string, set: (value: string) => void) => {
+      const own = h("input", { type: "number", step: "any", min: "0", value, placeholder, oninput: () => { set(own.value); again(); } });
+      return own;
+    };
+    const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); again(); } });
+    const adapt = h("input", { type: "checkbox", checked: this.adapt, onchange: () => { this.adapt = adapt.checked; again(); } });
+    const replace = h("input", { type: "checkbox", checked: this.replace, onchange: () => { this.replace = replace.checked; again(); } });
+    const simulated = this.targets.find((own) => own.name === this.target)?.simulated ?? false;
+    put(
+      this.form,
+      field("Model", choice(models.map((file): [string, string] => [file.name, file.name]), this.model, (value) => { this.model = value; this.drawForm(); })),
+      field("Target", choice(this.targets.map((own): [string, string] => [own.name, WORDS[own.name] ?? own.name]), this.target, (value) => { this.target = value; this.drawForm(); })),
+      field("Time between two calls [s]", number(this.cycle, "0.001", (value) => { this.cycle = value; })),
+      simulated || this.target === "drive-table" ? null : field("Share that is compensated", number(this.gain, "0.75", (value) => { this.gain = value; }), "0 to 1; what is left keeps the loop calm"),
+      simulated || this.target === "drive-table" ? null : field("Largest force", number(this.limit, "from the law", (value) => { this.limit = value; })),
+      this.target === "tf5200" ? field("Rated force of the motor", number(this.rated, "", (value) => { this.rated = value; })) : null,
+      simulated || ["tf5200", "drive-table"].includes(this.target) ? null : h("label", { class: "check" }, adapt, " levels follow the machine"),
+      field("Folder for the files", out),
+      h("label", { class: "check" }, replace, " replace files of the same names"),
+      h("button", { class: "primary wide", onclick: () => void begin(this.asked()) }, "Export"),
+    );
+    again();
+  }
+
+  private drawFound(): void {
+    const job = latest("export");
+    if (!job) {
+      put(this.found, h("p", { class: "muted" }, "Nothing exported yet. Every export comes with vectors with which the target can test itself."));
+      return;
+    }
+    if (isRunning(job)) {
+      put(this.found, progress(job));
+      return;
+    }
+    if (job.state === "failed" || !job.folder) {
+      put(this.found, printed(job));
+      return;
+    }
+    const folder = job.folder;
+    const exported = job.json as Exported;
+    put(
+      this.found,
+      h("div", { class: "row spread" }, h("h3", {}, folder), h("button", { class: "primary", onclick: () => void attempt(() => open(folder, "zip")) }, "Download as zip")),
+      exported.trustworthy ? h("div", { class: "banner good" }, h("strong", {}, "Every number may be relied on")) : h("div", { class: "banner warn" }, h("strong", {}, "The identification does not trust every number of this law")),
+      exported.warnings.length ? h("ul", { class: "findings" }, ...exported.warnings.map((one) => h("li", { class: "warning" }, h("code", {}, one.code), h("span", {}, one.message)))) : h("p", { class: "muted" }, "No warnings."),
+      h("ul", { class: "files" }, ...exported.written.map((name) => h("li", {}, h("button", { title: `Save ${name}`, onclick: () => void attempt(() => open(`${folder}/${name}`, "save")) }, h("span", { class: "name" }, name))))),
+      printed(job),
+    );
+  }
+}

@@ -1,0 +1,239 @@
+// Identification: a few choices, the work as it goes, and what came of it beside another result.
+
+import { get, open, type Channel } from "../api";
+import { commandLine } from "../command";
+import { attempt, choice, field, h, put } from "../dom";
+import { begin, isRunning, latest, printed, progress } from "../jobs";
+import { short, unit } from "../numbers";
+import { choose, files, onChange, state } from "../state";
+import { Trace } from "../trace";
+
+const LAWS: [string, string][] = [
+  ["auto", "Let the data choose"],
+  ["lugre", "With presliding and Stribeck effect (LuGre)"],
+  ["gms", "With memory of past reversals (GMS)"],
+  ["maxwell-slip", "Memory, no Stribeck effect (Maxwell slip)"],
+  ["elasto-plastic", "LuGre that does not creep at rest"],
+  ["dahl", "Presliding and Coulomb only (Dahl)"],
+  ["stribeck", "Curve over velocity only (Stribeck)"],
+  ["coulomb-viscous", "Coulomb and viscous only"],
+];
+const METHODS: [string, string][] = [
+  ["separable", "From motion to force (usual)"],
+  ["output-error", "Simulating the axis from its force"],
+];
+
+interface Parameter { name: string; symbol: string; value: number; unit: string; std: number | null; ci95: [number | null, number | null] | null; identifiable: boolean; origin: string; reason: string; advice: string }
+interface Fit { signal: string; unit: string; rmse: number; relative_error_percent: number; r2: number | null; samples: number }
+interface Result {
+  law: string; asymmetric: boolean; method: string; inputs: { path: string; samples: number; part?: string | null }[];
+  parameters: Parameter[]; fit: Fit; validation: (Fit & { path: string })[];
+  trust: { trustworthy: boolean; reasons: string[]; constants: string[]; next: string; compensation: { friction_left_percent: number } | null };
+  laws?: { law: string; asymmetric: boolean; held_out_percent?: number; relative_error_percent?: number }[];
+  warnings: { code: string; message: string }[];
+}
+
+export class IdentifyView {
+  readonly element = h("div", { class: "view identify" });
+  private readonly command = commandLine();
+  private readonly form = h("section", { class: "form", "aria-label": "What is identified" });
+  private readonly work = h("section", { "aria-label": "Work", "aria-live": "polite" });
+  private readonly found = h("section", { class: "found", "aria-label": "Result" });
+  private readonly stop: () => void;
+  private law = "auto";
+  private method = "separable";
+  private asymmetric = false;
+  private validation = "";
+  private out = "";
+  private beside = "";
+  private trace: Trace | null = null;
+  private shown = "";
+  private ran = new Set<number>();
+
+  constructor() {
+    put(this.element, h("div", { class: "head" }, h("h2", {}, "Identify")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.work, this.found)), this.command.element);
+    this.stop = onChange((reason) => {
+      if (reason !== "jobs") this.drawForm();
+      this.drawWork();
+      if (reason !== "jobs") void this.drawResult();
+    });
+    this.drawForm();
+    this.drawWork();
+    void this.drawResult();
+  }
+
+  end(): void {
+    this.stop();
+    this.trace?.end();
+  }
+
+  private asked(): Record<string, unknown> {
+    const { log, axis } = state.chosen;
+    const asked: Record<string, unknown> = { kind: "identify", logs: log ? [log] : [], axis, out: this.out };
+    if (this.law !== "auto") asked["law"] = this.law;
+    if (this.method !== "separable") asked["method"] = this.method;
+    if (this.asymmetric) asked["asymmetric"] = true;
+    if (this.validation === "half") asked["split"] = 0.5;
+    else if (this.validation) asked["validate"] = [this.validation];
+    return asked;
+  }
+
+  private drawForm(): void {
+    const { log, axis } = state.chosen;
+    if (!this.out) this.out = "result";
+    const again = () => this.command.of(this.asked());
+    const others = files("log").filter((file) => file.name !== log);
+    const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); again(); } });
+    const asymmetric = h("input", { type: "checkbox", checked: this.asymmetric, onchange: () => { this.asymmetric = asymmetric.checked; again(); } });
+    put(
+      this.form,
+      h("dl", { class: "facts" }, h("dt", {}, "Log"), h("dd", {}, log ?? "none yet"), h("dt", {}, "Axis file"), h("dd", {}, axis ?? "none: as found")),
+      field("Friction", choice(LAWS, this.law, (value) => { this.law = value; again(); })),
+      h("label", { class: "check" }, asymmetric, " different in each direction"),
+      field("Held against", choice([["", "stretches marked on the log, if any"], ["half", "the second half of the log"], ...others.map((file): [string, string] => [file.name, file.name])], this.validation, (value) => { this.validation = value; again(); }), "What is held out shows whether the law predicts what it has not seen."),
+      h("details", {}, h("summary", {}, "More"), field("Method", choice(METHODS, this.method, (value) => { this.method = value; again(); }))),
+      field("Folder for the result", out),
+      h("button", { class: "primary wide", disabled: !log, onclick: () => void this.run() }, "Identify"),
+    );
+    again();
+  }
+
+  private async run(): Promise<void> {
+    const id = await begin(this.asked());
+    if (id !== undefined) this.ran.add(id);
+  }
+
+  private drawWork(): void {
+    const job = latest("identify");
+    if (!job) {
+      put(this.work);
+      return;
+    }
+    if (isRunning(job)) {
+      put(this.work, progress(job));
+      return;
+    }
+    put(this.work, job.state === "failed" ? printed(job) : null);
+    if (job.state === "done" && this.ran.delete(job.id) && job.folder) {
+      const folder = job.folder;
+      // The list of files may not have it yet.
+      if (state.workspace.files.some((file) => file.name === folder)) choose({ result: folder });
+      else {
+        const stop = onChange((reason) => { if (reason === "files") { stop(); choose({ result: folder }); } });
+      }
+    }
+  }
+
+  private async drawResult(): Promise<void> {
+    const { result } = state.chosen;
+    const file = state.workspace.files.find((own) => own.name === `${result}/result.json`);
+    const now = JSON.stringify([result, file?.modified, this.beside]);
+    if (now === this.shown) return;
+    this.shown = now;
+    this.trace?.end();
+    this.trace = null;
+    if (!result) {
+      put(this.found, h("p", { class: "muted" }, "No result yet. Choose a log and press Identify; the defaults are meant to be right."));
+      return;
+    }
+    const read = async (name: string) => JSON.parse((await get<{ text: string }>("/api/text", { name: `${name}/result.json` })).text) as Result;
+    const own = await attempt(() => read(result));
+    const other = this.beside && this.beside !== result ? await attempt(() => read(this.beside)) : undefined;
+    if (!own || this.shown !== now) return;
+    const others = files("result").filter((entry) => entry.name !== result);
+    const compare = choice([["", "nothing"], ...others.map((entry): [string, string] => [entry.name, entry.name])], this.beside, (value) => { this.beside = value; void this.drawResult(); });
+    put(
+      this.found,
+      h("div", { class: "row spread" }, h("h3", {}, result), others.length ? h("label", { class: "row" }, "beside ", compare) : null),
+      banner(own),
+      h("div", { class: "row" }, ...next(own, result), h("button", { onclick: () => void attempt(() => open(`${result}/report.html`, "show")) }, "Full report"), h("button", { class: "quiet", onclick: () => void attempt(() => open(result, "zip")) }, "Download as zip")),
+      parameters(own, other, this.beside),
+      quality(own, other),
+      h("div", { class: "residual" }),
+      warnings(own),
+    );
+    await attempt(() => this.residual(result, own));
+  }
+
+  /** Measured, model and what is left, over the time. */
+  private async residual(result: string, own: Result): Promise<void> {
+    const name = `${result}/fit.csv`;
+    const table = await get<{ from: number | null; to: number | null; channels: Channel[] }>("/api/table", { name });
+    const place = this.found.querySelector(".residual");
+    if (!place || table.from === null || table.to === null || state.chosen.result !== result) return;
+    const channels = (...names: string[]) => names.map((own) => table.channels.find((channel) => channel.name === own)).filter((channel) => channel !== undefined);
+    const trace = new Trace({
+      source: { name, table: true },
+      panels: [{ title: own.fit.signal || "force", channels: channels("measured", "model") }, { title: "residual", channels: channels("residual") }],
+      from: table.from,
+      to: table.to,
+      height: 130,
+      label: "Measured, model and residual",
+    });
+    this.trace = trace;
+    put(place, h("h3", {}, "Measured, model and what is left"), trace.element);
+  }
+}
+
+function banner(own: Result): HTMLElement {
+  const left = own.trust.compensation?.friction_left_percent;
+  return own.trust.trustworthy
+    ? h("div", { class: "banner good" }, h("strong", {}, "May be used for compensation"), h("p", {}, left === undefined ? "" : `It leaves ${short(left)} % of the friction.`))
+    : h("div", { class: "banner warn" }, h("strong", {}, "Not to be used for compensation as it is"), ...own.trust.reasons.map((reason) => h("p", {}, reason)));
+}
+
+function next(own: Result, result: string): HTMLElement[] {
+  const go = (view: "study" | "export" | "plan" | "log", label: string, primary = true) => h("button", { class: primary ? "primary" : "", onclick: () => choose({ view, result }) }, label);
+  switch (own.trust.next) {
+    case "export":
+      return [go("study", "Try compensation →"), go("export", "Take the code →", false)];
+    case "check":
+      return [go("log", "Look at the log →"), go("plan", "Plan a better motion →", false)];
+    default:
+      return [go("study", "Try compensation →", false), go("plan", "Plan a better motion →", false)];
+  }
+}
+
+function interval(p: Parameter): string {
+  if (p.origin === "given") return "given";
+  if (!p.ci95) return "not bounded";
+  const [low, high] = p.ci95;
+  if (low === null) return `at most ${short(high)}`;
+  if (high === null) return `at least ${short(low)}`;
+  return `${short(low)} … ${short(high)}`;
+}
+
+function parameters(own: Result, other: Result | undefined, beside: string): HTMLElement {
+  const row = (p: Parameter) => {
+    const q = other?.parameters.find((one) => one.name === p.name);
+    const open = !p.identifiable;
+    return h(
+      "tr",
+      { class: open ? "open" : "" },
+      h("th", { scope: "row" }, p.name.replaceAll("_", " "), " ", h("span", { class: "symbol" }, p.symbol)),
+      h("td", { class: "number" }, short(p.value)),
+      h("td", {}, unit(p.unit)),
+      h("td", { class: "number" }, interval(p)),
+      h("td", {}, open ? h("span", { class: "tag warn", title: `${p.reason} ${p.advice}`.trim() }, "open") : p.origin === "given" ? "" : own.trust.constants.includes(p.name) ? h("span", { class: "tag good" }, "constant") : ""),
+      other ? h("td", { class: "number" }, q ? short(q.value) : "–") : null,
+      other ? h("td", { class: "number" }, q ? interval(q) : "–") : null,
+    );
+  };
+  return h(
+    "table",
+    {},
+    h("caption", {}, `${own.law}${own.asymmetric ? ", asymmetric" : ""}: parameters with 95 % intervals`),
+    h("thead", {}, h("tr", {}, ...["parameter", "value", "unit", "interval", "of the machine"].map((text) => h("th", { scope: "col" }, text)), other ? h("th", { scope: "col", colspan: "2" }, `${beside} (${other.law})`) : null)),
+    h("tbody", {}, ...own.parameters.map(row)),
+  );
+}
+
+function quality(own: Result, other: Result | undefined): HTMLElement {
+  const fit = (label: string, f: Fit, g?: Fit) => h("tr", {}, h("th", { scope: "row" }, label), h("td", { class: "number" }, `${short(f.relative_error_percent)} %`), h("td", { class: "number" }, `${short(f.rmse)} ${unit(f.unit)} rms`), other ? h("td", { class: "number" }, g ? `${short(g.relative_error_percent)} %` : "–") : null);
+  return h("table", {}, h("caption", {}, "How well it fits"), h("tbody", {}, fit("fitted", own.fit, other?.fit), ...own.validation.map((one, k) => fit(`held out: ${one.path}`, one, other?.validation[k]))));
+}
+
+function warnings(own: Result): HTMLElement | null {
+  if (!own.warnings.length) return null;
+  return h("div", {}, h("h3", {}, "Warnings"), h("ul", { class: "findings" }, ...own.warnings.map((one) => h("li", { class: "warning" }, h("code", {}, one.code), h("span", {}, one.message)))));
+}

@@ -1,0 +1,262 @@
+// A log: what it holds, its traces, the stretches that are used, and friction beside them.
+
+import { binary, get, post, type About, type Column, type Marks, type Stretch } from "../api";
+import { commandLine } from "../command";
+import { attempt, choice, field, h, put, say } from "../dom";
+import { begin, isRunning, latest, printed, progress } from "../jobs";
+import { PointMap } from "../map";
+import { short, unit } from "../numbers";
+import { choose, onChange, refresh, state } from "../state";
+import { Trace, type Band, type Panel, type Tick } from "../trace";
+
+const ROLES: [string, string][] = ["time", "position", "velocity", "acceleration", "force", "reference", "external", "temperature", "load"].map((role) => [role, role]);
+const AXIS = "axis.toml";
+
+export class LogView {
+  readonly element = h("div", { class: "view log" });
+  private readonly command = commandLine();
+  private readonly head = h("div", { class: "head" });
+  private readonly center = h("div", { class: "center" });
+  private readonly right = h("div", { class: "right" });
+  private readonly checked = h("section", { "aria-label": "What the log can determine" });
+  private readonly stop: () => void;
+  private trace: Trace | null = null;
+  private maps: PointMap[] = [];
+  private about: About | null = null;
+  private shown = "";
+  private from = h("input", { type: "number", "aria-label": "Brush from, s", step: "any", min: "0", onchange: () => this.typed() });
+  private to = h("input", { type: "number", "aria-label": "Brush to, s", step: "any", min: "0", onchange: () => this.typed() });
+  private mapDue = 0;
+  private marking = false;
+  private drawn = "";
+  /** What was brushed and seen of a log that is drawn again. */
+  private kept: { log: string; brush: Stretch | null; view: Stretch } | null = null;
+
+  constructor() {
+    put(this.element, this.head, h("div", { class: "columns" }, this.center, this.right), this.command.element);
+    this.stop = onChange((reason) => {
+      if (reason === "jobs") this.drawChecked();
+      else void this.load();
+    });
+    void this.load();
+  }
+
+  end(): void {
+    this.stop();
+    this.clear();
+  }
+
+  private clear(): void {
+    if (this.trace) this.kept = { log: this.drawn, brush: this.trace.brushed, view: this.trace.shown };
+    this.trace?.end();
+    this.trace = null;
+    for (const map of this.maps) map.end();
+    this.maps = [];
+  }
+
+  private async load(): Promise<void> {
+    const { log, axis } = state.chosen;
+    if (!log) {
+      this.clear();
+      this.shown = "";
+      put(this.head, h("h2", {}, "Begin with a log"));
+      put(this.center, h("div", { class: "welcome" }, h("p", {}, "Drop the recording of a servo axis anywhere on this page: time, position or velocity, and force, torque or current. Columns and units are found and can be corrected."), h("p", {}, "Nothing leaves this machine. The file is copied into the folder of this page, where the command line finds it too.")));
+      put(this.right);
+      this.command.show("stiction check LOG");
+      return;
+    }
+    const file = state.workspace.files.find((own) => own.name === log);
+    const axisFile = state.workspace.files.find((own) => own.name === axis);
+    const now = JSON.stringify([log, file?.modified, axis, axisFile?.modified]);
+    if (now === this.shown) return;
+    this.shown = now;
+    // Marks are drawn already; nothing else of the log has changed with them.
+    if (this.marking) return;
+    this.command.of({ kind: "check", log, axis });
+    const about = await attempt(() => get<About>("/api/log", { name: log, axis }));
+    if (this.shown !== now) return;
+    if (!about) {
+      this.clear();
+      put(this.head, h("h2", {}, log));
+      put(this.center, h("p", {}, "This file could not be read."));
+      put(this.right);
+      return;
+    }
+    this.about = about;
+    this.draw(log, about);
+  }
+
+  private draw(log: string, about: About): void {
+    this.clear();
+    const facts = about.refused ? "columns to decide" : `${about.samples.toLocaleString("en").replaceAll(",", " ")} samples · ${short(about.rate_hz)} Hz · ${short(about.seconds)} s · ${about.motion}`;
+    put(this.head, h("h2", {}, log), h("span", { class: "muted" }, facts), h("button", { class: "primary next", disabled: Boolean(about.refused), onclick: () => choose({ view: "identify" }) }, "Identify friction →"));
+    put(this.right, this.columns(about), this.findings(about), this.checked);
+    this.drawChecked();
+    if (about.refused) {
+      put(this.center, h("div", { class: "banner warn", role: "alert" }, h("strong", {}, "Say which column is what"), h("p", {}, about.refused), h("p", {}, "Click a column on the right.")));
+      return;
+    }
+    const channel = (name: string) => about.channels.find((own) => own.name === name);
+    const panels: Panel[] = [];
+    const position = [channel("reference"), channel("position")].filter((own) => own !== undefined);
+    if (position.length) panels.push({ title: "position", channels: position });
+    const velocity = channel("velocity");
+    if (velocity) panels.push({ title: velocity.derived ? "velocity*" : "velocity", channels: [velocity] });
+    const force = [channel("external"), channel("force")].filter((own) => own !== undefined);
+    if (force.length) panels.push({ title: "force", channels: force });
+    for (const name of ["load", "temperature"]) {
+      const own = channel(name);
+      if (own) panels.push({ title: name, channels: [own] });
+    }
+    const source = { name: log, axis: state.chosen.axis };
+    const trace = new Trace({ source, panels, from: 0, to: about.seconds, height: panels.length > 3 ? 76 : 88, label: `Traces of ${log}`, brushed: (stretch) => this.brushed(stretch) });
+    this.trace = trace;
+    const speed = unit(velocity?.unit ?? "");
+    const forceUnit = unit(about.force_unit);
+    this.maps = [
+      new PointMap("Friction over velocity", [`velocity [${speed}]`, `force [${forceUnit}]`], 206),
+      new PointMap("Force over position", [`position [${unit(channel("position")?.unit ?? "")}]`, `force [${forceUnit}]`], 206),
+    ];
+    put(
+      this.center,
+      trace.element,
+      this.brushBar(),
+      h("p", { class: "muted small" }, "Drag to brush, wheel to zoom, Shift-drag to move, double-click for all.", velocity?.derived ? " * of the position, over a short window" : ""),
+      h("div", { class: "maps" }, ...this.maps.map((map) => map.element)),
+    );
+    this.marked(about.marks);
+    const kept = this.kept?.log === log ? this.kept : null;
+    this.drawn = log;
+    if (kept) trace.show(kept.view[0], kept.view[1]);
+    trace.select(kept?.brush ?? null);
+  }
+
+  private brushBar(): HTMLElement {
+    const mark = (as: string, label: string, title: string) => h("button", { title, onclick: () => void this.mark(as) }, label);
+    return h(
+      "div",
+      { class: "brush", role: "group", "aria-label": "The brushed stretch" },
+      h("span", {}, "from ", this.from, " s"),
+      h("span", {}, "to ", this.to, " s"),
+      h("button", { class: "quiet", onclick: () => { const own = this.trace?.brushed; if (own) this.trace?.show(own[0], own[1]); } }, "Zoom"),
+      h("span", { class: "gap" }),
+      mark("crop", "Crop", "Keep this stretch of the log alone"),
+      mark("fit", "Fit", "Fit this stretch"),
+      mark("validate", "Validate", "Do not fit this stretch; hold the law against it"),
+      mark("leave-out", "Leave out", "Use this stretch for nothing"),
+      mark("nothing", "Clear", "Use the whole log again"),
+    );
+  }
+
+  private typed(): void {
+    const [from, to] = [this.from.valueAsNumber, this.to.valueAsNumber];
+    if (to > from) this.trace?.select([from, to]);
+  }
+
+  private brushed(stretch: Stretch | null): void {
+    this.from.value = stretch ? stretch[0].toFixed(4) : "";
+    this.to.value = stretch ? stretch[1].toFixed(4) : "";
+    clearTimeout(this.mapDue);
+    this.mapDue = window.setTimeout(() => void attempt(() => this.drawMaps(stretch)), 60);
+  }
+
+  private async drawMaps(stretch: Stretch | null): Promise<void> {
+    const { about } = this;
+    if (!about) return;
+    const [from, to] = stretch ?? about.marks.crop ?? [0, about.seconds];
+    const buffer = await binary("/api/map", { name: state.chosen.log, axis: state.chosen.axis, from, to });
+    const [count = 0] = new Uint32Array(buffer, 0, 2);
+    const [velocity, force, position] = [0, 1, 2].map((at) => new Float64Array(buffer, 8 + 8 * count * at, count));
+    this.maps[0]?.draw({ x: velocity!, y: force! });
+    this.maps[1]?.draw({ x: position!, y: force! });
+  }
+
+  private async mark(as: string): Promise<void> {
+    const { log } = state.chosen;
+    const stretch = this.trace?.brushed;
+    if (as !== "nothing" && !stretch) {
+      say("Brush a stretch first: drag over the trace, or type from and to.");
+      return;
+    }
+    const axis = state.chosen.axis ?? AXIS;
+    const [from, to] = stretch ?? [0, 0];
+    const marks = await attempt(() => post<Marks>("/api/mark", { log, axis, as, from, to, seconds: this.about?.seconds ?? 0 }));
+    if (!marks || !this.about) return;
+    this.about.marks = marks;
+    this.marked(marks);
+    say(`written to ${axis}`);
+    this.marking = state.chosen.axis === axis;
+    state.chosen.axis = axis;
+    await attempt(refresh);
+    choose({ axis });
+    this.marking = false;
+  }
+
+  private marked(marks: Marks): void {
+    const { about } = this;
+    if (!about) return;
+    const bands: Band[] = [];
+    const [first, last] = marks.crop ?? [0, about.seconds];
+    if (first > 0) bands.push({ from: 0, to: first, kind: "crop" });
+    if (last < about.seconds) bands.push({ from: last, to: about.seconds, kind: "crop" });
+    for (const [from, to] of marks.fit) bands.push({ from, to, kind: "fit" });
+    const validate = marks.validate_all ? [[first, last] as Stretch] : marks.validate;
+    for (const [from, to] of validate) bands.push({ from, to, kind: "validate" });
+    for (const out of about.excluded) bands.push({ from: out.from_s, to: out.to_s, kind: "excluded" });
+    const ticks = about.findings.filter((own) => own.at_s !== null).map((own): Tick => ({ at: own.at_s!, kind: own.severity === "warning" ? "warning" : "note", text: own.message }));
+    this.trace?.mark(bands, ticks);
+  }
+
+  private columns(about: About): HTMLElement {
+    const list = h("ul", { class: "columns-list" });
+    put(list, ...about.columns.slice(0, 40).map((column) => this.column(column)));
+    const kind = choice([["", about.motion || "kind?"], ["linear", "linear"], ["rotary", "rotary"]], "", (value) => { if (value) void this.correct({ role: "kind", unit: value }); });
+    kind.setAttribute("aria-label", "Kind of motion");
+    return h("section", {}, h("h3", {}, "Columns"), h("p", { class: "muted small" }, `Click one to correct it; it is written to ${state.chosen.axis ?? AXIS}.`), list, h("div", { class: "row small" }, "The axis is ", kind));
+  }
+
+  private column(column: Column): HTMLElement {
+    const item = h("li", {});
+    const name = column.name || `column ${column.number}`;
+    const closed = () => put(item, h("button", { class: `column ${column.role ? "used" : ""}`, title: column.reason, onclick: () => open() }, h("span", { class: "name" }, name), h("span", { class: `role ${column.assumed ? "assumed" : ""}` }, column.role ? `${column.role}${column.unit ? ` · ${column.unit}` : ""}${column.assumed ? " (assumed)" : ""}` : "not used")));
+    const open = () => {
+      let role = column.role ?? "force";
+      // `A, scale 96 N/A, sign inverted` as it was understood.
+      const [own = "", ...more] = column.unit.split(", ");
+      const unitField = h("input", { type: "text", value: own, placeholder: "mm, N, A, 1/min", spellcheck: "false" });
+      const scaleField = h("input", { type: "text", value: more.find((part) => part.startsWith("scale "))?.slice(6) ?? "", placeholder: "96 N/A", spellcheck: "false" });
+      const invert = h("input", { type: "checkbox", checked: more.includes("sign inverted") });
+      const names = this.about?.columns.filter((other) => other.name === column.name).length ?? 2;
+      const save = (event: Event) => {
+        event.preventDefault();
+        void this.correct({ role, column: column.number, name: names === 1 ? column.name : null, unit: unitField.value, scale: scaleField.value, invert: invert.checked });
+      };
+      const roleField = choice(ROLES, role, (value) => { role = value; });
+      put(item, h("form", { class: "correct", onsubmit: save, onkeydown: (event: KeyboardEvent) => { if (event.key === "Escape") closed(); } }, h("strong", {}, name), h("small", { class: "muted" }, column.reason), field("is the", roleField), field("in the unit", unitField), field("times (where the force is a current or voltage)", scaleField), h("label", { class: "check" }, invert, " sign inverted"), h("div", { class: "row" }, h("button", { class: "primary", type: "submit" }, "Write"), h("button", { type: "button", class: "quiet", onclick: closed }, "Cancel"))));
+      roleField.focus();
+    };
+    closed();
+    return item;
+  }
+
+  private async correct(what: Record<string, unknown>): Promise<void> {
+    const axis = state.chosen.axis ?? AXIS;
+    const changes = await attempt(() => post<string[]>("/api/correct", { log: state.chosen.log, axis, ...what }));
+    if (!changes) return;
+    say(`${axis}: ${changes.join("; ") || "as it was"}`);
+    await refresh();
+    choose({ axis });
+  }
+
+  private findings(about: About): HTMLElement {
+    const list = about.findings.map((own) => h("li", { class: own.severity }, h("button", { class: "quiet", disabled: own.at_s === null, onclick: () => { const at = own.at_s ?? 0; const beside = Math.max(about.seconds / 50, 1e-3); this.trace?.show(at - beside, at + beside); } }, h("code", {}, own.code)), h("span", {}, own.message)));
+    return h("section", {}, h("h3", {}, "Findings"), list.length ? h("ul", { class: "findings" }, ...list) : h("p", { class: "muted" }, about.refused ? "Not yet." : "Nothing is wrong with this log."));
+  }
+
+  private drawChecked(): void {
+    const { log, axis } = state.chosen;
+    const job = latest("check", (own) => own.about === log);
+    const ask = h("button", { disabled: isRunning(job) || !log, onclick: () => void begin({ kind: "check", log, axis }) }, "What can it determine?");
+    put(this.checked, h("h3", {}, "Check"), isRunning(job) ? progress(job!) : ask, job && !isRunning(job) ? h("div", {}, job.state === "failed" ? printed(job) : h("pre", { tabindex: "0", class: "small" }, job.text.trimEnd())) : null);
+  }
+}

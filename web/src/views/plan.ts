@@ -1,0 +1,114 @@
+// The motion to record, within the limits of the axis, with the intervals to expect.
+
+import { get, open, type Channel } from "../api";
+import { commandLine } from "../command";
+import { attempt, choice, field, h, put } from "../dom";
+import { editor } from "../editor";
+import { begin, isRunning, latest, printed, progress, verdict } from "../jobs";
+import { short } from "../numbers";
+import { exists, files, onChange, state } from "../state";
+import { Trace } from "../trace";
+
+interface Expected { name: string; interval_percent: number; interval90_percent: number }
+
+export class PlanView {
+  readonly element = h("div", { class: "view plan" });
+  private readonly command = commandLine();
+  private readonly form = h("section", { class: "form", "aria-label": "What is planned" });
+  private readonly work = h("section", { "aria-label": "Work", "aria-live": "polite" });
+  private readonly found = h("section", { class: "found", "aria-label": "The plan" });
+  private readonly stop: () => void;
+  private axis = state.chosen.axis ?? files("axis")[0]?.name ?? "";
+  private model = "";
+  private time = "9";
+  private out = "plan";
+  private trace: Trace | null = null;
+  private shown = "";
+
+  constructor() {
+    put(this.element, h("div", { class: "head" }, h("h2", {}, "Plan"), h("span", { class: "muted" }, "the motion to record, and the intervals to expect of it")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.work, this.found)), this.command.element);
+    this.stop = onChange((reason) => {
+      if (reason === "files") this.drawForm();
+      this.drawWork();
+      if (reason !== "jobs") void this.drawPlan();
+    });
+    this.drawForm();
+    this.drawWork();
+    void this.drawPlan();
+  }
+
+  end(): void {
+    this.stop();
+    this.trace?.end();
+  }
+
+  private asked() {
+    return { kind: "plan", axis: this.axis, time: this.time ? Number(this.time) : null, model: this.model || null, out: this.out };
+  }
+
+  private drawForm(): void {
+    const axes = files("axis");
+    if (!axes.some((file) => file.name === this.axis)) this.axis = axes[0]?.name ?? "";
+    if (!this.axis) {
+      put(this.form, h("p", {}, "A plan needs an axis file with the limits of the machine. Correct a column of a log, and one is begun; then add its limits here:"), h("pre", { tabindex: "0" }, "[limits]\nstroke = [\"-100 mm\", \"100 mm\"]\nspeed = \"0.2 m/s\"\nacceleration = \"6 m/s2\"\nrated_force = \"150 N\"\nmass = \"10 kg\""));
+      this.command.show("stiction plan axis.toml --out plan");
+      return;
+    }
+    const again = () => this.command.of(this.asked());
+    const time = h("input", { type: "number", min: "2", max: "600", step: "1", value: this.time, oninput: () => { this.time = time.value; again(); } });
+    const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); again(); } });
+    const place = h("div", {});
+    put(
+      this.form,
+      field("Axis file", choice(axes.map((file): [string, string] => [file.name, file.name]), this.axis, (value) => { this.axis = value; this.drawForm(); })),
+      place,
+      field("For what this model leaves open", choice([["", "none: for the nameplate"], ...files("model").map((file): [string, string] => [file.name, file.name])], this.model, (value) => { this.model = value; again(); })),
+      field("Longest motion [s]", time),
+      field("Folder for the plan", out),
+      h("button", { class: "primary wide", onclick: () => void begin(this.asked()) }, "Plan"),
+    );
+    void editor(this.axis, "Limits and all else of the axis file").then((own) => put(place, own));
+    again();
+  }
+
+  private drawWork(): void {
+    const job = latest("plan");
+    put(this.work, job && isRunning(job) ? progress(job) : job && job.state === "failed" ? printed(job) : job ? verdict(job) : null);
+  }
+
+  private async drawPlan(): Promise<void> {
+    const name = `${this.out}/setpoints.csv`;
+    const file = state.workspace.files.find((own) => own.name === name);
+    const now = JSON.stringify([name, file?.modified]);
+    if (now === this.shown) return;
+    this.shown = now;
+    this.trace?.end();
+    this.trace = null;
+    if (!file) {
+      put(this.found, h("p", { class: "muted" }, "Not planned yet. A plan takes some seconds and says what to expect of every parameter before the machine moves."));
+      return;
+    }
+    const job = latest("plan", (own) => own.folder === this.out && own.state === "done");
+    const planned = job?.json as { expected?: Expected[] } | undefined;
+    put(
+      this.found,
+      h("div", { class: "row" }, h("button", { onclick: () => void attempt(() => open(`${this.out}/report.html`, "show")) }, "Full report"), h("button", { onclick: () => void attempt(() => open(name, "save")) }, "Set points as CSV"), h("button", { class: "quiet", onclick: () => void attempt(() => open(this.out, "zip")) }, "Download as zip")),
+      h("div", { class: "runs" }),
+      planned?.expected ? expected(planned.expected) : null,
+      job ? printed(job) : null,
+    );
+    await attempt(async () => {
+      if (!exists(name)) return;
+      const table = await get<{ from: number | null; to: number | null; channels: Channel[] }>("/api/table", { name });
+      const place = this.found.querySelector(".runs");
+      if (!place || table.from === null || table.to === null) return;
+      this.trace = new Trace({ source: { name, table: true }, panels: table.channels.slice(0, 3).map((channel) => ({ title: channel.name, channels: [channel] })), from: table.from, to: table.to, height: 110, label: "Set points" });
+      put(place, this.trace.element);
+    });
+  }
+}
+
+function expected(all: Expected[]): HTMLElement {
+  const rows = all.map((own) => h("tr", {}, h("th", { scope: "row" }, own.name.replaceAll("_", " ")), h("td", { class: "number" }, `± ${short(own.interval_percent)} %`), h("td", { class: "number" }, `± ${short(own.interval90_percent)} %`)));
+  return h("table", {}, h("caption", {}, "95 % intervals to expect"), h("thead", {}, h("tr", {}, ...["parameter", "on half of such axes within", "on nine of ten within"].map((text) => h("th", { scope: "col" }, text)))), h("tbody", {}, ...rows));
+}

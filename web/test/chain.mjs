@@ -1,0 +1,213 @@
+// The whole chain in a browser, as an engineer goes through it with a mouse: drop a log, correct a unit, brush, identify,
+// study, export, and a plan that is stopped. What it leaves is compared byte for byte with what the lines that the page shows leave on the command line,
+// every view is looked through by axe, and pictures of all of them are kept.
+//
+//     node test/chain.mjs STICTION CHROMIUM PICTURES
+
+import { execFileSync, spawn } from "node:child_process";
+import { copyFileSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { chromium } from "playwright-core";
+
+const [program, browserPath, pictures] = process.argv.slice(2).map((path) => resolve(path));
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const folder = mkdtempSync(join(tmpdir(), "stiction-studio-"));
+const [space, twin] = ["page", "typed"].map((name) => join(folder, name));
+mkdirSync(space);
+mkdirSync(twin);
+mkdirSync(pictures, { recursive: true });
+const began = Date.now();
+const passed = (what) => console.log(`    ${((Date.now() - began) / 1000).toFixed(1)} s: ${what}`);
+
+function equal(found, wanted, what) {
+  if (found !== wanted) throw new Error(`${what}: found ${found}, not ${wanted}`);
+}
+
+/** A recording with a unit that is wrong in its header: what is called cm are mm. */
+function recording() {
+  execFileSync(program, ["demo", "--quiet", "--out", join(folder, "demo")]);
+  const text = readFileSync(join(folder, "demo", "demo.csv"), "utf8");
+  writeFileSync(join(folder, "run.csv"), text.replace("Position [mm]", "Position [cm]"));
+}
+
+/** The server, and the address that it prints. */
+async function serve() {
+  const server = spawn(program, ["studio", space, "--no-open", "--json"], { stdio: ["ignore", "pipe", "inherit"] });
+  let said = "";
+  for await (const part of server.stdout) {
+    said += part;
+    if (said.trimEnd().endsWith("}")) break;
+  }
+  return { server, address: JSON.parse(said).address };
+}
+
+/** Files of two folders, but for the seconds that work took. */
+function compare(a, b, what) {
+  const names = readdirSync(a, { recursive: true }).filter((name) => statSync(join(a, name)).isFile()).sort();
+  const others = readdirSync(b, { recursive: true }).filter((name) => statSync(join(b, name)).isFile()).sort();
+  equal(JSON.stringify(names), JSON.stringify(others), `${what}: files`);
+  for (const name of names) {
+    const read = (dir) => {
+      const text = readFileSync(join(dir, name), "latin1");
+      return name.endsWith("result.json") ? text.replace(/"wall_s": [0-9.e-]+/g, '"wall_s": 0') : text;
+    };
+    if (read(a) !== read(b)) throw new Error(`${what}: ${name} is not what the command line writes`);
+  }
+  return names.length;
+}
+
+const { server, address } = await (recording(), serve());
+const browser = await chromium.launch({ executablePath: browserPath, args: ["--no-sandbox", "--disable-gpu", "--force-color-profile=srgb", "--font-render-hinting=none"] });
+try {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: "light", permissions: ["clipboard-read", "clipboard-write"] });
+  const page = await context.newPage();
+  const wrong = [];
+  page.on("pageerror", (error) => wrong.push(String(error)));
+  page.on("console", (message) => { if (message.type() === "error") wrong.push(message.text()); });
+  // Whatever is not of this page is not asked for, as with the network unplugged.
+  await page.route((url) => url.origin !== new URL(address).origin && url.protocol.startsWith("http"), (route) => { wrong.push(`asked for ${route.request().url()}`); return route.abort(); });
+
+  // A page that was just built is tried without building the program anew: STICTION_ASSETS=../crates/studio/assets.
+  const assets = process.env.STICTION_ASSETS;
+  if (assets) await context.route(/\/studio\.(js|css)$/, (route) => route.fulfill({ path: join(assets, new URL(route.request().url()).pathname) }));
+
+  /** Looks through the view with axe and keeps a picture of it. */
+  async function look(name) {
+    await page.waitForTimeout(250);
+    await page.screenshot({ path: join(pictures, `${name}.png`) });
+    await page.evaluate(axe);
+    const found = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+    const bad = found.violations.filter((one) => ["serious", "critical"].includes(one.impact));
+    if (bad.length) throw new Error(`${name}: ${bad.map((one) => `${one.id}: ${one.nodes.map((node) => node.html.slice(0, 160)).join(" | ")}`).join("\n")}`);
+    passed(name);
+  }
+  const shown = () => page.locator(".command code").innerText();
+  /** Types the line of the page in the other folder. */
+  function typed(line) {
+    equal(line.startsWith("stiction "), true, `a command line: ${line}`);
+    try {
+      execFileSync("sh", ["-c", line.replace(/^stiction/, '"$0"'), program], { cwd: twin, stdio: ["ignore", "ignore", "pipe"] });
+    } catch (error) {
+      if (error.status > 1) throw new Error(`${line}: ${error.stderr}`);
+    }
+  }
+
+  await page.goto(address);
+  await page.getByText("Begin with a log").waitFor();
+  equal(await page.evaluate(() => location.hash.includes("token")), false, "the token is gone from the address");
+  await look("begin");
+
+  // A log is dropped.
+  const dropped = Date.now();
+  await page.locator("input[type=file]").setInputFiles(join(folder, "run.csv"));
+  await page.locator(".map canvas").nth(1).waitFor();
+  passed(`from the drop of 36 001 rows to the maps ${Date.now() - dropped} ms`);
+  equal(readFileSync(join(space, "run.csv"), "utf8"), readFileSync(join(folder, "run.csv"), "utf8"), "the log in the folder");
+
+  // Its unit is corrected.
+  await page.getByRole("button", { name: "Position" }).click();
+  await page.getByLabel("in the unit").fill("mm");
+  await page.getByRole("button", { name: "Write", exact: true }).click();
+  await page.getByRole("button", { name: /Position.*position · mm/ }).waitFor();
+  equal(/position = .*unit = "mm"/.test(readFileSync(join(space, "axis.toml"), "utf8")), true, "the unit in axis.toml");
+
+  // A stretch is brushed with the mouse and cropped to, another typed and held out.
+  const box = await page.locator(".trace .u-over").first().boundingBox();
+  await page.mouse.move(box.x + box.width * 0.02, box.y + 40);
+  await page.mouse.down();
+  await page.mouse.move(box.x + box.width * 0.97, box.y + 40, { steps: 5 });
+  await page.mouse.up();
+  await page.getByRole("button", { name: "Crop" }).click();
+  await page.getByText("written to axis.toml", { exact: true }).waitFor();
+  await page.getByLabel("Brush from, s").fill("6.5");
+  await page.getByLabel("Brush to, s").fill("8");
+  await page.getByLabel("Brush to, s").press("Enter");
+  await page.getByRole("button", { name: "Validate" }).click();
+  for (let tries = 0; !readFileSync(join(space, "axis.toml"), "utf8").includes('validate = [["6.5 s", "8 s"]]'); tries += 1) {
+    if (tries > 50) throw new Error(`not marked: ${readFileSync(join(space, "axis.toml"), "utf8")}`);
+    await page.waitForTimeout(100);
+  }
+  await page.locator(".map canvas").nth(1).waitFor();
+  await look("log");
+  await page.emulateMedia({ colorScheme: "dark" });
+  await look("log-dark");
+  await page.emulateMedia({ colorScheme: "light" });
+  // The keyboard alone moves along it.
+  await page.locator(".trace").focus();
+  for (const key of ["+", "+", "ArrowRight", "-", "Home"]) await page.keyboard.press(key);
+
+  for (const name of ["run.csv", "axis.toml"]) copyFileSync(join(space, name), join(twin, name));
+
+  // It is identified.
+  await page.getByRole("button", { name: /Identify friction/ }).click();
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction identify"));
+  const identify = await shown();
+  equal(identify, "stiction identify run.csv --axis axis.toml --out result", "the line");
+  await page.getByRole("button", { name: "Identify", exact: true }).last().click();
+  // A reload finds the work again, and so does a second tab.
+  await page.locator(".progress, .banner").first().waitFor();
+  await page.reload();
+  await page.getByText(/May be used for compensation|Not to be used/).waitFor({ timeout: 120_000 });
+  await page.locator(".residual canvas").first().waitFor();
+  await look("identify");
+  typed(identify);
+  passed(`identified: ${compare(join(space, "result"), join(twin, "result"), "identify")} files as the command line writes them`);
+
+  // It is simulated with and without compensation.
+  await page.getByRole("button", { name: "Study" }).click();
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction simulate"));
+  const simulate = await shown();
+  await page.getByRole("button", { name: "Simulate", exact: true }).click();
+  await page.locator(".runs canvas").first().waitFor({ timeout: 120_000 });
+  await look("study");
+  typed(simulate);
+  passed(`simulated: ${compare(join(space, "result/study"), join(twin, "result/study"), "simulate")} files`);
+
+  // The code is taken.
+  await page.getByRole("button", { name: "Export" }).first().click();
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction export"));
+  const line = await shown();
+  await page.getByRole("button", { name: "Export", exact: true }).last().click();
+  const save = page.getByRole("button", { name: "Download as zip" });
+  await save.waitFor();
+  await look("export");
+  const [download] = await Promise.all([page.waitForEvent("download"), save.click()]);
+  equal(download.suggestedFilename(), "c.zip", "the name of the zip");
+  equal(readFileSync(await download.path()).subarray(0, 2).toString(), "PK", "a zip");
+  typed(line);
+  passed(`exported: ${compare(join(space, "result/c"), join(twin, "result/c"), "export")} files`);
+
+  // A motion is planned, once the axis file has limits, which are typed on the page.
+  await page.getByRole("button", { name: "Plan" }).first().click();
+  await page.getByText("Limits and all else of the axis file").click();
+  const area = page.locator("textarea");
+  await area.fill(`${await area.inputValue()}\n[limits]\nstroke = ["-100 mm", "100 mm"]\nspeed = "0.2 m/s"\nacceleration = "6 m/s2"\nrated_force = "150 N"\nmass = "10 kg"\n`);
+  await page.getByRole("button", { name: /^Write axis.toml/ }).click();
+  await page.getByText("axis.toml is written").waitFor();
+  await page.getByLabel("Longest motion [s]").fill("3");
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.includes("--time 3s"));
+  const plan = await shown();
+  await page.getByRole("button", { name: "Plan", exact: true }).last().click();
+  // A plan takes too long here: its progress is seen, and it is stopped.
+  await page.locator("progress[aria-label*=simulating]").waitFor({ timeout: 120_000 });
+  await look("plan");
+  await page.getByRole("button", { name: "Stop and keep what was found" }).click();
+  await page.getByText("Stopped: what was found until then").waitFor({ timeout: 120_000 });
+  passed(`planned and stopped: ${plan}`);
+
+  // Another tab has the same session; a page without it is told so.
+  const tab = await context.newPage();
+  await tab.goto(`${new URL(address).origin}/#view=export`);
+  await tab.getByRole("heading", { name: "Export" }).waitFor();
+  const stranger = await (await browser.newContext()).newPage();
+  await stranger.goto(new URL(address).origin);
+  await stranger.getByText("This browser has no session here.").waitFor();
+  if (wrong.length) throw new Error(`errors on the page: ${wrong.join("; ")}`);
+  passed("done");
+} finally {
+  await browser.close();
+  server.kill();
+  rmSync(folder, { recursive: true, force: true });
+}
