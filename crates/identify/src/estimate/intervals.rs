@@ -19,7 +19,7 @@ use crate::held_delay;
 use crate::lag;
 use crate::law::physical::physical;
 use crate::law::transmitted::flag_parts_of_an_open_weight;
-use crate::misfit::{Divisions, Misfit};
+use crate::misfit::{Cause, Divisions, Misfit};
 use crate::parameter::physical::{Physical, propagate};
 use crate::parameter::{IntervalKind, Parameter, quantile};
 use crate::separable::logs::Logs;
@@ -57,13 +57,14 @@ pub fn intervals(
     );
     let before = state_space::rests_much(record).then(|| estimate.clone());
     let between = of_the_force(&objective, optimum, &raw, estimate, observer);
-    // Counts say more than the force of the one axis that the law describes; of another they are as wrong, and surer.
+    // Counts say more than the force of the one axis that the law describes; of another they are as wrong, and surer. A shape that
+    // is not that of the law may be what filters make of rests, which the counts then tell.
     let cause = estimate.misfit.as_ref().and_then(Misfit::cause);
     match before {
         Some(_) if !estimate.disagreements.is_empty() => {
             state_space::flag_what_rests_spoil(estimate, "are not those of one axis")
         }
-        Some(before) if cause.is_none() => {
+        Some(before) if matches!(cause, None | Some(Cause::Shape)) => {
             of_the_counts(record, before, &between, estimate, observer);
         }
         _ => {}
@@ -106,13 +107,18 @@ fn of_the_counts(
         let why = "are those of a force that lags behind the logged one";
         state_space::flag_what_rests_spoil(estimate, why);
     };
+    let misfit = estimate.fitted.misfit.as_ref();
+    let other_shape = misfit.is_some_and(|misfit| misfit.cause().is_some());
     match counts {
         Counts::Stated => {
-            before.fitted.misfit = estimate.fitted.misfit.take();
+            let misfit = estimate.fitted.misfit.take();
+            before.fitted.misfit = misfit.filter(|_| !other_shape);
             before.fitted.counts = estimate.fitted.counts;
             *estimate = before;
             estimate.fitted.of_the_counts = true;
         }
+        // What a fit of another shape is worth is known already.
+        _ if other_shape => {}
         Counts::Doubted(doubted) => {
             doubted.flag(estimate);
             estimate.fitted.likelier_exponent = doubted.exponent();
