@@ -18,7 +18,7 @@ pub struct Settings {
     /// Part of the machines in which nothing changes that may be alarmed within the horizon, 0 to 1. Default 0.035: of worlds that
     /// are not quite what the test takes them for, at most 0.05.
     pub alarmed: f64,
-    /// The horizon, s. Default 60 days.
+    /// The horizon, s; at least the logs of the longest window. Default 60 days.
     pub horizon: f64,
     /// Logs from which the reference of a machine is taken, at least 3. Default 10.
     pub reference: usize,
@@ -57,9 +57,10 @@ impl Limits {
     /// The limits for one of so many numbers that are looked at on each machine.
     pub fn of(noise: &Noise, numbers: usize, settings: &Settings) -> Self {
         let reference = settings.reference.max(3);
+        // Every window is looked at once at least, however seldom there is a log.
         let logs = (settings.horizon / noise.spacing)
             .ceil()
-            .max(WINDOWS[0] as f64);
+            .max(WINDOWS[WINDOWS.len() - 1] as f64);
         let logs = (logs as usize).min(MOST_LOGS);
         let part = settings.alarmed / numbers.max(1) as f64;
         let mut random = Random::new(settings.seed);

@@ -5,7 +5,7 @@ use std::io::{self, Read, Seek};
 use std::path::Path;
 
 use crate::sniff::{Format, sniff};
-use crate::text::{self, TextOptions};
+use crate::text::{self, TextOptions, unit};
 use crate::{Error, Kind, Limits, Table, stamps, watch};
 
 /// How a file is to be read, where that does not follow from the file.
@@ -134,8 +134,22 @@ fn read<'a>(
     };
     watch::tell(path, bytes, bytes);
     let mut table = table?;
+    if format != Format::Text {
+        take_units_of_names(&mut table);
+    }
     stamps::join(&mut table);
     Ok(table)
+}
+
+/// A table that was written as it stood in a program has its units where a text has them: `Position [mm]`.
+fn take_units_of_names(table: &mut Table) {
+    for column in table.columns.iter_mut().filter(|c| c.unit.is_none()) {
+        if let (name, Some(unit)) = unit::split(&column.name)
+            && unit::is_known(&unit)
+        {
+            (column.name, column.unit) = (name, Some(unit));
+        }
+    }
 }
 
 /// The file of a text, of which every byte is handed on as it is read.

@@ -232,6 +232,9 @@ fn joined(
             continue;
         };
         let file = given.of(path);
+        if file == path {
+            return Err(itself(axis, column.from.role, path));
+        }
         let other = match before.take() {
             Some((last, read)) if last == given => read,
             _ => {
@@ -259,6 +262,17 @@ fn joined(
         }
     }
     Ok((log, entries))
+}
+
+/// The refusal of a file that is to be another one and is the log.
+fn itself(axis: &Axis, role: Role, log: &Path) -> Error {
+    let key = format!("columns.{role}.file");
+    let found = format!("{} is the log itself", log.display());
+    let allowed = "another file; a column of the log itself goes without file";
+    match axis.refuse(&key, found.clone(), allowed, Code::Usage) {
+        Some(error) => error.into(),
+        None => Error::usage(found, allowed),
+    }
 }
 
 /// The refusal of another file, at the key that names it where it is not of one of its own.

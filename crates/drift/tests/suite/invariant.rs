@@ -35,6 +35,31 @@ fn found(courses: &[Vec<Point>]) -> Vec<Vec<(usize, usize, Kind)>> {
     slices.iter().map(of).collect()
 }
 
+/// However far logs are apart, every window has a limit, and a fleet in which nothing changes is quiet.
+#[test]
+fn seldom_logs_alarm_no_quiet_machine() {
+    let daily = courses(12, 3, Event::Nothing);
+    for apart in [7.0, 31.0, 365.0] {
+        let later = |p: &Point| Point {
+            time: apart * p.time,
+            ..*p
+        };
+        let all: Vec<Vec<Point>> = daily
+            .iter()
+            .map(|c| c.iter().map(later).collect())
+            .collect();
+        let slices: Vec<&[Point]> = all.iter().map(Vec::as_slice).collect();
+        let noise = Noise::of(&slices).unwrap();
+        let limits = Limits::of(&noise, 1, &Settings::default());
+        assert!(
+            limits.of_window.iter().all(|limit| *limit > 0.0),
+            "{limits:?}"
+        );
+        let alarms: usize = found(&all).iter().map(Vec::len).sum();
+        assert!(alarms <= 1, "{alarms} alarms at {apart} days");
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(6))]
 

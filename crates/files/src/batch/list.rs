@@ -128,6 +128,7 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
     }
     let folder = file.parent().unwrap_or(Path::new(""));
     let mut seen: HashMap<PathBuf, u64> = HashMap::new();
+    let mut numbers = None;
     let mut out = Vec::new();
     for cells in rows {
         let cells = cells.map_err(broken)?;
@@ -158,6 +159,15 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
             let allowed = "a time in ISO 8601, as 2026-03-01T06:30:00Z, or a number of seconds";
             seconds_of(text).ok_or_else(|| refused(at("time"), format!("{text:?}"), allowed))
         });
+        if let Some(text) = cell("time") {
+            let number = text.parse::<f64>().is_ok();
+            if *numbers.get_or_insert(number) != number {
+                let allowed = "all times of a list in ISO 8601, or all as numbers of seconds";
+                let before = if number { "dates" } else { "seconds" };
+                let found = format!("{text:?} in a list whose times before it are {before}");
+                return Err(refused(at("time"), found, allowed));
+            }
+        }
         let temperature = cell("temperature").map(|text| {
             let number = text.parse().ok().filter(|x: &f64| x.is_finite());
             number.ok_or_else(|| refused(at("temperature"), format!("{text:?}"), "a number"))
@@ -201,7 +211,7 @@ mod tests {
     fn a_list_is_read_with_any_of_its_columns() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("list.csv");
-        let text = "\u{feff}Machine; path;time ;temperature;axis\nA 7;a.csv;2026-03-01;21.5;x.toml\n;\"b; c.csv\";12;;\n";
+        let text = "\u{feff}Machine; path;time ;temperature;axis\nA 7;a.csv;2026-03-01;21.5;x.toml\n;\"b; c.csv\";2026-03-02;;\n";
         std::fs::write(&file, text).unwrap();
         assert!(is_list(&file));
         let first = Listed {
@@ -213,7 +223,7 @@ mod tests {
         };
         let second = Listed {
             path: folder.path().join("b; c.csv"),
-            time: Some(12.0),
+            time: Some(1_772_409_600.0),
             ..Listed::default()
         };
         assert_eq!(read_list(&file).unwrap(), [first, second]);
@@ -227,6 +237,7 @@ mod tests {
             "path,machin\na.csv,A\n",
             "path,time,time\na.csv,1,2\n",
             "path,time\na.csv,1\nb.csv,yesterday\n",
+            "path,time\na.csv,1\nb.csv,2026-01-01\n",
             "path,time\na.csv\n",
             "path,machine\na.csv,A\n,A\n",
             "path\na.csv\n\nb.csv\na.csv\n",

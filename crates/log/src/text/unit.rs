@@ -37,7 +37,7 @@ pub(super) fn bare(cell: &str) -> &str {
 }
 
 /// Whether a text is a unit that can be converted; a bare number is an index.
-pub(super) fn is_known(text: &str) -> bool {
+pub(crate) fn is_known(text: &str) -> bool {
     let text = text.trim();
     text.chars().any(|c| c.is_alphabetic() || "%°‰".contains(c)) && Unit::parse(text).is_ok()
 }

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use std::collections::HashSet;
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use stiction_files::batch::{Listed, is_list, read_list};
 use stiction_files::shell;
@@ -35,7 +36,9 @@ pub(super) fn found(inputs: &[PathBuf], out: &Path) -> Result<Vec<Listed>, Error
         }
     }
     let mut seen = HashSet::new();
-    all.retain(|listed| seen.insert(listed.path.clone()));
+    // One log may have several paths.
+    let place = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    all.retain(|listed| seen.insert(place(&listed.path)));
     Ok(all)
 }
 
@@ -46,10 +49,24 @@ fn log(path: PathBuf) -> Listed {
     }
 }
 
-/// What is in a folder, and in those below it; hidden ones, links to folders and configuration are left out.
+/// Whether a folder is what a command of this program wrote.
+fn is_outcome(folder: &Path) -> bool {
+    let begins = |name: &str| {
+        let mut begin = String::new();
+        let file = fs::File::open(folder.join(name)).ok()?;
+        file.take(200).read_to_string(&mut begin).ok()?;
+        begin.contains("\"stiction.").then_some(())
+    };
+    ["result.json", "batch.json", "study.json", "drift.json"]
+        .into_iter()
+        .any(|name| folder.join(name).is_file() && begins(name).is_some())
+}
+
+/// What is in a folder, and in those below it; hidden ones, links to folders, configuration and what was written by a command of
+/// this program are left out.
 fn walk(folder: &Path, out: &Path, all: &mut Vec<Listed>) {
     let same = |a: &Path| Some(a.canonicalize().ok()? == out.canonicalize().ok()?);
-    if same(folder) == Some(true) {
+    if same(folder) == Some(true) || is_outcome(folder) {
         return;
     }
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();

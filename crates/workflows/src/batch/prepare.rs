@@ -64,7 +64,11 @@ impl OfAxis {
         let joined = self.axis.iter().flat_map(|axis| &axis.joined);
         let others = joined.filter_map(|column| column.file.as_ref());
         let of_each = others.filter(|other| other.of_one_log().is_none());
-        of_each.map(|other| other.of(log)).collect()
+        // One that names the log itself is refused where the log is read.
+        of_each
+            .map(|other| other.of(log))
+            .filter(|other| other != log)
+            .collect()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Limits that the user sets.
 
 use crate::error::Error;
+use stiction_log::Unit;
 
 /// On which side of a limit a level is beyond it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +64,20 @@ impl Limit {
         })
     }
 
-    /// The level over the limit where it is beyond it, 1 or more; `None` where not.
+    /// The same with its level in the unit of a number; `None` where that is of another kind.
+    pub(super) fn in_unit(&self, unit: &str) -> Option<Self> {
+        let Some(own) = &self.unit else {
+            return Some(self.clone());
+        };
+        let (own, wanted) = (Unit::parse(own).ok()?, Unit::parse(unit).ok()?);
+        (own.dimension() == wanted.dimension()).then(|| Self {
+            level: self.level * own.factor() / wanted.factor(),
+            unit: Some(unit.into()),
+            ..self.clone()
+        })
+    }
+
+    /// The level over the limit where it is beyond it, 1 or more; `None` where not. The limit is in the unit of the level.
     pub(super) fn over(&self, last: f64, reference: f64) -> Option<f64> {
         let allowed = match self.unit {
             Some(_) => self.level,
@@ -96,6 +110,12 @@ mod tests {
             (level.side, level.unit.as_deref()),
             (Side::Below, Some("N·s/m"))
         );
+        let same = level.in_unit("N*s/m").unwrap();
+        assert_eq!(same.over(25.0, 1.0), Some(2.0));
+        let kilo = Limit::read("static > 0.03 kN").unwrap();
+        let kilo = kilo.in_unit("N").unwrap();
+        assert!((kilo.level - 30.0).abs() < 1e-12);
+        assert_eq!(kilo.in_unit("m/s"), None);
         assert_eq!(level.over(60.0, 1.0), None);
         assert_eq!(level.over(25.0, 1.0), Some(2.0));
         for text in [

@@ -160,7 +160,7 @@ fn check(limits: &[Limit], courses: &Courses) -> Result<(), Error> {
         if let Some(unit) = limit
             .unit
             .as_ref()
-            .filter(|unit| !units.contains(&unit.as_str()))
+            .filter(|_| units.iter().all(|unit| limit.in_unit(unit).is_none()))
         {
             let found = format!(
                 "the limit {:?}: {} is not in {unit}",
@@ -230,23 +230,21 @@ fn exceeded(
     followed: &Followed,
     judged: &Judged,
 ) -> Vec<Alarm> {
-    let own = limits.iter().filter(|limit| {
-        limit.parameter == number.name
-            && limit.unit.as_ref().is_none_or(|unit| *unit == number.unit)
-    });
+    let own = limits.iter().filter(|limit| limit.parameter == number.name);
+    let own = own.filter_map(|limit| limit.in_unit(&number.unit));
     let relative = judged.measure == stiction_drift::Measure::Relative;
     let beyond = own.filter_map(|limit| {
         let over = limit.over(judged.last, judged.reference)?;
-        let (log, axis) = followed.logs.last()?.clone();
-        let time = followed.points.last()?.time;
+        let (since, found) = beyond_since(&followed.points, &limit, judged.reference);
+        let (log, axis) = followed.logs.get(found)?.clone();
         Some(Alarm {
             machine: machine.into(),
             parameter: number.name.clone(),
             law: number.law.clone(),
             unit: number.unit.clone(),
             kind: "limit".into(),
-            since: time,
-            found: time,
+            since: followed.points[since].time,
+            found: followed.points[found].time,
             log,
             axis,
             before: judged.reference,
@@ -262,4 +260,22 @@ fn exceeded(
         })
     });
     beyond.collect()
+}
+
+/// Since which log the median of the shortest window has been beyond a limit, without a break up to the last, and with which log
+/// of that window this was known.
+fn beyond_since(points: &[Point], limit: &Limit, reference: f64) -> (usize, usize) {
+    let logs = stiction_drift::WINDOWS[0].min(points.len());
+    let is_beyond = |begin: &usize| {
+        let mut values: Vec<f64> = points[*begin..begin + logs]
+            .iter()
+            .map(|point| point.value)
+            .collect();
+        values.sort_by(f64::total_cmp);
+        limit.over(values[logs / 2], reference).is_some()
+    };
+    let last = points.len() - logs;
+    let since = (0..=last).rev().take_while(is_beyond).last();
+    let since = since.unwrap_or(last);
+    (since, since + logs - 1)
 }

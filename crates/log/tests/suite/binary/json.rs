@@ -20,6 +20,27 @@ fn read(text: &str) -> Result<Table, Error> {
     read_within(text, 1 << 20)
 }
 
+/// A table keeps the headers of the program that wrote it: units behind names are taken, indices and words are names.
+#[test]
+fn units_stand_behind_names() {
+    let text =
+        "[{\"t [s]\": 0, \"Position (mm)\": 1, \"q [0]\": 2, \"v (left)\": 3, \"i [Ticks]\": 4}]";
+    let table = read(text).unwrap();
+    let columns: Vec<(&str, Option<&str>)> = table
+        .columns
+        .iter()
+        .map(|c| (c.name.as_str(), c.unit.as_deref()))
+        .collect();
+    let expected = [
+        ("t", Some("s")),
+        ("Position", Some("mm")),
+        ("q [0]", None),
+        ("v (left)", None),
+        ("i [Ticks]", None),
+    ];
+    assert_eq!(columns, expected);
+}
+
 #[test]
 fn errors_name_line_byte_and_column() {
     for (text, row, byte, column, words) in [
