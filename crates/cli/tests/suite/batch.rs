@@ -188,7 +188,7 @@ fn a_list_says_of_which_machine_and_when_a_log_is() {
         "name = \"X axis\"\nkind = \"linear\"\n",
     )
     .unwrap();
-    let list = "path,machine,time,temperature,axis\nlogs/run0.csv,A7,2026-03-01T06:30:00Z,21.5,\nlogs/run1.csv,,12,,x.toml\n";
+    let list = "path,machine,time,temperature,axis\nlogs/run0.csv,A7,2026-03-01T06:30:00Z,21.5,\nlogs/run1.csv,,2026-03-02,,x.toml\n";
     fs::write(bench.path("list.csv"), list).unwrap();
     bench.run(&[
         "batch",
@@ -213,7 +213,12 @@ fn a_list_says_of_which_machine_and_when_a_log_is() {
     );
     assert_eq!(
         said(&rows[1]),
-        ("X axis".into(), Some(12.0), None, Some("x.toml".into()))
+        (
+            "X axis".into(),
+            Some(1_772_409_600.0),
+            None,
+            Some("x.toml".into())
+        )
     );
     fs::write(bench.path("list.csv"), "path,time\nlogs/run0.csv,noon\n").unwrap();
     let (code, out, err) = bench.run(&["batch", "list.csv", "--out", "out"]);

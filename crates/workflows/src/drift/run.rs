@@ -262,8 +262,8 @@ fn exceeded(
     beyond.collect()
 }
 
-/// Since which log the median of the shortest window has been beyond a limit, without a break up to the last, and with which log
-/// of that window this was known.
+/// Since which log a limit has been exceeded: the middle one of the first of the shortest windows whose medians are beyond it,
+/// without a break up to the last; and with which log of that window this was known.
 fn beyond_since(points: &[Point], limit: &Limit, reference: f64) -> (usize, usize) {
     let logs = stiction_drift::WINDOWS[0].min(points.len());
     let is_beyond = |begin: &usize| {
@@ -277,5 +277,5 @@ fn beyond_since(points: &[Point], limit: &Limit, reference: f64) -> (usize, usiz
     let last = points.len() - logs;
     let since = (0..=last).rev().take_while(is_beyond).last();
     let since = since.unwrap_or(last);
-    (since, since + logs - 1)
+    (since + logs / 2, since + logs - 1)
 }
