@@ -269,7 +269,12 @@ fn itself(axis: &Axis, role: Role, log: &Path) -> Error {
     let key = format!("columns.{role}.file");
     let found = format!("{} is the log itself", log.display());
     let allowed = "another file; a column of the log itself goes without file";
-    match axis.refuse(&key, found.clone(), allowed, Code::Usage) {
+    usage_at(axis, &key, found, allowed)
+}
+
+/// An error of usage at a key of the axis file, where that has one.
+fn usage_at(axis: &Axis, key: &str, found: String, allowed: &'static str) -> Error {
+    match axis.refuse(key, found.clone(), allowed, Code::Usage) {
         Some(error) => error.into(),
         None => Error::usage(found, allowed),
     }
@@ -323,10 +328,7 @@ pub(crate) fn refuse_several(axis: &Axis, logs: usize) -> Result<(), Error> {
     );
     let allowed = "a file for each log by its name, such as \"{log}_force.csv\" in the folder of log.csv, or one log";
     let key = format!("columns.{}.file", joined.from.role);
-    match axis.refuse(&key, found.clone(), allowed, Code::Usage) {
-        Some(error) => Err(error.into()),
-        None => Err(Error::usage(found, allowed)),
-    }
+    Err(usage_at(axis, &key, found, allowed))
 }
 
 /// Reads every file of a list and maps it by the axis.
