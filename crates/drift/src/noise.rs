@@ -34,6 +34,8 @@ const LAGS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 const MEMORIES: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 /// Least differences that say something of a lag.
 const FEWEST: usize = 12;
+/// Least variance at a lag, as a part of the largest.
+const LEAST: f64 = 1e-3;
 /// Most deviations that are kept as their shape.
 const MOST_SHAPES: usize = 8192;
 
@@ -188,9 +190,12 @@ fn variances(courses: &[Vec<(f64, f64, f64)>], spacing: f64) -> Option<(f64, f64
     if largest == 0.0 {
         return Some((0.0, 0.0, spacing));
     }
+    seen.iter_mut().for_each(|(_, v)| *v /= largest);
+    // A lag at which nothing differs, as in numbers that repeat, would outweigh all others.
+    seen.retain(|(_, v)| *v > LEAST);
     let fits = MEMORIES.map(|memory| fitted(&seen, memory * spacing));
     let best = fits.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some((best.1, best.2, best.3))
+    Some((largest * best.1, largest * best.2, best.3))
 }
 
 /// Error, variance of what is new, variance of the wandering for a memory: least squares of the relative error, neither below 0.
@@ -198,14 +203,11 @@ fn fitted(seen: &[(f64, f64)], memory: f64) -> (f64, f64, f64, f64) {
     let part = |lag: f64| -libm::expm1(-lag / memory);
     let sum = |of: &dyn Fn(f64) -> f64| {
         seen.iter()
-            .map(|(lag, v)| of(part(*lag)) / (v * v).max(f64::MIN_POSITIVE))
+            .map(|(lag, v)| of(part(*lag)) / (v * v))
             .sum::<f64>()
     };
-    let with = |of: &dyn Fn(f64) -> f64| {
-        seen.iter()
-            .map(|(lag, v)| of(part(*lag)) / v.max(f64::MIN_POSITIVE))
-            .sum::<f64>()
-    };
+    let with =
+        |of: &dyn Fn(f64) -> f64| seen.iter().map(|(lag, v)| of(part(*lag)) / v).sum::<f64>();
     let (ones, mixed, squares) = (sum(&|_| 1.0), sum(&|g| g), sum(&|g| g * g));
     let (first, second) = (with(&|_| 1.0), with(&|g| g));
     let whole = ones * squares - mixed * mixed;
@@ -215,8 +217,7 @@ fn fitted(seen: &[(f64, f64)], memory: f64) -> (f64, f64, f64, f64) {
     );
     let alone = [both, (first / ones, 0.0), (0.0, second / squares)];
     let error = |(white, slow): (f64, f64)| -> f64 {
-        let off =
-            |(lag, v): &(f64, f64)| (white + slow * part(*lag)) / v.max(f64::MIN_POSITIVE) - 1.0;
+        let off = |(lag, v): &(f64, f64)| (white + slow * part(*lag)) / v - 1.0;
         seen.iter().map(|point| off(point) * off(point)).sum()
     };
     let allowed = alone

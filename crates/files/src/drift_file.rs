@@ -43,6 +43,9 @@ pub struct Table {
     pub logs: usize,
     /// Of these, left out since nothing was identified of them.
     pub failed: usize,
+    /// Of the others, those that name no machine: they are taken for logs of one.
+    #[serde(default)]
+    pub unnamed: usize,
 }
 
 /// What a parameter does where nothing changes. Sizes are parts of it where changes are relative, else in its unit.

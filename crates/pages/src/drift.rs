@@ -2,7 +2,7 @@
 
 use stiction_files::batch::date_of;
 use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry};
-use stiction_number::four_digits as short;
+use stiction_number::{counted, four_digits as short};
 
 /// Seconds of a day.
 pub(crate) const DAY: f64 = 86_400.0;
@@ -44,5 +44,32 @@ pub(crate) fn times(file: &DriftFile, alarm: &Alarm) -> [String; 2] {
     [alarm.since, alarm.found].map(|time| match file.timed {
         true => date_of(time),
         false => format!("log {}", (time / DAY).round()),
+    })
+}
+
+/// That logs name no machine.
+pub(crate) fn unnamed(file: &DriftFile) -> String {
+    let logs = file.input.unnamed;
+    format!(
+        "{} {} no machine (machine in the list of the batch, or name in the axis file): {} taken for one machine",
+        counted(logs, "log"),
+        if logs == 1 { "names" } else { "name" },
+        if logs == 1 { "it is" } else { "they are" },
+    )
+}
+
+/// Machines from which on one that creeps stands out of what all do by themselves.
+const FEW: usize = 5;
+
+/// That a slow change of one machine would look like what machines do by themselves, where there are few.
+pub(crate) fn few(file: &DriftFile) -> Option<String> {
+    let most = file.noise.iter().max_by_key(|noise| noise.machines)?;
+    (most.machines < FEW).then(|| {
+        format!(
+            "{} {} few to tell slow changes of one from what all do by themselves: a limit finds them, such as --limit \"{} > 1.3\"",
+            counted(most.machines, "machine"),
+            if most.machines == 1 { "is" } else { "are" },
+            most.parameter
+        )
     })
 }

@@ -22,29 +22,33 @@ fn table(folder: &Path, machines: u32, days: u32, step: bool) {
                 1.0
             };
             let value = 20.0 * changed * (1.0 + 0.01 * normal);
-            let coulomb = ParameterRow {
-                name: "coulomb".into(),
-                value: Some(value),
-                unit: "N".into(),
-                std: Some(0.1),
-                low: Some(value - 0.196),
-                high: Some(value + 0.196),
-                identifiable: true,
-                origin: "identified".into(),
-            };
             let row = LogRow {
                 path: format!("logs/m{machine}-{day:02}.csv"),
                 machine: Some(format!("M{machine}")),
                 time: Some(1_772_323_200.0 + 86_400.0 * f64::from(day)),
                 law: Some("lugre".into()),
                 key: format!("{machine} {day}"),
-                parameters: vec![coulomb],
+                parameters: vec![coulomb(value)],
                 ..LogRow::default()
             };
             out.add(&row).unwrap();
         }
     }
     out.end().unwrap();
+}
+
+/// Coulomb friction of that size, N, as it was identified.
+fn coulomb(value: f64) -> ParameterRow {
+    ParameterRow {
+        name: "coulomb".into(),
+        value: Some(value),
+        unit: "N".into(),
+        std: Some(0.1),
+        low: Some(value - 0.196),
+        high: Some(value + 0.196),
+        identifiable: true,
+        origin: "identified".into(),
+    }
 }
 
 fn run(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
@@ -110,6 +114,27 @@ fn what_is_quiet_is_said_and_ends_well() {
 }
 
 #[test]
+fn logs_without_a_machine_and_fleets_of_few_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let mut out = Results::begin(&at.join("results.parquet")).unwrap();
+    for k in 0..20 {
+        let row = LogRow {
+            path: format!("{k}.csv"),
+            law: Some("lugre".into()),
+            key: k.to_string(),
+            parameters: vec![coulomb(20.0 + 0.1 * f64::from(k % 3))],
+            ..LogRow::default()
+        };
+        out.add(&row).unwrap();
+    }
+    out.end().unwrap();
+    let (code, out, err) = run(at, &["drift", "results.parquet"]);
+    assert_eq!((code, err.as_str()), (0, ""));
+    insta::assert_snapshot!(out);
+}
+
+#[test]
 fn what_cannot_be_followed_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
@@ -126,6 +151,40 @@ fn what_cannot_be_followed_is_refused() {
             limit("coulom > 1.3"),
             limit("coulomb > 3 A"),
             refused(&["drift", "none.parquet"])
+        ]
+        .concat()
+    );
+    let batch = r#"{"schema": "stiction.batch/1", "version": "0", "status": "interrupted", "options": {"law": "lugre",
+        "method": "separable", "seed": "0", "asymmetric": "true", "axis": "my axis.toml"}, "inputs": ["logs"], "logs": 3,
+        "identified": 1, "trustworthy": 1, "taken": 0, "failed": []}"#;
+    std::fs::create_dir(at.join("half")).unwrap();
+    std::fs::write(at.join("half/batch.json"), batch).unwrap();
+    insta::assert_snapshot!("unfinished", refused(&["drift", "half/results.parquet"]));
+    let with = |change: &dyn Fn(&mut LogRow)| {
+        let row = |k: i32| {
+            let mut row = LogRow {
+                path: format!("{k}.csv"),
+                machine: Some("A".into()),
+                time: Some(1e9),
+                law: Some("lugre".into()),
+                key: k.to_string(),
+                parameters: vec![coulomb(20.0)],
+                ..LogRow::default()
+            };
+            change(&mut row);
+            row
+        };
+        let mut out = Results::begin(&at.join("other.parquet")).unwrap();
+        (0..20).for_each(|k| out.add(&row(k)).unwrap());
+        out.end().unwrap();
+        refused(&["drift", "other.parquet"])
+    };
+    insta::assert_snapshot!(
+        "numbers",
+        [
+            with(&|_| ()),
+            with(&|row| row.parameters[0].value = Some(1e200)),
+            with(&|row| row.temperature = Some(f64::INFINITY)),
         ]
         .concat()
     );

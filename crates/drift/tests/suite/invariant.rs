@@ -35,6 +35,23 @@ fn found(courses: &[Vec<Point>]) -> Vec<Vec<(usize, usize, Kind)>> {
     slices.iter().map(of).collect()
 }
 
+/// Numbers that repeat differ by nothing at some lags; the noise is theirs all the same, of any size.
+#[test]
+fn numbers_that_repeat_have_the_noise_that_they_show() {
+    for size in [1e-90, 1.0, 1e90] {
+        let point = |k: u32| Point {
+            time: DAY * f64::from(k),
+            value: size * (20.0 + 0.1 * f64::from(k % 3)),
+            std: 0.0,
+            temperature: None,
+        };
+        let course: Vec<Point> = (0..40).map(point).collect();
+        let noise = Noise::of(&[&course]).unwrap();
+        let whole = noise.scatter.hypot(noise.wandering);
+        assert!((0.002..0.02).contains(&whole), "{noise:?}");
+    }
+}
+
 /// However far logs are apart, every window has a limit, and a fleet in which nothing changes is quiet.
 #[test]
 fn seldom_logs_alarm_no_quiet_machine() {

@@ -30,7 +30,8 @@ const LONGEST_HEADER: u64 = 1 << 16;
 /// Largest list, bytes: some million logs.
 const LARGEST: u64 = 1 << 30;
 
-/// Whether a file is a list of logs, rather than a log: text whose first line has a cell `path`.
+/// Whether a file is a list of logs, rather than a log: text whose first line has a cell `path`, or nothing but other columns of a
+/// list, which is refused for what is missing.
 pub fn is_list(file: &Path) -> bool {
     // Opening a pipe would wait for ever.
     if !file.is_file() {
@@ -41,11 +42,10 @@ pub fn is_list(file: &Path) -> bool {
     };
     let mut line = String::new();
     let read = BufReader::new(opened.take(LONGEST_HEADER)).read_line(&mut line);
-    read.is_ok()
-        && line
-            .trim_start_matches('\u{feff}')
-            .split([',', ';', '\t'])
-            .any(|cell| named(cell, "path"))
+    let cells = || line.trim_start_matches('\u{feff}').split([',', ';', '\t']);
+    let any = |name: &str| cells().any(|cell| named(cell, name));
+    let only = || cells().all(|cell| COLUMNS.iter().any(|name| named(cell, name)));
+    read.is_ok() && (any("path") || (any("machine") || any("axis")) && only())
 }
 
 fn named(cell: &str, name: &str) -> bool {
@@ -125,6 +125,11 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
                 "each column once",
             ));
         }
+    }
+    if !places.contains_key("path") {
+        let found = "has no column path".to_string();
+        let allowed = "path, the log of each row, from the folder of the list";
+        return Err(refused("row 1: ".into(), found, allowed));
     }
     let folder = file.parent().unwrap_or(Path::new(""));
     let mut seen: HashMap<PathBuf, u64> = HashMap::new();
@@ -227,6 +232,8 @@ mod tests {
             ..Listed::default()
         };
         assert_eq!(read_list(&file).unwrap(), [first, second]);
+        std::fs::write(&file, "machine;time\nA;1\n").unwrap();
+        assert!(is_list(&file));
         std::fs::write(&file, "time,position,force\n0,0,0\n").unwrap();
         assert!(!is_list(&file) && !is_list(folder.path()) && !is_list(Path::new("nowhere.csv")));
     }
@@ -236,6 +243,7 @@ mod tests {
         let texts = [
             "path,machin\na.csv,A\n",
             "path,time,time\na.csv,1,2\n",
+            "machine,time\nA,1\n",
             "path,time\na.csv,1\nb.csv,yesterday\n",
             "path,time\na.csv,1\nb.csv,2026-01-01\n",
             "path,time\na.csv\n",

@@ -1,7 +1,8 @@
 //! The logs of a `results.parquet` that is there.
 
 use super::row::{LogRow, ParameterRow};
-use super::table::COLUMNS;
+use super::summary::SCHEMA;
+use super::table::{COLUMNS, KINDS, Kind};
 use crate::error::Error;
 use std::path::Path;
 use stiction_codes::Code;
@@ -16,24 +17,15 @@ pub fn read_results(
     mut take: impl FnMut(LogRow) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let columns = read_cells(path, &COLUMNS, Limits::default())?;
+    let columns = checked(path, &columns)?;
     let of = |name: &str| {
-        let place = COLUMNS.iter().position(|column| *column == name)?;
-        columns[place].as_ref()
+        let place = COLUMNS.iter().position(|column| *column == name);
+        columns[place.expect("a name of the columns")]
     };
-    let needed = |name: &str| {
-        of(name).ok_or_else(|| Error::Config {
-            file: path.to_path_buf(),
-            place: format!("column {name}: "),
-            found: "is not there".into(),
-            allowed: "the table that stiction batch writes".into(),
-        })
-    };
-    let paths = needed("path")?;
-    let keys = needed("key")?;
-    needed("parameter")?;
-    let text = |name: &str, row: usize| of(name).and_then(|c| c.text(row)).map(String::from);
-    let number = |name: &str, row: usize| of(name).and_then(|c| c.number(row));
-    let flag = |name: &str, row: usize| of(name).and_then(|c: &Cells| c.flag(row));
+    let (paths, keys) = (of("path"), of("key"));
+    let text = |name: &str, row: usize| of(name).text(row).map(String::from);
+    let number = |name: &str, row: usize| of(name).number(row);
+    let flag = |name: &str, row: usize| of(name).flag(row);
     let same = |a: usize, b: usize| paths.text(a) == paths.text(b) && keys.text(a) == keys.text(b);
     let mut first = 0;
     while first < paths.len() {
@@ -81,6 +73,69 @@ pub fn read_results(
         first = end;
     }
     Ok(())
+}
+
+/// The columns, all of them there, each with what belongs into it, and of this schema.
+fn checked<'a>(path: &Path, columns: &'a [Option<Cells>]) -> Result<Vec<&'a Cells>, Error> {
+    let refused = |place: String, found: String, allowed: &str| Error::Config {
+        file: path.to_path_buf(),
+        place,
+        found,
+        allowed: allowed.into(),
+    };
+    let one = |((name, kind), cells): ((&str, Kind), &'a Option<Cells>)| {
+        let Some(cells) = cells else {
+            let allowed = "the whole table that stiction batch writes";
+            return Err(refused(
+                format!("column {name}: "),
+                "is not there".into(),
+                allowed,
+            ));
+        };
+        let (fits, allowed) = match kind {
+            Kind::Text => (matches!(cells, Cells::Text { .. }), "text"),
+            Kind::Real | Kind::Whole => (matches!(cells, Cells::Numbers(_)), "numbers"),
+            Kind::Flag => (matches!(cells, Cells::Flags(_)), "yes or no"),
+        };
+        // A column without any value has no type of its own after some programs.
+        match first_of(cells).filter(|_| !fits) {
+            Some((row, found)) => Err(refused(
+                format!("row {}, column {name}: ", row + 1),
+                found,
+                allowed,
+            )),
+            None => Ok(cells),
+        }
+    };
+    let columns: Result<Vec<&Cells>, Error> = COLUMNS
+        .into_iter()
+        .zip(KINDS)
+        .zip(columns)
+        .map(one)
+        .collect();
+    let columns = columns?;
+    let schemas = columns[COLUMNS.len() - 1];
+    let other = (0..schemas.len()).find(|row| schemas.text(*row) != Some(SCHEMA));
+    match other {
+        None => Ok(columns),
+        Some(row) => Err(refused(
+            format!("row {}, column schema: ", row + 1),
+            schemas
+                .text(row)
+                .map_or("nothing".into(), |s| format!("{s:?}")),
+            SCHEMA,
+        )),
+    }
+}
+
+/// The first cell that is not empty: its row and what stands there.
+fn first_of(cells: &Cells) -> Option<(usize, String)> {
+    (0..cells.len()).find_map(|row| {
+        let text = cells.text(row).map(|text| format!("{text:?}"));
+        let number = || cells.number(row).map(stiction_number::full);
+        let flag = || cells.flag(row).map(|flag| flag.to_string());
+        Some((row, text.or_else(number).or_else(flag)?))
+    })
 }
 
 #[cfg(test)]
@@ -143,6 +198,37 @@ mod tests {
                 ..LogRow::default()
             }
         }
+    }
+
+    /// The same table with every one of these words changed into another of the same length.
+    fn said_with(words: &str, others: &str) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("results.parquet");
+        let mut out = Results::begin(&path).unwrap();
+        let row = LogRow {
+            path: "a".into(),
+            key: "k".into(),
+            ..LogRow::default()
+        };
+        out.add(&row).unwrap();
+        out.end().unwrap();
+        let mut bytes = std::fs::read(&path).unwrap();
+        let (words, others) = (words.as_bytes(), others.as_bytes());
+        while let Some(at) = bytes.windows(words.len()).position(|part| part == words) {
+            bytes[at..at + words.len()].copy_from_slice(others);
+        }
+        std::fs::write(&path, &bytes).unwrap();
+        let refused = read_results(&path, |_| Ok(())).unwrap_err().to_string();
+        refused.replace(&folder.path().display().to_string(), "DIR")
+    }
+
+    #[test]
+    fn a_table_of_another_kind_is_refused_with_its_place() {
+        let said = [
+            said_with("identifiable", "identifiabel"),
+            said_with("stiction.batch/1", "stiction.batch/2"),
+        ];
+        insta::assert_snapshot!(said.join("\n"));
     }
 
     proptest! {

@@ -1,7 +1,9 @@
 //! `batch.json`: what a batch was, and how it ended. Schema `stiction.batch/1`, only ever extended.
 
+use crate::shell::{quoted, quoted_path};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::path::Path;
 use stiction_codes::Code;
 
 /// Name of the schema.
@@ -18,6 +20,9 @@ pub struct BatchFile {
     pub status: String,
     /// What the logs were identified with.
     pub options: BTreeMap<String, String>,
+    /// Folders, logs, patterns and lists that it was made of, as they were given.
+    #[serde(default)]
+    pub inputs: Vec<String>,
     /// Logs of the batch.
     pub logs: usize,
     /// Of these, identified.
@@ -28,6 +33,24 @@ pub struct BatchFile {
     pub taken: usize,
     /// Of the others, how many failed with which code, most first.
     pub failed: Vec<Failure>,
+}
+
+impl BatchFile {
+    /// The command that goes on with it in its folder, from the folder in which it was called.
+    pub fn command(&self, dir: &Path) -> String {
+        let mut command = String::from("stiction batch");
+        for input in &self.inputs {
+            command += &format!(" {}", quoted(input));
+        }
+        for (name, value) in &self.options {
+            match (name.as_str(), value.as_str()) {
+                ("law", "auto") | ("method", "separable") | ("seed", "0") | (_, "false") => {}
+                (_, "true") => command += &format!(" --{name}"),
+                _ => command += &format!(" --{name} {}", quoted(value)),
+            }
+        }
+        format!("{command} --out {} --resume", quoted_path(dir))
+    }
 }
 
 /// Logs that failed in one way.

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Text,
     Real,
     Whole,
@@ -63,7 +63,7 @@ pub const COLUMNS: [&str; 28] = [
     "schema",
 ];
 
-const KINDS: [Kind; COLUMNS.len()] = {
+pub(super) const KINDS: [Kind; COLUMNS.len()] = {
     use Kind::{Flag, Real, Text, Whole};
     [
         Text, Text, Real, Real, Text, Text, Real, Text, Real, Real, Real, Flag, Text, Flag, Text,

@@ -4,18 +4,21 @@ use std::collections::HashMap;
 use std::fs::File;
 use std::path::Path;
 
-use parquet::basic::Type;
+use parquet::basic::{ConvertedType, Type};
 use parquet::column::reader::ColumnReader;
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::schema::types::ColumnDescriptor;
 
-use super::column::each;
+use super::column::{Meaning, each};
 use super::{broken, check_pages, library, scan};
-use crate::binary::{Collector, guard};
+use crate::binary::{Clock, Collector, guard};
 use crate::{Error, Kind, Limits};
 
 /// A word that is missing.
 const NONE: u32 = u32::MAX;
+/// Seconds of a day.
+const DAY: f64 = 86_400.0;
 
 /// The cells of a column, as many as the table has rows.
 #[derive(Clone, Debug, PartialEq)]
@@ -27,7 +30,7 @@ pub enum Cells {
         /// The words, each once, in the order in which they come.
         words: Vec<String>,
     },
-    /// Numbers of any type, NaN where one is missing.
+    /// Numbers of any type, NaN where one is missing; dates and time stamps as seconds since 1970.
     Numbers(Vec<f64>),
     /// Yes and no.
     Flags(Vec<Option<bool>>),
@@ -129,7 +132,7 @@ fn one(
             "one cell in every row",
         ));
     }
-    let mut taken = Taken::of(column.physical_type());
+    let mut taken = Taken::of(&column)?;
     let mut total = 0;
     for (number, group) in reader.metadata().row_groups().iter().enumerate() {
         let rows = u64::try_from(group.num_rows()).map_err(|_| broken("a negative length"))?;
@@ -159,11 +162,31 @@ struct Taken {
     places: HashMap<Vec<u8>, u32>,
     /// Of all words.
     bytes: u64,
+    /// What a whole number counts.
+    unit: f64,
+}
+
+/// What a whole number of a column counts: seconds of a date or a time stamp, else 1.
+///
+/// # Errors
+/// Where it is none of these.
+fn unit(column: &ColumnDescriptor) -> Result<f64, Error> {
+    let other = |what: &str| {
+        let allowed = "a number, a date or a time stamp";
+        Err(Error::new(Kind::Format, what, allowed))
+    };
+    match Meaning::of(column) {
+        Meaning::Ticks(period, Clock::Epoch) => Ok(period.times as f64 / period.over as f64),
+        Meaning::Ticks(..) => other("a time of day"),
+        Meaning::Decimal(_) => other("a decimal"),
+        _ if column.converted_type() == ConvertedType::DATE => Ok(DAY),
+        _ => Ok(1.0),
+    }
 }
 
 impl Taken {
-    fn of(kind: Type) -> Self {
-        let cells = match kind {
+    fn of(column: &ColumnDescriptor) -> Result<Self, Error> {
+        let cells = match column.physical_type() {
             Type::BYTE_ARRAY | Type::FIXED_LEN_BYTE_ARRAY => Cells::Text {
                 rows: Vec::new(),
                 words: Vec::new(),
@@ -171,11 +194,12 @@ impl Taken {
             Type::BOOLEAN => Cells::Flags(Vec::new()),
             _ => Cells::Numbers(Vec::new()),
         };
-        Self {
+        Ok(Self {
             cells,
             places: HashMap::new(),
             bytes: 0,
-        }
+            unit: unit(column)?,
+        })
     }
 
     fn append(
@@ -189,6 +213,7 @@ impl Taken {
             cells,
             places,
             bytes,
+            unit,
         } = self;
         match (reader, cells) {
             (R::ByteArrayColumnReader(r), Cells::Text { rows: out, words }) => {
@@ -214,10 +239,10 @@ impl Taken {
                 out.push(value.map_or(f64::NAN, |x| f64::from(*x)));
             }),
             (R::Int64ColumnReader(r), Cells::Numbers(out)) => each(r, rows, full, |value| {
-                out.push(value.map_or(f64::NAN, |x| *x as f64));
+                out.push(value.map_or(f64::NAN, |x| *x as f64 * *unit));
             }),
             (R::Int32ColumnReader(r), Cells::Numbers(out)) => each(r, rows, full, |value| {
-                out.push(value.map_or(f64::NAN, |x| f64::from(*x)));
+                out.push(value.map_or(f64::NAN, |x| f64::from(*x) * *unit));
             }),
             _ => Err(ParquetError::General(
                 "a type that is neither text, number nor flag".to_owned(),

@@ -1,6 +1,6 @@
 //! The report of friction over time: what changed, and the course of each parameter that did.
 
-use crate::drift::{DAY, level, noise_of, size, times};
+use crate::drift::{DAY, few, level, noise_of, size, times, unnamed};
 use stiction_files::drift_file::{Alarm, DriftFile};
 use stiction_number::counted;
 use stiction_report::{Align, Axis, Color, Dash, Document, Figure, Layer, Panel, Table};
@@ -36,6 +36,12 @@ pub fn drift(outcome: &DriftOutcome) -> Document {
         document = document.paragraph(
             "Not every log has a time: they are taken in the order of the table, a day from each to the next.",
         );
+    }
+    if file.input.unnamed > 0 {
+        document = document.paragraph(format!("{}.", unnamed(file)));
+    }
+    if let Some(said) = few(file) {
+        document = document.paragraph(format!("{said}."));
     }
     if !file.alarms.is_empty() {
         document = document.heading(2, "What changed").block(alarms(file));

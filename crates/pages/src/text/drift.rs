@@ -1,7 +1,7 @@
 //! Friction over time as a terminal shows it.
 
 use super::table::table;
-use crate::drift::{level, noise_of, size, times};
+use crate::drift::{few, level, noise_of, size, times, unnamed};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::drift_file::{Alarm, DriftFile};
@@ -27,6 +27,9 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
     );
     if !file.timed {
         text.push_str("not every log has a time: they are taken in the order of the table, a day from each to the next\n");
+    }
+    if file.input.unnamed > 0 {
+        let _ = writeln!(text, "{}", unnamed(file));
     }
     if file.too_short > 0 {
         let _ = writeln!(
@@ -72,7 +75,12 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
     text.push('\n');
     match file.alarms.first() {
         None if file.noise.is_empty() => text.push_str("too few logs to follow anything\n"),
-        None => text.push_str("nothing changed\n"),
+        None => {
+            text.push_str("nothing changed\n");
+            if let Some(said) = few(file) {
+                let _ = writeln!(text, "{said}");
+            }
+        }
         Some(_) => {
             let machines = file.alarmed_machines();
             let _ = writeln!(

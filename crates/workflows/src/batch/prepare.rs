@@ -18,6 +18,8 @@ pub struct Batch {
     pub(super) reports: bool,
     /// SHA-256 of version and options, and of the files that these name.
     settings: String,
+    /// What the logs were found by.
+    inputs: Vec<String>,
 }
 
 /// One log.
@@ -141,6 +143,7 @@ impl Batch {
             options: options.clone(),
             reports,
             settings: sha256_of(settings.as_bytes()),
+            inputs: inputs.iter().map(|input| shell::text(input)).collect(),
         })
     }
 
@@ -204,11 +207,15 @@ impl Batch {
         if let Some(axis) = &self.axes[0].file {
             said.insert("axis".into(), shell::text(axis));
         }
+        if self.reports {
+            said.insert("reports".into(), "true".into());
+        }
         BatchFile {
             schema: SCHEMA.into(),
             version: env!("CARGO_PKG_VERSION").into(),
             status: status.into(),
             options: said,
+            inputs: self.inputs.clone(),
             logs: self.logs.len(),
             identified: 0,
             trustworthy: 0,

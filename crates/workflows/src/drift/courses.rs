@@ -1,5 +1,6 @@
 //! The courses of a table: of each parameter of each machine over time.
 
+use crate::error::Error;
 use std::collections::BTreeMap;
 use stiction_drift::Point;
 use stiction_files::batch::{LogRow, ParameterRow};
@@ -29,28 +30,38 @@ pub(super) struct Courses {
     pub machines: BTreeMap<String, usize>,
     pub logs: usize,
     pub failed: usize,
-    /// Logs of which something was identified, and that have no time.
+    /// Logs of which something was identified, and that name no machine.
+    pub unnamed: usize,
+    /// The same that have no time.
     untimed: usize,
 }
 
 /// Seconds from a log to the next where times are not known.
 const DAY: f64 = 86_400.0;
+/// Largest number that is followed, far beyond any machine in any unit.
+const LARGEST: f64 = 1e100;
 /// Deviations in a 95 % interval.
 const WIDTH: f64 = 2.0 * 1.959_963_984_540_054;
 
 impl Courses {
     /// Takes a log.
-    pub fn take(&mut self, row: &LogRow) {
+    ///
+    /// # Errors
+    /// Where a number of it is larger than any machine has, and would leave nothing of the others.
+    pub fn take(&mut self, row: &LogRow) -> Result<(), Error> {
         self.logs += 1;
         let machine = row.machine.clone().unwrap_or_default();
         let count = self.machines.entry(machine.clone()).or_default();
         if row.error.is_some() {
             self.failed += 1;
-            return;
+            return Ok(());
         }
+        self.unnamed += usize::from(row.machine.is_none());
         *count += 1;
         self.untimed += usize::from(row.time.is_none());
         let place = DAY * *count as f64;
+        allowed(row, "time", row.time)?;
+        allowed(row, "temperature", row.temperature)?;
         let asymmetric = if row.asymmetric == Some(true) {
             " asymmetric"
         } else {
@@ -61,6 +72,8 @@ impl Courses {
             let Some((value, std)) = known(parameter) else {
                 continue;
             };
+            allowed(row, &parameter.name, Some(value))?;
+            allowed(row, &parameter.name, Some(std))?;
             let number = Number {
                 law: law.clone(),
                 name: parameter.name.clone(),
@@ -80,6 +93,14 @@ impl Courses {
             });
             followed.logs.push((row.path.clone(), row.axis.clone()));
         }
+        Ok(())
+    }
+
+    /// Whether there are machines with several logs, and all of each at the same time.
+    pub fn stands_still(&self) -> bool {
+        let courses = || self.of.values().flat_map(BTreeMap::values);
+        let moves = |f: &Followed| f.points.windows(2).any(|two| two[0].time != two[1].time);
+        courses().any(|f| f.points.len() > 1) && !courses().any(moves)
     }
 
     /// Whether every log has its time; else all are taken in the order of the table.
@@ -113,6 +134,17 @@ impl Courses {
             followed.points = order.iter().map(|i| followed.points[*i]).collect();
             followed.logs = order.iter().map(|i| followed.logs[*i].clone()).collect();
         }
+    }
+}
+
+/// Refuses a number whose square would be none.
+fn allowed(row: &LogRow, what: &str, number: Option<f64>) -> Result<(), Error> {
+    match number.filter(|x| !(x.abs() < LARGEST)) {
+        None => Ok(()),
+        Some(number) => Err(Error::usage(
+            format!("{}: {what} is {}", row.path, stiction_number::short(number)),
+            format!("numbers below {LARGEST:e} in a table of stiction batch"),
+        )),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::error::Error;
 use std::collections::BTreeMap;
 use std::path::Path;
 use stiction_drift::{Judged, Kind, Limits, Noise, Point, Settings, judge};
-use stiction_files::batch::read_results;
+use stiction_files::batch::{BatchFile, SUMMARY, read_results};
 use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA, Table};
 use stiction_files::{sha256, shell};
 
@@ -45,12 +45,23 @@ const DAY: f64 = 86_400.0; // s
 pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
     let settings = Settings::default();
     let mut courses = Courses::default();
+    check_finished(table)?;
+    let mut fault = None;
     read_results(table, |row| {
-        courses.take(&row);
+        fault = fault.take().or_else(|| courses.take(&row).err());
         Ok(())
     })?;
+    if let Some(fault) = fault {
+        return Err(fault);
+    }
     let hash = sha256(table)?;
     courses.sort();
+    if courses.stands_still() {
+        return Err(Error::usage(
+            format!("{}: all logs have the same time", shell::text(table)),
+            "times in the list of the batch, or none for the order of the table",
+        ));
+    }
     if courses.of.is_empty() {
         return Err(Error::usage(
             format!(
@@ -122,6 +133,7 @@ pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
                 sha256: hash,
                 logs: courses.logs,
                 failed: courses.failed,
+                unnamed: courses.unnamed,
             },
             alarmed: settings.alarmed,
             horizon_days: settings.horizon / DAY,
@@ -134,6 +146,24 @@ pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
         },
         shown,
     })
+}
+
+/// Refuses the table of a batch that is not there since the batch was not finished.
+fn check_finished(table: &Path) -> Result<(), Error> {
+    let dir = table.parent().unwrap_or(Path::new(""));
+    let summary = std::fs::read_to_string(dir.join(SUMMARY)).ok();
+    let batch = summary.and_then(|text| serde_json::from_str::<BatchFile>(&text).ok());
+    match batch.filter(|_| !table.exists()) {
+        None => Ok(()),
+        Some(batch) => Err(Error::usage(
+            format!(
+                "{}: is not there, since the batch was not finished ({})",
+                shell::text(table),
+                batch.status
+            ),
+            format!("a batch that is complete: {}", batch.command(dir)),
+        )),
+    }
 }
 
 /// Refuses a limit of what the table does not have.
