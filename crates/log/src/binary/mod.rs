@@ -12,7 +12,7 @@ mod record;
 mod ticks;
 #[cfg(any(feature = "json", feature = "mcap"))]
 mod tree;
-#[cfg(any(feature = "arrow", feature = "mcap"))]
+#[cfg(any(feature = "arrow", feature = "mcap", feature = "parquet"))]
 mod unpack;
 
 pub(crate) use collect::{Collector, Layout, Order};
@@ -23,4 +23,6 @@ pub(crate) use ticks::{Clock, Period, seconds};
 #[cfg(any(feature = "json", feature = "mcap"))]
 pub(crate) use tree::Tree;
 #[cfg(any(feature = "arrow", feature = "mcap"))]
-pub(crate) use unpack::{lz4, zstd};
+pub(crate) use unpack::lz4;
+#[cfg(any(feature = "arrow", feature = "mcap", feature = "parquet"))]
+pub(crate) use unpack::zstd;

@@ -2,6 +2,7 @@
 
 use std::io::{self, Read};
 
+#[cfg(any(feature = "arrow", feature = "mcap"))]
 use lz4_flex::frame::FrameDecoder;
 use ruzstd::decoding::StreamingDecoder;
 
@@ -9,6 +10,7 @@ use ruzstd::decoding::StreamingDecoder;
 const USUAL_WINDOW: u64 = 8 << 20;
 
 /// Unpacks an LZ4 frame, whose blocks have 4 MiB at most.
+#[cfg(any(feature = "arrow", feature = "mcap"))]
 pub(crate) fn lz4<'a>(packed: impl Read + 'a) -> impl Read + 'a {
     FrameDecoder::new(packed)
 }

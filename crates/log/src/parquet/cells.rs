@@ -11,7 +11,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::schema::types::ColumnDescriptor;
 
 use super::column::{Meaning, each};
-use super::{broken, check_pages, library, scan};
+use super::{broken, chunk, library, scan};
 use crate::binary::{Clock, Collector, guard};
 use crate::{Error, Kind, Limits};
 
@@ -137,9 +137,7 @@ fn one(
     for (number, group) in reader.metadata().row_groups().iter().enumerate() {
         let rows = u64::try_from(group.num_rows()).map_err(|_| broken("a negative length"))?;
         total += collector.reserve(name, &[rows])?;
-        check_pages(group, raw, index, collector)?;
-        let group = reader.get_row_group(number).map_err(library)?;
-        let mut chunk = group.get_column_reader(index).map_err(library)?;
+        let mut chunk = chunk(reader, raw, number, index, collector)?;
         taken
             .append(column.max_def_level(), rows as usize, &mut chunk)
             .map_err(library)?;

@@ -1,4 +1,4 @@
-//! Parquet files, uncompressed or with Snappy, as pyarrow, pandas and polars write them.
+//! Parquet files, uncompressed or with Snappy, Zstandard, gzip or LZ4, as pyarrow, pandas, polars and Spark write them.
 //!
 //! Numbers of every type are read; a missing value is NaN. Time stamps become seconds from the first
 //! one, which [`Table::detected`] names. Fields of structs are `struct.field`; text, raw bytes and
@@ -6,6 +6,7 @@
 
 mod cells;
 mod column;
+mod pages;
 mod scan;
 mod thrift;
 
@@ -14,9 +15,10 @@ use std::sync::Arc;
 
 pub use cells::{Cells, read_cells};
 use column::{Meaning, Samples};
+use pages::{Packing, Pages};
 use parquet::basic::Compression;
+use parquet::column::reader::{ColumnReader, get_column_reader};
 use parquet::errors::ParquetError;
-use parquet::file::metadata::RowGroupMetaData;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use crate::binary::{Collector, Order, guard, seconds};
@@ -43,49 +45,55 @@ pub(crate) fn read(file: File, bytes: u64, limits: Limits) -> Result<Table, Erro
 }
 
 fn broken(found: impl Into<String>) -> Error {
-    Error::new(
-        Kind::Format,
-        found,
-        "a whole Parquet file, uncompressed or with Snappy",
-    )
+    Error::new(Kind::Format, found, "a whole Parquet file")
 }
 
 fn library(error: ParquetError) -> Error {
     broken(format!("broken or unsupported Parquet ({error})"))
 }
 
-/// Refuses a column of a row group that is not compressed as it may be, or whose pages ask for too much memory.
-fn check_pages(
-    group: &RowGroupMetaData,
+/// A column of a row group; refused where it is packed as nothing here unpacks, or its pages ask for too much memory.
+fn chunk(
+    reader: &SerializedFileReader<File>,
     raw: &mut File,
+    group: usize,
     index: usize,
     collector: &Collector,
-) -> Result<(), Error> {
-    let chunk = group
-        .columns()
-        .get(index)
-        .ok_or_else(|| broken("a missing column"))?;
-    if !matches!(
-        chunk.compression(),
-        Compression::UNCOMPRESSED | Compression::SNAPPY
-    ) {
+) -> Result<ColumnReader, Error> {
+    let group = reader.get_row_group(group).map_err(library)?;
+    let about = group.metadata();
+    let chunk = about.columns().get(index);
+    let chunk = chunk.ok_or_else(|| broken("a missing column"))?;
+    let compression = chunk.compression();
+    let packing = Packing::of(compression);
+    let plain = matches!(compression, Compression::UNCOMPRESSED | Compression::SNAPPY);
+    if packing.is_none() && !plain {
         return Err(Error::new(
             Kind::Format,
-            format!("compressed with {}", chunk.compression()),
-            "write the file with compression 'snappy' or none",
+            format!("compressed with {compression}"),
+            "write the file with compression 'zstd', 'snappy', 'gzip' or none",
         ));
     }
     let start = chunk
         .dictionary_page_offset()
         .unwrap_or(chunk.data_page_offset());
     let end = start.checked_add(chunk.compressed_size());
-    match (u64::try_from(start), end.map(u64::try_from)) {
-        (Ok(start), Some(Ok(end))) => {
-            let largest = scan::pages(raw, start, end).map_err(broken)?;
-            collector.holds("a page", largest)
-        }
-        _ => Err(broken("a negative offset")),
-    }
+    let (Ok(start), Some(Ok(end))) = (u64::try_from(start), end.map(u64::try_from)) else {
+        return Err(broken("a negative offset"));
+    };
+    // Snappy packs at most 64 bytes into 3; what is not compressed stays as long as it is. The others have no such bound.
+    let most = |packed: u64| match packing {
+        None => packed.saturating_mul(22) + 64,
+        Some(_) => u64::MAX,
+    };
+    let largest = scan::pages(raw, start, end, most).map_err(broken)?;
+    collector.holds("a page", largest)?;
+    let Some(packing) = packing else {
+        return group.get_column_reader(index).map_err(library);
+    };
+    let file = raw.try_clone().map_err(|error| broken(error.to_string()))?;
+    let pages = Pages::new(file, start, end, packing, largest);
+    Ok(get_column_reader(chunk.column_descr_ptr(), Box::new(pages)))
 }
 
 /// Reads one column from all row groups.
@@ -111,9 +119,7 @@ fn one(
     for (number, group) in reader.metadata().row_groups().iter().enumerate() {
         let rows = u64::try_from(group.num_rows()).map_err(|_| broken("a negative length"))?;
         total += collector.reserve(name, &[rows])?;
-        check_pages(group, raw, index, collector)?;
-        let group = reader.get_row_group(number).map_err(library)?;
-        let mut chunk = group.get_column_reader(index).map_err(library)?;
+        let mut chunk = chunk(reader, raw, number, index, collector)?;
         samples
             .append(
                 &meaning,

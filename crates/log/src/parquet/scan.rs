@@ -6,7 +6,7 @@
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
 
-use super::thrift::{Compact, I32, LIST, STRUCT};
+use super::thrift::{Compact, I32, LIST, NO, STRUCT, YES};
 
 /// Largest footer in bytes; 64 MiB describe a million column chunks.
 const MAX_FOOTER: u64 = 64 << 20;
@@ -88,41 +88,81 @@ fn tree(children: &[i64]) -> Option<()> {
     missing.iter().all(|&left| left == 0).then_some(())
 }
 
-/// Checks the pages between two offsets of the file, and gives the bytes of the largest, unpacked.
-pub(super) fn pages(file: &mut File, start: u64, end: u64) -> Result<u64, String> {
+/// Checks the pages between two offsets of the file, and gives the bytes of the largest, unpacked. `most` is how many a packed
+/// number can become.
+pub(super) fn pages(
+    file: &mut File,
+    start: u64,
+    end: u64,
+    most: impl Fn(u64) -> u64,
+) -> Result<u64, String> {
     let mut at = start;
     let mut largest = 0;
     let mut window = Vec::new();
     while at < end {
-        let page = page(file, at, end, &mut window)?;
-        let (packed, unpacked) = (page.packed, page.unpacked);
-        let left = (end - at).saturating_sub(page.header);
-        let packed = u64::try_from(packed).ok().filter(|&packed| packed <= left);
-        let packed = packed.ok_or_else(|| format!("a page at byte {at} larger than its column"))?;
-        // Snappy packs at most 64 bytes into 3; what is not compressed stays as long as it is.
-        let most = packed.saturating_mul(22) + 64;
-        let unpacked = u64::try_from(unpacked).ok().filter(|&size| size <= most);
+        let page = header(file, at, end, &mut window)?;
+        let packed = page.sizes(at, end)?;
+        let unpacked = u64::try_from(page.unpacked)
+            .ok()
+            .filter(|&size| size <= most(packed));
         let unpacked = unpacked
             .ok_or_else(|| format!("a page at byte {at} that unpacks to an impossible size"))?;
-        if page.dictionary > i64::try_from(unpacked).unwrap_or(i64::MAX) {
+        let is_dictionary = matches!(page.kind, Kind::Dictionary);
+        if is_dictionary && page.values > i64::try_from(unpacked).unwrap_or(i64::MAX) {
             return Err(format!("a dictionary at byte {at} of impossible length"));
         }
-        at += page.header + packed;
+        at += page.bytes + packed;
         largest = largest.max(unpacked);
     }
     Ok(largest)
 }
 
-struct Page {
+/// The header of a page.
+pub(super) struct Header {
     /// Bytes of the header itself.
-    header: u64,
-    packed: i64,
-    unpacked: i64,
-    /// Values in a dictionary page.
-    dictionary: i64,
+    pub(super) bytes: u64,
+    pub(super) packed: i64,
+    pub(super) unpacked: i64,
+    pub(super) values: i64,
+    pub(super) encoding: i64,
+    pub(super) kind: Kind,
 }
 
-fn page(file: &mut File, at: u64, end: u64, window: &mut Vec<u8>) -> Result<Page, String> {
+/// What a page is.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    Dictionary,
+    /// With the encodings of its definition and repetition levels.
+    Data {
+        levels: [i64; 2],
+    },
+    /// Of the second version, with the bytes of its definition and repetition levels.
+    Data2 {
+        nulls: u32,
+        rows: u32,
+        levels: [u32; 2],
+        packed: bool,
+    },
+    /// An index, or what is not known.
+    Other,
+}
+
+impl Header {
+    /// Bytes that follow the header, which begins at `at`, of what ends at `end`.
+    pub(super) fn sizes(&self, at: u64, end: u64) -> Result<u64, String> {
+        let left = (end - at).saturating_sub(self.bytes);
+        let packed = u64::try_from(self.packed).ok().filter(|&size| size <= left);
+        packed.ok_or_else(|| format!("a page at byte {at} larger than its column"))
+    }
+}
+
+/// Reads the header of the page at a place, of what ends at `end`.
+pub(super) fn header(
+    file: &mut File,
+    at: u64,
+    end: u64,
+    window: &mut Vec<u8>,
+) -> Result<Header, String> {
     // Nearly every header is far below 1 KiB; statistics may make one longer.
     for size in [1 << 10, MAX_PAGE_HEADER] {
         window.resize(size.min(end - at) as usize, 0);
@@ -134,33 +174,72 @@ fn page(file: &mut File, at: u64, end: u64, window: &mut Vec<u8>) -> Result<Page
     Err(format!("a damaged page header at byte {at}"))
 }
 
-fn parse(bytes: &[u8]) -> Option<Page> {
-    let mut page = Page {
-        header: 0,
+/// Fields of the structures of Apache Parquet's parquet.thrift.
+fn parse(bytes: &[u8]) -> Option<Header> {
+    let mut page = Header {
+        bytes: 0,
         packed: -1,
         unpacked: -1,
-        dictionary: 0,
+        values: 0,
+        encoding: -1,
+        kind: Kind::Other,
     };
     let mut compact = Compact::new(bytes);
     compact.structure(0, |compact, id, kind| {
         match (id, kind) {
             (2, I32) => page.unpacked = compact.integer()?,
             (3, I32) => page.packed = compact.integer()?,
-            (7, STRUCT) => compact.structure(1, |compact, id, kind| {
-                if (id, kind) == (1, I32) {
-                    page.dictionary = compact.integer()?;
-                }
-                Some((id, kind) == (1, I32))
-            })?,
+            (5, STRUCT) => {
+                let ([values, encoding, definition, repetition, ..], _) = fields(compact)?;
+                (page.values, page.encoding) = (values, encoding);
+                page.kind = Kind::Data {
+                    levels: [definition, repetition],
+                };
+            }
+            (7, STRUCT) => {
+                let ([values, encoding, ..], _) = fields(compact)?;
+                (page.values, page.encoding) = (values, encoding);
+                page.kind = Kind::Dictionary;
+            }
+            (8, STRUCT) => {
+                let ([values, nulls, rows, encoding, definition, repetition], packed) =
+                    fields(compact)?;
+                (page.values, page.encoding) = (values, encoding);
+                let whole = |number: i64| u32::try_from(number).ok();
+                page.kind = Kind::Data2 {
+                    nulls: whole(nulls)?,
+                    rows: whole(rows)?,
+                    levels: [whole(definition)?, whole(repetition)?],
+                    packed: packed.unwrap_or(true),
+                };
+            }
             _ => return Some(false),
         }
         Some(true)
     })?;
-    page.header = compact.at() as u64;
+    page.bytes = compact.at() as u64;
     Some(page)
 }
 
-fn read_at(file: &mut File, at: u64, into: &mut [u8]) -> Result<(), String> {
+/// The first six fields of a structure, where they are whole numbers, and the seventh, where it is yes or no.
+fn fields(compact: &mut Compact) -> Option<([i64; 6], Option<bool>)> {
+    let mut numbers = [0; 6];
+    let mut flag = None;
+    compact.structure(1, |compact, id, kind| {
+        match (usize::try_from(id), kind) {
+            (Ok(id @ 1..=6), I32) => numbers[id - 1] = compact.integer()?,
+            (Ok(7), YES | NO) => {
+                flag = Some(kind == YES);
+                return Some(false);
+            }
+            _ => return Some(false),
+        }
+        Some(true)
+    })?;
+    Some((numbers, flag))
+}
+
+pub(super) fn read_at(file: &mut File, at: u64, into: &mut [u8]) -> Result<(), String> {
     file.seek(SeekFrom::Start(at))
         .and_then(|_| file.read_exact(into))
         .map_err(|error| format!("cannot be read at byte {at} ({error})"))

@@ -6,7 +6,9 @@ const MAX_ITEMS: u64 = 65_536;
 /// Deepest nesting of structs.
 const MAX_DEPTH: usize = 32;
 
-/// Wire types that the scan distinguishes.
+/// Wire types that the scan distinguishes; those of a flag are its value.
+pub(super) const YES: u8 = 1;
+pub(super) const NO: u8 = 2;
 pub(super) const I32: u8 = 5;
 pub(super) const LIST: u8 = 9;
 pub(super) const STRUCT: u8 = 12;
@@ -87,7 +89,7 @@ impl<'a> Compact<'a> {
             let kind = head & 15;
             if !field(self, id, kind)? {
                 // The value of a boolean field is in its type.
-                if !matches!(kind, 1 | 2) {
+                if !matches!(kind, YES | NO) {
                     self.skip(kind, depth)?;
                 }
             }

@@ -84,6 +84,8 @@ table = pa.table({
 })
 pq.write_table(table, folder / "snappy.parquet", row_group_size=17)
 pq.write_table(table, folder / "none.parquet", compression="none", data_page_version="2.0")
+for packing in ["zstd", "gzip", "lz4"]:
+    pq.write_table(table, folder / f"{packing}.parquet", compression=packing)
 flat = table.select(["t", "n"])
 pq.write_table(flat, folder / "encoded.parquet", use_dictionary=False, column_encoding={
     "t": "BYTE_STREAM_SPLIT", "n": "DELTA_BINARY_PACKED"})
