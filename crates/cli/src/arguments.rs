@@ -578,6 +578,8 @@ pub enum Form {
     Cam,
     /// CiA 402, cyclic synchronous position: whole counts for each cycle.
     Csp,
+    /// Inputs of MC_ExtSetPointGenFeed of TwinCAT for each cycle.
+    Feed,
     /// JointTrajectory of ROS 2.
     Ros2,
     /// Lines for halstreamer of LinuxCNC.

@@ -667,6 +667,7 @@ fn carrier(form: arguments::Form) -> Carrier {
     match form {
         arguments::Form::St => Carrier::St,
         arguments::Form::Cam => Carrier::Cam,
+        arguments::Form::Feed => Carrier::Feed,
         arguments::Form::Csp => Carrier::Csp,
         arguments::Form::Ros2 => Carrier::Ros2,
         arguments::Form::Halstreamer => Carrier::Halstreamer,

@@ -3,6 +3,7 @@
 mod cam;
 mod csp;
 mod csv;
+mod feed;
 mod gcode;
 mod halstreamer;
 mod piecewise;
@@ -24,6 +25,8 @@ pub enum Carrier {
     Cam,
     /// Target positions of CiA 402, cyclic synchronous position mode, in counts of the encoder.
     Csp,
+    /// Inputs of `MC_ExtSetPointGenFeed` of TwinCAT for each cycle.
+    Feed,
     /// `JointTrajectory` of ROS 2.
     Ros2,
     /// Lines for `halstreamer` of LinuxCNC.
@@ -79,11 +82,12 @@ impl std::error::Error for CarrierError {}
 
 impl Carrier {
     /// All forms.
-    pub const ALL: [Carrier; 7] = [
+    pub const ALL: [Carrier; 8] = [
         Carrier::Csv,
         Carrier::St,
         Carrier::Cam,
         Carrier::Csp,
+        Carrier::Feed,
         Carrier::Ros2,
         Carrier::Halstreamer,
         Carrier::Gcode,
@@ -96,6 +100,7 @@ impl Carrier {
             Carrier::St => "st",
             Carrier::Cam => "cam",
             Carrier::Csp => "csp",
+            Carrier::Feed => "feed",
             Carrier::Ros2 => "ros2",
             Carrier::Halstreamer => "halstreamer",
             Carrier::Gcode => "gcode",
@@ -109,6 +114,7 @@ impl Carrier {
             Carrier::St => "motion.st",
             Carrier::Cam => "setpoints.cam.csv",
             Carrier::Csp => "setpoints.csp.csv",
+            Carrier::Feed => "setpoints.feed.csv",
             Carrier::Ros2 => "setpoints.ros2.yaml",
             Carrier::Halstreamer => "setpoints.halstreamer",
             Carrier::Gcode => "setpoints.ngc",
@@ -137,6 +143,7 @@ impl Carrier {
             Carrier::St => Ok(st::carry(job)),
             Carrier::Cam => Ok(cam::carry(job)),
             Carrier::Csp => csp::carry(job),
+            Carrier::Feed => Ok(feed::carry(job)),
             Carrier::Ros2 => Ok(ros2::carry(job)),
             Carrier::Halstreamer => Ok(halstreamer::carry(job)),
             Carrier::Gcode => Ok(gcode::carry(job)),

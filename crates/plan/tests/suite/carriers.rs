@@ -77,7 +77,8 @@ fn samples_are_those_of_the_motion() {
     let cam = rows(&text(Carrier::Cam), ',');
     let csp = rows(&text(Carrier::Csp), ',');
     let lines = rows(&text(Carrier::Halstreamer), ' ');
-    assert_eq!([cam.len(), csp.len(), lines.len()], [count; 3]);
+    let feed = rows(&text(Carrier::Feed), ',');
+    assert_eq!([cam.len(), csp.len(), lines.len(), feed.len()], [count; 4]);
     for k in 0..count {
         let at = due(k);
         let position = 0.25 + at.position;
@@ -88,6 +89,19 @@ fn samples_are_those_of_the_motion() {
         assert!((csp[k][2] * STEP - at.velocity).abs() < 0.5001 * STEP);
         assert!((1e-3 * lines[k][0] - position).abs() < 1e-12);
         assert!((1e-3 * lines[k][1] - at.velocity).abs() < 1e-12);
+        let own = [position, at.velocity, at.acceleration];
+        assert!(
+            feed[k]
+                .iter()
+                .zip(own)
+                .all(|(x, own)| (1e-3 * x - own).abs() < 1e-12)
+        );
+        let sign = if at.velocity == 0.0 {
+            0.0
+        } else {
+            at.velocity.signum()
+        };
+        assert_eq!(feed[k][3], sign);
     }
 }
 
