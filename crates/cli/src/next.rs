@@ -1,9 +1,8 @@
 //! What to type next where a file is not there, or cannot be written.
 
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
-use stiction::commands::FileError;
 use stiction::commands::shell::{quoted_path, text as path_text};
+use stiction::commands::{FileError, has_runs};
 use stiction::{Code, Error};
 
 /// What leads on from an input that is not there: the same command with the file that was probably meant, or a look at the folder.
@@ -42,12 +41,18 @@ pub fn no_room(error: &Error) -> Option<String> {
         return None;
     }
     let there = path.ancestors().map(or_here).find(|dir| dir.is_dir())?;
-    let arguments: Vec<OsString> = std::env::args_os().skip(1).collect();
-    let arguments = arguments.iter().map(|a| path_text(Path::new(a)));
+    let arguments = std::env::args_os().skip(1);
+    let mut arguments: Vec<String> = arguments.map(|a| path_text(Path::new(&a))).collect();
+    // What was done by then is kept in the folder.
+    let resume = "--resume".to_string();
+    let mut folders = path.ancestors().filter(|dir| !dir.as_os_str().is_empty());
+    if folders.any(has_runs) && !arguments.contains(&resume) {
+        arguments.push(resume);
+    }
     Some(format!(
         "next: make room (df -h {} shows how much there is), then {}",
         quoted_path(there),
-        stiction::commands::text::command(arguments)
+        stiction::commands::text::command(arguments.into_iter())
     ))
 }
 

@@ -152,7 +152,7 @@ impl<'a> Comparison<'a> {
         let work = Work {
             kind: "comparison".into(),
             version: env!("CARGO_PKG_VERSION").into(),
-            of: self.depends_on()?,
+            of: self.depends_on(),
             runs: usize::try_from(self.size().runs).unwrap_or(usize::MAX),
         };
         Ok(match resume {
@@ -164,7 +164,7 @@ impl<'a> Comparison<'a> {
 
 impl Comparison<'_> {
     /// SHA-256 of all that its runs depend on.
-    fn depends_on(&self) -> Result<String, Error> {
+    fn depends_on(&self) -> String {
         let mut options = self.options.clone();
         // It does not matter how many could have been run, nor what its files are called.
         options.max_samples = 0;
@@ -172,17 +172,17 @@ impl Comparison<'_> {
             logs.clear();
         }
         let mut hash = Text(Hash::default());
-        // It has the settings of the methods.
-        if let Some(axis) = options.axis.take() {
-            hash.0.take(stiction_files::sha256(&axis)?.as_bytes());
-        }
+        // It has the settings of the methods: as it was read, whatever stands there by now.
+        options.axis = None;
+        let axis = self.axis.sha256().unwrap_or_default();
+        hash.0.take(axis.as_bytes());
         let Subject {
             data, law, bounds, ..
         } = &self.subject;
         let methods = &self.methods;
         let written = write!(hash, "{options:?} {methods:?} {law:?} {bounds:?} {data:?}");
         written.expect("a hash takes all");
-        Ok(hash.0.finish())
+        hash.0.finish()
     }
 }
 
