@@ -157,6 +157,9 @@ pub struct Demo {
     /// how to identify them.
     #[arg(long)]
     pub procedures: bool,
+    /// Run the motion of a plan on the axis of the demo instead, as if it were the machine, and write its log.
+    #[arg(long, value_name = "PLAN.toml", conflicts_with = "procedures")]
+    pub plan: Option<PathBuf>,
 }
 
 #[derive(Clone, Debug, Args)]

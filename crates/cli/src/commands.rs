@@ -322,6 +322,9 @@ fn demo(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
     if demo.procedures {
         return procedure_logs(demo, common);
     }
+    if let Some(plan) = &demo.plan {
+        return planned_log(plan, demo, common);
+    }
     let mut bar = Bar::new(common.json || common.quiet);
     let done = stiction::demo::demo(&demo.out, demo.seed, &mut bar);
     bar.finish();
@@ -338,6 +341,18 @@ fn say_kept(kept: impl IntoIterator<Item = Kept>) {
         // With standard error closed there is nowhere to say it.
         let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&line));
     }
+}
+
+fn planned_log(plan: &Path, demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
+    let (log, kept) = stiction::demo::planned(plan, &demo.out, demo.seed)?;
+    say_kept(kept);
+    if common.json {
+        output::json(&serde_json::json!({ "written": [log.to_string_lossy()] }))?;
+    } else if !common.quiet {
+        let truth = stiction::demo::truth_of_demo();
+        output::print(&stiction::commands::text::planned_log(plan, &log, &truth))?;
+    }
+    Ok(Exit::Done)
 }
 
 fn procedure_logs(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {

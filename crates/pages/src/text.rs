@@ -25,7 +25,7 @@ pub use comparison::{announced_comparison, comparison};
 pub use drift::drift;
 pub use export::exported;
 pub use plan::planned;
-pub use procedure::procedure_commands;
+pub use procedure::{planned_log, procedure_commands};
 pub use reproduction::reproduction;
 use std::fmt::Write;
 use std::path::Path;

@@ -6,6 +6,7 @@ use crate::noise::Noise;
 use crate::path::Path;
 use crate::plant::{Load, Motion, Plant};
 use crate::run::sample_count;
+use crate::trajectory::Trajectory;
 use stiction_friction::{Held, LuGre, ParamError};
 
 /// Which force is logged in the same row as the position at the instant t_k.
@@ -21,13 +22,13 @@ pub enum ForceLog {
 
 /// A closed loop to run. Plain settings; [`run`](Self::run) checks the numbers that the parts do not check.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ClosedLoop<L = LuGre<f64>> {
+pub struct ClosedLoop<L = LuGre<f64>, P = Path> {
     /// The axis.
     pub plant: Plant<L>,
     /// The controller.
     pub controller: Cascade,
     /// The reference, from rest.
-    pub path: Path,
+    pub path: P,
     /// The position sensor, seen by the controller and the log.
     pub encoder: Encoder,
     /// Control and log rate, > 0, Hz.
@@ -74,7 +75,7 @@ pub struct Truth {
     pub force: Vec<f64>,
 }
 
-impl<L: Held<f64, State = f64>> ClosedLoop<L> {
+impl<L: Held<f64, State = f64>, P: Trajectory> ClosedLoop<L, P> {
     /// Runs the loop from rest at the origin over the whole path.
     pub fn run(&self) -> Result<Record, ParamError> {
         let n = self.validate()?;

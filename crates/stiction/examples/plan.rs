@@ -1,5 +1,6 @@
 //! What plans are worth: logs of known axes along planned and hand-made motions, identified with defaults. Writes the table of
-//! docs/plan.md: `plan [LOGS]`, LOGS of each motion and axis (10).
+//! docs/plan.md: `plan [LOGS]`, LOGS of each motion and axis (10). `plan fresh [AXES]`: the slide's nameplate on AXES axes (32)
+//! that it allows, a log each, by one plan, in two stages, and by the motion of the README.
 
 use std::path::Path;
 use stiction::commands::{Known, PlanOptions, Planned, plan_motion};
@@ -45,10 +46,27 @@ struct Found {
     ratio: Vec<f64>,
 }
 
+impl Found {
+    fn add(&mut self, other: Found) {
+        self.worst.extend(other.worst);
+        self.ratio.extend(other.ratio);
+        self.inside += other.inside;
+        self.claimed += other.claimed;
+        self.flagged += other.flagged;
+        self.all += other.all;
+    }
+}
+
 fn main() {
-    let logs = std::env::args()
-        .nth(1)
-        .map_or(10, |x| x.parse().expect("a number of logs"));
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let number = |at: usize, usual: usize| {
+        let given = arguments.get(at);
+        given.map_or(usual, |x| x.parse().expect("a number"))
+    };
+    if arguments.first().is_some_and(|word| word == "fresh") {
+        return fresh(number(1, 32));
+    }
+    let logs = number(0, 10) as u64;
     println!(
         "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted |\n|---|---|---|---|---|---|---|---|---|"
     );
@@ -114,6 +132,87 @@ fn main() {
     }
 }
 
+/// Axes that were not among those a plan was made on: worst errors of a log each, and how many parameters it leaves open.
+fn fresh(count: usize) {
+    let (name, axis, _) = AXES[0];
+    let folder = std::env::temp_dir().join(format!("stiction-fresh-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let file = folder.join("axis.toml");
+    std::fs::write(&file, axis).expect("a file");
+    let axis = Axis::read(&file).expect("an axis");
+    let one_stage = plan(&file, PlanOptions::default());
+    let probe = plan(
+        &file,
+        PlanOptions {
+            probe: true,
+            ..PlanOptions::default()
+        },
+    );
+    let plate = &one_stage.given.nameplate;
+    let readme = hand_made(HandMade::ThreeSines, &plate.limits, &plate.rig, 9.0);
+    let readme = readme.expect("limits that are some").expect("a motion");
+    let mut all: [Found; 3] = Default::default();
+    let mut better = [0, 0];
+    println!("| {name} | plan | two stages | README |\n|---|---|---|---|");
+    for (number, truth) in plate.draw(count, FRESH).into_iter().enumerate() {
+        let seed = 10_000 + number as u64;
+        let mut own: [Found; 3] = Default::default();
+        one(
+            &one_stage.motion,
+            &truth,
+            &one_stage,
+            &axis,
+            (seed, None),
+            &mut own[0],
+        );
+        one(
+            &readme,
+            &truth,
+            &one_stage,
+            &axis,
+            (seed, None),
+            &mut own[2],
+        );
+        let first = log(&probe.motion, &truth, &probe, &axis, 500 + seed);
+        let csv = folder.join("probe.csv");
+        std::fs::write(&csv, text(&first)).expect("a file");
+        let second = PlanOptions {
+            known: Some(Known::Log(csv)),
+            ..PlanOptions::default()
+        };
+        match plan_motion(&file, &second, &mut Silent) {
+            Ok(Some(second)) => {
+                let logs = (seed, Some(&first));
+                one(&second.motion, &truth, &second, &axis, logs, &mut own[1]);
+            }
+            _ => own[1].worst.push(f64::INFINITY),
+        }
+        let said = own
+            .each_ref()
+            .map(|found| format!("{:.2}, {} open", found.worst[0], found.flagged));
+        println!("| {number} | {} |", said.join(" | "));
+        better[0] += usize::from(own[0].worst[0] < own[2].worst[0]);
+        better[1] += usize::from(own[1].worst[0] <= 1.1 * own[2].worst[0]);
+        for (all, own) in all.iter_mut().zip(own) {
+            all.add(own);
+        }
+    }
+    println!(
+        "\n| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted |\n|---|---|---|---|---|---|---|---|---|"
+    );
+    for (motion, found) in ["plan, nameplate", "probe + plan", "README"]
+        .iter()
+        .zip(&mut all)
+    {
+        say(name, motion, 9.0, found);
+    }
+    println!(
+        "the plan is better than the README on {} of {count}, two stages at most 1.1 times as far off on {}",
+        better[0], better[1]
+    );
+    std::fs::remove_dir_all(&folder).expect("the folder that was made");
+}
+
 fn plan(file: &Path, options: PlanOptions) -> Planned {
     let planned = plan_motion(file, &options, &mut Silent).expect("a plan");
     planned.expect("not stopped")
@@ -121,6 +220,8 @@ fn plan(file: &Path, options: PlanOptions) -> Planned {
 
 /// Probes of an axis.
 const PROBES: u64 = 2;
+/// Seed of axes that no plan was made on.
+const FRESH: u32 = 77;
 
 /// A simulated log.
 fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed: u64) -> Log {

@@ -1,11 +1,13 @@
 //! The demo: a known axis, a realistic log of it, its identification, and the truth beside it.
 
 mod axis;
+mod planned;
 mod procedures;
 
 use crate::error::Error;
 use crate::identify::{self, Files, Options, Outcome};
 use axis::{AXIS, csv, simulate};
+pub use planned::{PLANNED, planned};
 pub use procedures::procedures;
 use std::path::{Path, PathBuf};
 use stiction_files::{Kept, write_atomic, write_keeping};

@@ -11,6 +11,8 @@ mod killed;
 mod leads;
 #[cfg(unix)]
 mod linuxcnc;
+mod nameplate;
+mod page;
 mod paper;
 mod plan;
 mod procedures;

@@ -1,19 +1,6 @@
 //! The procedures from the command line: the logs of the demo, and the commands it names.
 
-use std::path::Path;
-use std::process::Command;
-
-fn run(dir: &Path, line: &str) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
-        .args(line.split_whitespace())
-        .current_dir(dir)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    let (out, err) = (text(output.stdout), crate::said(output.stderr));
-    assert!(!err.contains("panicked"), "{err}");
-    (output.status.code().unwrap_or(-1), out, err)
-}
+use crate::page::run;
 
 /// Every command that the demo names does what it says, in the order named.
 #[test]

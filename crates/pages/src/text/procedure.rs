@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use stiction_files::result::{
     BreakAwayEntry, PreslidingStepEntry, ResultFile, StaticMapEntry, TwoStepEntry,
 };
+use stiction_files::shell::quoted_path;
 use stiction_files::symbols;
 use stiction_number::{Percent, four_digits as short, unit};
 
@@ -231,6 +232,18 @@ the truth: {}
         parameters(truth),
     );
     out
+}
+
+/// What to type for the log of a planned motion on the axis of the demo, and the parameters to find.
+pub fn planned_log(plan: &Path, log: &Path, truth: &[(String, f64)]) -> String {
+    format!(
+        "{}\n\nthe truth: {}\n\nnext: what it shows, beside what was expected\n  stiction identify {} --plan {} --out {}\n",
+        log.display(),
+        parameters(truth),
+        quoted_path(log),
+        quoted_path(plan),
+        quoted_path(&log.with_file_name("identified")),
+    )
 }
 
 fn parameters(truth: &[(String, f64)]) -> String {

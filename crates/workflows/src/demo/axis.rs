@@ -8,6 +8,7 @@ use stiction_servo::encoder::Encoder;
 use stiction_servo::known::KnownAxis;
 use stiction_servo::path::Path as Reference;
 use stiction_servo::plant::Plant;
+use stiction_servo::trajectory::Trajectory;
 
 /// The axis that is simulated.
 pub(super) const AXIS: &str = "machine";
@@ -20,10 +21,19 @@ pub(super) const RATE: f64 = 4000.0;
 
 /// The axis along three segments of excitation.
 pub(super) fn simulate(axis: &KnownAxis, seed: u64) -> Result<Record, ParamError> {
+    along(axis, Reference::three_segments(0.196, 9.0)?, seed)
+}
+
+/// The axis along a motion.
+pub(super) fn along(
+    axis: &KnownAxis,
+    path: impl Trajectory,
+    seed: u64,
+) -> Result<Record, ParamError> {
     ClosedLoop {
         plant: Plant::new(axis.mass, axis.law)?,
         controller: Cascade::tuned(axis.mass, 60.0, 500.0)?,
-        path: Reference::three_segments(0.196, 9.0)?,
+        path,
         encoder: Encoder::new(ENCODER_COUNT)?,
         rate: RATE,
         substeps: 5,
