@@ -20,6 +20,7 @@
 //! * **position, velocity, force**: if no unit is given anywhere, in the file or in the
 //!   mapping, SI is assumed and a finding says so (a MATLAB file has no place for units). If some
 //!   are given and this one is not, it is refused: partly labelled files hide factors of a thousand.
+//!   Seconds that a reader has made of time stamps are no unit that is given.
 //! * **counts** follow from a scale such as `1 um/count`.
 //! * **reference** takes the unit of the position, **temperature** degrees Celsius, **load** a plain
 //!   number; findings say so.

@@ -21,6 +21,9 @@ impl Column {
     }
 }
 
+/// What every reader says in [`Table::detected`] of stamps that it has made seconds of.
+const CONVERTED: &str = ", converted to seconds";
+
 /// A single number that a file carries beside its columns (a force constant, a sample time).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scalar {
@@ -91,6 +94,17 @@ impl Table {
             .map(|c| c.values.len())
             .max()
             .unwrap_or(0)
+    }
+
+    /// Whether a column holds time stamps that the reader has made seconds of: its unit is not one that somebody wrote, and says
+    /// nothing of the others.
+    pub(crate) fn is_stamped(&self, column: usize) -> bool {
+        let name = &self.columns[column].name;
+        let begins = [format!("{name}: "), format!("time stamps {name} of ")];
+        let says = |line: &String| {
+            begins.iter().any(|begin| line.starts_with(begin)) && line.contains(CONVERTED)
+        };
+        self.detected.iter().any(says)
     }
 
     /// The same columns, those alone with their samples that are wanted.

@@ -5,7 +5,7 @@ use super::convert::{Source, is_force};
 use super::select::select;
 use super::{Detected, Mapping, choose, describe, endings, motion, names, understood};
 use crate::findings::{Finding, Severity};
-use crate::{Dimension, Error, Kind, Table, Unit};
+use crate::{Column, Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
 use stiction_number::full;
 
@@ -46,7 +46,9 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
             assumed: false,
         });
     }
-    let labelled = table.columns.iter().any(|c| c.unit.is_some())
+    let written =
+        |(place, column): (usize, &Column)| column.unit.is_some() && !table.is_stamped(place);
+    let labelled = table.columns.iter().enumerate().any(written)
         || parts
             .iter()
             .any(|p| p.channel.unit.is_some() || p.channel.scale.is_some());

@@ -18,6 +18,7 @@ mod mapping_log;
 mod mapping_parts;
 mod mapping_units;
 mod rests;
+mod stamped;
 mod text;
 mod wanted;
 mod without_readers;
