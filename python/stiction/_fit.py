@@ -116,7 +116,8 @@ class Fit:
 
     @cached_property
     def series(self) -> dict[str, NDArray[numpy.float64]]:
-        """The columns of `fit.csv`: time, measured, model, residual, at the samples that were fitted."""
+        """The columns of `fit.csv`: time, measured, model, residual, and mostly position, velocity and other, at the samples that were
+        fitted."""
         return {name: values for name, _, values in self._native.series()}
 
     @property

@@ -11,12 +11,15 @@ export class PointMap {
   readonly element: HTMLElement;
   private plot: uPlot | null = null;
   private points: Points = { x: new Float64Array(), y: new Float64Array() };
+  /** What a model makes of them, in their order. */
+  private model: Points | null = null;
   private readonly stage = h("div", {});
+  private readonly keys = h("div", { class: "keys" });
   private readonly resize = new ResizeObserver(() => this.build());
   private readonly noTheme: () => void;
 
   constructor(private readonly title: string, private labels: [x: string, y: string], private readonly height: number) {
-    this.element = h("figure", { class: "map" }, h("figcaption", {}, title), this.stage);
+    this.element = h("figure", { class: "map" }, h("figcaption", {}, title, this.keys), this.stage);
     this.resize.observe(this.element);
     this.noTheme = onTheme(() => this.build());
   }
@@ -27,8 +30,9 @@ export class PointMap {
     this.plot?.destroy();
   }
 
-  draw(points: Points, labels = this.labels): void {
+  draw(points: Points, labels = this.labels, model: Points | null = null): void {
     this.points = points;
+    this.model = model;
     this.labels = labels;
     this.build();
   }
@@ -39,8 +43,9 @@ export class PointMap {
     const width = this.element.clientWidth;
     if (width < 50) return;
     const axis = { stroke: color("muted"), grid: { stroke: color("grid"), width: 1 }, ticks: { stroke: color("grid"), width: 1 }, font: "12px system-ui", labelSize: 18, labelFont: "12px system-ui" };
-    const [low, high] = extent(this.points.x);
-    const [least, most] = extent(this.points.y);
+    put(this.keys, ...(this.model ? [h("span", { class: "key key-2" }, "measured"), h("span", { class: "key key-1" }, "model")] : []));
+    const [low, high] = extent(this.points.x, this.model?.x);
+    const [least, most] = extent(this.points.y, this.model?.y);
     const values = (_: uPlot, all: number[]) => all.map((value) => axisNumber(value, all));
     this.plot = new uPlot(
       {
@@ -69,7 +74,7 @@ export class PointMap {
     const size = Math.max(1.5 * devicePixelRatio, 1);
     ctx.save();
     ctx.globalAlpha = this.points.x.length > 2000 ? 0.45 : 0.8;
-    ctx.fillStyle = color("line-1");
+    ctx.fillStyle = color(this.model ? "line-2" : "line-1");
     for (let k = 0; k < this.points.x.length; k += 1) {
       const x = this.points.x[k]!;
       const y = this.points.y[k]!;
@@ -77,16 +82,36 @@ export class PointMap {
       ctx.fillRect(plot.valToPos(x, "x", true) - size / 2, plot.valToPos(y, "y", true) - size / 2, size, size);
     }
     ctx.restore();
+    if (this.model) this.line(plot, this.model);
+  }
+
+  private line(plot: uPlot, { x, y }: Points): void {
+    const { ctx } = plot;
+    ctx.save();
+    ctx.strokeStyle = color("line-1");
+    ctx.lineWidth = 1.25 * devicePixelRatio;
+    ctx.lineJoin = "round";
+    ctx.beginPath();
+    let whole = false;
+    for (let k = 0; k < x.length; k += 1) {
+      const there = !Number.isNaN(x[k]!) && !Number.isNaN(y[k]!);
+      if (there) ctx[whole ? "lineTo" : "moveTo"](plot.valToPos(x[k]!, "x", true), plot.valToPos(y[k]!, "y", true));
+      whole = there;
+    }
+    ctx.stroke();
+    ctx.restore();
   }
 }
 
 /** Ends of an axis, a little beyond what is drawn. */
-function extent(values: Float64Array): [number, number] {
+function extent(...all: (Float64Array | undefined)[]): [number, number] {
   let low = Infinity;
   let high = -Infinity;
-  for (const value of values) {
-    if (value < low) low = value;
-    if (value > high) high = value;
+  for (const values of all) {
+    for (const value of values ?? []) {
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
   }
   if (!(high >= low)) return [0, 1];
   const beside = 0.05 * (high - low) || Math.abs(high) || 1;

@@ -17,12 +17,17 @@ export function unit(text: string): string {
   return text === "1" ? "" : text.replaceAll("*", "·").replaceAll("^2", "²");
 }
 
-/** A length in the unit that suits its size; anything else as it is. */
+/** The unit that suits a length of this size, and by what it is multiplied for it; anything else as it is. */
+export function lengthScale(of: string, size: number): [unit: string, by: number] {
+  if (of === "m" && size > 0 && size < 1e-3) return ["µm", 1e6];
+  if (of === "m" && size > 0 && size < 1) return ["mm", 1e3];
+  return [unit(of), 1];
+}
+
+/** A length in the unit that suits its size. */
 export function length(value: number, of: string): string {
-  const size = Math.abs(value);
-  if (of === "m" && size > 0 && size < 1e-3) return `${short(value * 1e6)} µm`;
-  if (of === "m" && size > 0 && size < 1) return `${short(value * 1e3)} mm`;
-  return `${short(value)} ${unit(of)}`;
+  const [own, by] = lengthScale(of, Math.abs(value));
+  return `${short(value * by)} ${own}`.trim();
 }
 
 /** A duration. */

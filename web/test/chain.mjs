@@ -152,6 +152,25 @@ try {
   await page.getByText(/May be used for compensation|Not to be used/).waitFor({ timeout: 120_000 });
   await page.locator(".residual canvas").first().waitFor();
   await look("identify");
+  // What is left in a stretch of it, and the loops of force over position, follow a brush.
+  const fit = page.locator(".residual");
+  await fit.locator(".map canvas").nth(1).waitFor();
+  const over = fit.locator(".u-over").first();
+  await over.scrollIntoViewIfNeeded();
+  const stretch = await over.boundingBox();
+  const all = await fit.getByText("In all:").innerText();
+  await page.mouse.move(stretch.x + stretch.width * 0.1, stretch.y + 30);
+  await page.mouse.down();
+  await page.mouse.move(stretch.x + stretch.width * 0.4, stretch.y + 30, { steps: 4 });
+  await page.mouse.up();
+  const brushed = await fit.getByText("In the brushed").innerText();
+  if (brushed === all) throw new Error("a brush changes nothing");
+  await fit.locator(".trace").focus();
+  await page.keyboard.press("Escape");
+  await fit.getByText("In all:").waitFor();
+  await fit.evaluate((element) => element.scrollIntoView({ block: "end" }));
+  await look("fit");
+  await page.evaluate(() => document.querySelector("main").scrollTo(0, 0));
   typed(identify);
   passed(`identified: ${compare(join(space, "result"), join(twin, "result"), "identify")} files as the command line writes them`);
 
@@ -159,6 +178,25 @@ try {
   await page.getByRole("button", { name: "Study" }).click();
   await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction simulate"));
   const simulate = await shown();
+  // Each move of a slider is a simulation, seen before anything is simulated as a whole.
+  const tried = page.locator(".try");
+  await tried.locator(".lines canvas").nth(1).waitFor();
+  const took = [];
+  for (const name of ["sigma0", "coulomb", "mass"]) {
+    const slider = tried.getByRole("slider", { name, exact: true });
+    const before = await tried.locator("tbody").innerText();
+    await slider.focus();
+    for (const key of ["End", "Home", "PageUp", "ArrowRight"]) {
+      const answer = page.waitForResponse(/\/api\/trial/);
+      await page.keyboard.press(key);
+      await (await answer).finished();
+      await page.waitForTimeout(30);
+      took.push(Number(/Simulated in ([0-9]+) ms/.exec(await tried.innerText())[1]));
+    }
+    if (name === "coulomb" && (await tried.locator("tbody").innerText()) === before) throw new Error("another friction changes nothing");
+  }
+  took.sort((a, b) => a - b);
+  passed(`a slider moves: simulated in ${took[took.length >> 1]} ms, at most ${took.at(-1)} ms`);
   await page.getByRole("button", { name: "Simulate", exact: true }).click();
   await page.locator(".runs canvas").first().waitFor({ timeout: 120_000 });
   await look("study");

@@ -11,6 +11,7 @@ pub mod result;
 mod size;
 mod start;
 pub mod template;
+mod trial;
 
 pub use belief::{Belief, Drawn, Family, PROMISE_DRAWS};
 pub use grid::Job;
@@ -21,3 +22,4 @@ pub use plan::{
 };
 pub use size::{MOST_SAMPLES, Size};
 pub use start::{Started, results, start};
+pub use trial::{Knob, Range};

@@ -47,6 +47,8 @@ pub fn stage(stage: stiction_identify::Stage) -> &'static str {
     }
 }
 
+/// How well a model fits; the reversal that shows most of presliding.
+pub use stiction_identify::Fit as Quality;
 /// Integration steps of a simulated candidate.
 pub use stiction_identify::candidates::Scheme;
 /// Numbers as people read them.
@@ -59,6 +61,7 @@ pub use stiction_workflows::compare::{
 };
 /// An identification from paths.
 pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
+pub use stiction_workflows::identify::{presliding_length, slowest_turn};
 /// Forms in which a controller takes a planned motion, and how well a parameter is to be known.
 pub use stiction_workflows::plan::{Carrier, Want};
 /// A planned motion, from an axis file.
@@ -67,6 +70,11 @@ pub use stiction_workflows::plan::{Known, PlanOptions, Planned, plan as plan_mot
 pub use stiction_workflows::source::{Source, load, table};
 /// Exported C beside the compensator of a study's model; runs of a study that are kept as they are done.
 pub use stiction_workflows::study::{ExportedC, compare_exported, keep, simulate_keeping};
+/// A short simulation of a study with other parameters, while somebody waits.
+pub mod trial {
+    pub use stiction_files::study::{Knob, Range};
+    pub use stiction_workflows::study::{NotTried, Tried, TriedRun, Which, trial};
+}
 /// How an error names options.
 pub use stiction_workflows::{Part, Setting, Wording};
 /// Further workflows, and what an outcome is worth.

@@ -35,18 +35,40 @@ pub fn columns(text: &str) -> Option<Vec<Column>> {
     )
 }
 
-/// Time, measured, model, residual, and the number of the log where there are several.
+/// Time, measured, model, residual, where they are known position, velocity and what of the model is no friction, and the number
+/// of the log where there are several.
 fn of_force(outcome: &Outcome) -> String {
     let unit = &outcome.result.fit.unit;
     let series = &outcome.law().series;
     let several = outcome.sources.len() > 1;
     let mut out = format!("time [s],measured [{unit}],model [{unit}],residual [{unit}]");
+    let (length, speed) = (
+        symbols::length_unit(outcome.motion),
+        symbols::speed_unit(outcome.motion),
+    );
+    let motion = [
+        ("position", length, &series.position),
+        ("velocity", speed, &series.velocity),
+        ("other", unit.as_str(), &series.other),
+    ];
+    let moves = motion
+        .iter()
+        .all(|(_, _, values)| values.len() == series.time.len());
+    if moves {
+        for (name, unit, _) in motion {
+            let _ = write!(out, ",{name} [{unit}]");
+        }
+    }
     out.push_str(if several { ",log\n" } else { "\n" });
-    out.reserve(series.time.len() * 4 * WIDTH);
+    out.reserve(series.time.len() * if moves { 7 } else { 4 } * WIDTH);
     let mut row = Row::default();
     for i in 0..series.time.len() {
         let (u, y) = (series.measured[i], series.model[i]);
         row.numbers(&mut out, &[series.time[i], u, y, u - y]);
+        if moves {
+            out.push(',');
+            row.numbers(&mut out, &motion.map(|(_, _, values)| values[i]));
+        }
         row.end(&mut out, several.then(|| series.log[i]));
     }
     out

@@ -2,8 +2,10 @@
 
 mod events;
 mod files;
+mod fit;
 mod marks;
 mod opened;
+mod trial;
 mod upload;
 
 use crate::asked::Asked;
@@ -42,6 +44,9 @@ pub fn router() -> Router<Arc<Shared>> {
         .route("/api/mark", post(marks::mark))
         .route("/api/text", get(files::read).put(files::write))
         .route("/api/study", post(files::study))
+        .route("/api/fit", get(fit::fit))
+        .route("/api/left", get(fit::left))
+        .route("/api/trial", post(trial::tried))
         .route("/api/targets", get(targets))
         .route("/api/command", post(command))
         .route("/api/jobs", post(begin).get(jobs))
@@ -142,7 +147,11 @@ async fn tiles(State(shared): App, Query(asked): Query<Drawn>) -> Result<Respons
 async fn map(State(shared): App, Query(asked): Query<Drawn>) -> Result<Response, Refused> {
     let bytes = read(shared, move |shared| {
         let loaded = asked.of(shared)?;
-        Ok(logs::map(&loaded.series, (asked.from, asked.to)))
+        let names: Vec<&str> = match asked.channels.as_str() {
+            "" => logs::MAPPED.into(),
+            names => names.split(',').collect(),
+        };
+        Ok(logs::map(&loaded.series, &names, (asked.from, asked.to)))
     });
     Ok(binary(bytes.await?))
 }

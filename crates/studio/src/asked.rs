@@ -1,6 +1,6 @@
 //! Work that the page asks for, as a command of the command line: the same words, the same engine, the same files.
 
-use crate::logs::read_axis;
+use crate::named::{read_axis, read_study};
 use crate::refused::Refused;
 use crate::workspace::Workspace;
 use serde::Deserialize;
@@ -11,8 +11,7 @@ use stiction::commands::{
     plan_motion, study, text,
 };
 use stiction::{
-    Error, ExportOptions, LawKind, Method, Observer, Options, Procedures, Study, Target, Verdict,
-    bundle,
+    Error, ExportOptions, LawKind, Method, Observer, Options, Procedures, Target, Verdict, bundle,
 };
 
 /// A piece of work.
@@ -406,10 +405,7 @@ fn simulate(
     let dir = workspace.place(out)?;
     let schema = study::result::SCHEMA;
     check_folder_of(&dir, schema, false)?;
-    let file = workspace.file(name)?;
-    // A study reads what it names, its model first of all.
-    workspace.holds_named(&std::fs::read_to_string(&file)?, &file)?;
-    let read = Study::read(file)?;
+    let read = read_study(workspace, name)?;
     let inputs: Vec<PathBuf> = read.inputs().map(PathBuf::from).collect();
     check_inputs(&dir, &inputs)?;
     let outcome = stiction::simulate(&read, observer);

@@ -7,10 +7,11 @@ mod runs;
 mod series;
 
 pub use columns::{Correction, correct};
-pub use drawn::{map, tiles};
+pub use drawn::{MAPPED, map, tiles};
 pub use runs::runs;
 pub use series::{Channel, Series};
 
+use crate::named::read_axis;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
 use serde::Serialize;
@@ -220,25 +221,6 @@ impl Key {
             how,
         })
     }
-}
-
-/// An axis file of the workspace, of which no log lies outside, and no file that a column of one of these logs comes from.
-pub fn read_axis(workspace: &Workspace, name: &str, logs: &[&Path]) -> Result<Axis, Refused> {
-    let axis = Axis::read(workspace.file(name)?)?;
-    let listed = axis.logs.iter().map(|log| log.file.as_path());
-    let logs: Vec<&Path> = listed.chain(logs.iter().copied()).collect();
-    for log in &logs {
-        workspace.holds(log)?;
-    }
-    for other in axis.joined.iter().filter_map(|joined| joined.file.as_ref()) {
-        if let Some(file) = other.of_one_log() {
-            workspace.holds(file)?;
-        }
-        for log in &logs {
-            workspace.holds(&other.of(log))?;
-        }
-    }
-    Ok(axis)
 }
 
 fn loaded(source: Source, marks: Stretches) -> Loaded {

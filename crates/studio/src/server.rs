@@ -3,6 +3,7 @@
 use crate::api;
 use crate::guard::{self, Keys};
 use crate::jobs::Jobs;
+use crate::listen;
 use crate::logs::Logs;
 use crate::tickets::Tickets;
 use crate::workspace::Workspace;
@@ -10,6 +11,7 @@ use axum::middleware;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Duration;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
@@ -38,6 +40,7 @@ pub struct Shared {
 pub struct Studio {
     workspace: Workspace,
     port: u16,
+    patience: Duration,
 }
 
 /// A server that listens.
@@ -46,6 +49,7 @@ pub struct Served {
     listener: TcpListener,
     shared: Arc<Shared>,
     address: SocketAddr,
+    patience: Duration,
 }
 
 impl Studio {
@@ -58,7 +62,18 @@ impl Studio {
     pub fn open(folder: &Path, port: u16) -> std::io::Result<Self> {
         let workspace = Workspace::open(folder)?;
         workspace.tidy();
-        Ok(Self { workspace, port })
+        Ok(Self {
+            workspace,
+            port,
+            patience: listen::PATIENCE,
+        })
+    }
+
+    /// Waits so long for the head of a request, and for its body (of an upload, for each piece of it), instead of 30 s.
+    #[must_use]
+    pub fn with_patience(mut self, patience: Duration) -> Self {
+        self.patience = patience;
+        self
     }
 
     /// Serves it until the process ends. `listening` is told the address to open, which holds the token, once it can be opened.
@@ -73,7 +88,8 @@ impl Studio {
         runtime.block_on(async {
             let served = self.listen().await?;
             listening(&served.address());
-            served.run().await
+            served.run().await;
+            Ok(())
         })
     }
 
@@ -98,6 +114,7 @@ impl Studio {
             listener,
             shared: Arc::new(shared),
             address,
+            patience: self.patience,
         })
     }
 }
@@ -109,12 +126,13 @@ impl Served {
     }
 
     /// Answers until the process ends.
-    ///
-    /// # Errors
-    /// Where the listener fails.
-    pub async fn run(self) -> std::io::Result<()> {
+    pub async fn run(self) {
+        let patience = self.patience;
+        let in_time =
+            middleware::from_fn(move |request, next| listen::in_time(patience, request, next));
         let guard = middleware::from_fn_with_state(self.shared.clone(), guard::guard);
-        let router = api::router().layer(guard).with_state(self.shared);
-        axum::serve(self.listener, router).await
+        // Who may not ask is refused before anything of a body is waited for.
+        let router = api::router().layer(in_time).layer(guard);
+        listen::serve(self.listener, router.with_state(self.shared), patience).await;
     }
 }

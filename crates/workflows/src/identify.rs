@@ -36,6 +36,7 @@ mod seen;
 mod settled;
 mod simulate;
 mod trust;
+mod turn;
 mod unfit;
 
 pub(crate) use condition::record_of;
@@ -47,3 +48,4 @@ pub use predict::{Prediction, predict};
 pub(crate) use run::identify_asked;
 pub use run::{identify, identify_logs};
 pub(crate) use searched::ranges;
+pub use turn::{presliding_length, slowest_turn};

@@ -22,6 +22,7 @@ mod rows;
 mod run;
 mod sweeps;
 mod trace;
+mod trial;
 
 pub use changing::LoadCourse;
 pub use contour_trace::ContourTrace;
@@ -32,5 +33,6 @@ pub use memory::memory;
 pub use outcome::StudyOutcome;
 pub use run::{simulate, simulate_keeping};
 pub use trace::{Course, Trace};
+pub use trial::{NotTried, Tried, TriedRun, Which, trial};
 
 pub(crate) use compensation::without_stribeck;

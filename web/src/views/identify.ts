@@ -1,9 +1,10 @@
 // Identification: a few choices, the work as it goes, and what came of it beside another result.
 
-import { get, open, type Channel } from "../api";
+import { binary, get, open, type Channel, type Stretch } from "../api";
 import { commandLine } from "../command";
 import { attempt, choice, field, h, put } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
+import { PointMap, type Points } from "../map";
 import { short, unit } from "../numbers";
 import { choose, files, onChange, state } from "../state";
 import { Trace } from "../trace";
@@ -33,6 +34,12 @@ interface Result {
   warnings: { code: string; message: string }[];
 }
 
+/** What is drawn of a fit: the stretch about its slowest reversal, and what is force over position and over velocity in it. */
+interface Drawable { from: number | null; to: number | null; channels: Channel[]; turn: Stretch | null; loop: Pairs | null; curve: Pairs | null }
+/** Names of channels, or none where the model is drawn over what was measured. */
+interface Pairs { measured: [x: string, y: string]; model: [x: string, y: string] }
+interface Left { samples: number; rms: number; percent: number }
+
 export class IdentifyView {
   readonly element = h("div", { class: "view identify" });
   private readonly command = commandLine();
@@ -46,7 +53,7 @@ export class IdentifyView {
   private validation = "";
   private out = "";
   private beside = "";
-  private trace: Trace | null = null;
+  private drawn: { end(): void }[] = [];
   private shown = "";
   private ran = new Set<number>();
 
@@ -64,7 +71,12 @@ export class IdentifyView {
 
   end(): void {
     this.stop();
-    this.trace?.end();
+    this.clear();
+  }
+
+  private clear(): void {
+    for (const own of this.drawn) own.end();
+    this.drawn = [];
   }
 
   private asked(): Record<string, unknown> {
@@ -130,8 +142,7 @@ export class IdentifyView {
     const now = JSON.stringify([result, file?.modified, this.beside]);
     if (now === this.shown) return;
     this.shown = now;
-    this.trace?.end();
-    this.trace = null;
+    this.clear();
     if (!result) {
       put(this.found, h("p", { class: "muted" }, "No result yet. Choose a log and press Identify; the defaults are meant to be right."));
       return;
@@ -150,28 +161,69 @@ export class IdentifyView {
       parameters(own, other, this.beside),
       quality(own, other),
       h("div", { class: "residual" }),
+      other ? h("div", { class: "residual" }) : null,
       warnings(own),
     );
-    await attempt(() => this.residual(result, own));
+    const places = [...this.found.querySelectorAll(".residual")];
+    const both = [[result, own], [this.beside, other]] as const;
+    for (const [k, [name, one]] of both.entries()) {
+      const place = places[k];
+      if (one && place) await attempt(() => this.residual(place, name, one, Boolean(other)));
+    }
   }
 
-  /** Measured, model and what is left, over the time. */
-  private async residual(result: string, own: Result): Promise<void> {
+  /** Measured, model and what is left over the time, and what is left in a stretch that is brushed. */
+  private async residual(place: Element, result: string, own: Result, several: boolean): Promise<void> {
+    const shown = this.shown;
+    const fit = await get<Drawable>("/api/fit", { result });
+    if (this.shown !== shown || fit.from === null || fit.to === null) return;
     const name = `${result}/fit.csv`;
-    const table = await get<{ from: number | null; to: number | null; channels: Channel[] }>("/api/table", { name });
-    const place = this.found.querySelector(".residual");
-    if (!place || table.from === null || table.to === null || state.chosen.result !== result) return;
-    const channels = (...names: string[]) => names.map((own) => table.channels.find((channel) => channel.name === own)).filter((channel) => channel !== undefined);
+    const channels = (...names: string[]) => names.map((one) => fit.channels.find((channel) => channel.name === one)).filter((channel) => channel !== undefined);
+    const axis = (names: [string, string] | undefined): [string, string] => {
+      const [x, y] = [0, 1].map((k) => fit.channels.find((channel) => channel.name === names?.[k]));
+      return [`${x?.name === "measured" ? "position" : x?.name ?? ""} [${unit(x?.unit ?? "")}]`, `${y?.name ?? ""} [${unit(y?.unit ?? "")}]`];
+    };
+    const maps: [PointMap, Pairs][] = [];
+    for (const [title, pairs] of [["Force over position", fit.loop], ["Friction over velocity", fit.curve]] as const) {
+      if (pairs) maps.push([new PointMap(title, axis(pairs.measured), 220), pairs]);
+    }
+    const said = h("p", { class: "muted small", "aria-live": "polite" });
+    let asked = 0;
+    const brushed = async (stretch: Stretch | null) => {
+      asked += 1;
+      const mine = asked;
+      const [from, to] = stretch ?? [fit.from!, fit.to!];
+      const left = await get<Left>("/api/left", { result, from, to });
+      if (mine !== asked) return;
+      const where = stretch ? `In the brushed ${short(to - from)} s` : "In all";
+      put(said, `${where}: ${short(left.rms)} ${unit(own.fit.unit)} rms are left, ${short(left.percent)} % of what was measured, over ${left.samples} samples. Drag over the traces to look at a stretch; without one the map of positions shows the slowest reversal.`);
+      for (const [map, pairs] of maps) {
+        const [start, end] = stretch ?? (pairs === fit.loop ? fit.turn : null) ?? [from, to];
+        const names = [...pairs.measured, ...pairs.model];
+        const buffer = await binary("/api/map", { name, table: true, channels: names.join(","), from: start, to: end });
+        if (mine !== asked) return;
+        const [count = 0] = new Uint32Array(buffer, 0, 2);
+        const column = (at: number) => new Float64Array(buffer, 8 + 8 * count * at, count);
+        const points = (at: number): Points => ({ x: column(at), y: column(at + 1) });
+        map.draw(points(0), undefined, points(2));
+      }
+    };
+    let due = 0;
     const trace = new Trace({
       source: { name, table: true },
       panels: [{ title: own.fit.signal || "force", channels: channels("measured", "model") }, { title: "residual", channels: channels("residual") }],
-      from: table.from,
-      to: table.to,
-      height: 130,
-      label: "Measured, model and residual",
+      from: fit.from,
+      to: fit.to,
+      height: 110,
+      label: `Measured, model and residual of ${result}`,
+      brushed: (stretch) => {
+        clearTimeout(due);
+        due = window.setTimeout(() => void attempt(() => brushed(stretch)), 60);
+      },
     });
-    this.trace = trace;
-    put(place, h("h3", {}, "Measured, model and what is left"), trace.element);
+    this.drawn.push(trace, ...maps.map(([map]) => map));
+    put(place, h("h3", {}, several ? `Measured, model and what is left: ${result}` : "Measured, model and what is left"), trace.element, said, h("div", { class: "maps" }, ...maps.map(([map]) => map.element)));
+    await brushed(null);
   }
 }
 

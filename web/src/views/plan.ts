@@ -89,12 +89,12 @@ export class PlanView {
       return;
     }
     const job = latest("plan", (own) => own.folder === this.out && own.state === "done");
-    const planned = job?.json as { expected?: Expected[] } | undefined;
+    const planned = job?.json as { parameter?: Expected[] } | undefined;
     put(
       this.found,
       h("div", { class: "row" }, h("button", { onclick: () => void attempt(() => open(`${this.out}/report.html`, "show")) }, "Full report"), h("button", { onclick: () => void attempt(() => open(name, "save")) }, "Set points as CSV"), h("button", { class: "quiet", onclick: () => void attempt(() => open(this.out, "zip")) }, "Download as zip")),
       h("div", { class: "runs" }),
-      planned?.expected ? expected(planned.expected) : null,
+      planned?.parameter ? expected(planned.parameter) : null,
       job ? printed(job) : null,
     );
     await attempt(async () => {

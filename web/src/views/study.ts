@@ -8,6 +8,7 @@ import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { length, short } from "../numbers";
 import { exists, files, onChange, refresh, state } from "../state";
 import { Trace } from "../trace";
+import { Try } from "./try";
 
 interface Metric { name: string; unit: string; mean: number; reduction_percent: number | null }
 interface Row { path: string; controller: string; compensator: string; parameters: string; metrics: Metric[] }
@@ -20,6 +21,7 @@ export class StudyView {
   private readonly work = h("section", { "aria-label": "Work", "aria-live": "polite" });
   private readonly found = h("section", { class: "found", "aria-label": "What came of it" });
   private readonly stop: () => void;
+  private readonly tried = new Try();
   private study = "";
   private out = "";
   private trace: Trace | null = null;
@@ -28,7 +30,7 @@ export class StudyView {
   private editing = "";
 
   constructor() {
-    put(this.element, h("div", { class: "head" }, h("h2", {}, "Study"), h("span", { class: "muted" }, "the axis with and without compensation, simulated")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.work, this.found)), this.command.element);
+    put(this.element, h("div", { class: "head" }, h("h2", {}, "Study"), h("span", { class: "muted" }, "the axis with and without compensation, simulated")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.tried.element, this.work, this.found)), this.command.element);
     const { result } = state.chosen;
     const own = `${result}/study.toml`;
     this.pick(result && exists(own) ? own : (files("study")[0]?.name ?? ""));
@@ -44,6 +46,7 @@ export class StudyView {
 
   end(): void {
     this.stop();
+    this.tried.end();
     this.trace?.end();
   }
 
@@ -58,6 +61,7 @@ export class StudyView {
 
   private drawForm(): void {
     const all = files("study");
+    this.tried.of(this.study || (all[0]?.name ?? ""));
     if (!this.study && all[0]) this.pick(all[0].name);
     const models = files("model");
     if (!all.length) {
@@ -105,7 +109,7 @@ export class StudyView {
     this.trace?.end();
     this.trace = null;
     if (!file) {
-      put(this.found, h("p", { class: "muted" }, "Not simulated yet. A study of a few paths takes seconds."));
+      put(this.found, h("p", { class: "muted" }, "Not simulated as a whole yet. A study of a few paths takes seconds."));
       return;
     }
     const read = await attempt(async () => JSON.parse((await get<{ text: string }>("/api/text", { name: file.name })).text) as StudyFile);

@@ -21,7 +21,7 @@ pub struct Belief {
 
 /// Beliefs of one kind.
 pub struct Family {
-    /// `exact`, `corners` or `covariance`.
+    /// `exact`, `corners`, `covariance`, `promised` or `moved`.
     pub kind: &'static str,
     /// For tables: `exact`, `±10 %`, `95 % of 200 draws`.
     pub name: String,
@@ -71,6 +71,19 @@ impl Family {
             name: "exact".into(),
             beliefs: vec![truth],
             axes: Vec::new(),
+        }
+    }
+
+    /// An axis that was moved away from its model, which the compensator keeps.
+    pub fn moved(model: Belief, axis: Belief) -> Self {
+        Family {
+            kind: "moved",
+            name: "moved".into(),
+            beliefs: vec![model],
+            axes: vec![Drawn {
+                axis,
+                beside: Unmodelled::default(),
+            }],
         }
     }
 
@@ -244,7 +257,10 @@ fn percent(by: f64) -> String {
 }
 
 /// The law of parameters, its sigma1 constant or capped as `form` is.
-fn law_of(values: &ParameterSet, form: Option<Damping<f64>>) -> Result<AxisLaw, LawError> {
+pub(super) fn law_of(
+    values: &ParameterSet,
+    form: Option<Damping<f64>>,
+) -> Result<AxisLaw, LawError> {
     let law = axis_law(values)?;
     Ok(law.damped_as(|sigma1| match form {
         Some(Damping::Constant(_)) => Damping::Constant(sigma1),

@@ -66,7 +66,7 @@ pub struct Parameter {
 }
 
 /// Whether the simulated law has a parameter. The delay is one of the log, not of the axis.
-fn is_simulated(quantity: Quantity) -> bool {
+pub(super) fn is_simulated(quantity: Quantity) -> bool {
     matches!(
         quantity,
         Quantity::Sigma0

@@ -288,7 +288,7 @@ fn promised(study: &Study) -> Result<Vec<Family>, String> {
 
 impl Machine {
     /// What an axis is.
-    fn truth(&self) -> Belief {
+    pub fn truth(&self) -> Belief {
         Belief {
             law: self.law,
             mass: self.mass,

@@ -2,10 +2,10 @@
 
 use stiction_files::symbols;
 use stiction_identify::{Between, Coupling, Divided, Series};
-use stiction_parameters::{Quantity, Side, SteadyCurve};
+use stiction_parameters::SteadyCurve;
 use stiction_report::{Axis, Color, Dash, Figure, Heatmap, Layer, Panel, Text};
 use stiction_signal::autocorrelation as correlate;
-use stiction_workflows::identify::Outcome;
+use stiction_workflows::identify::{Outcome, presliding_length, slowest_turn};
 
 /// Most lags of the autocorrelation that are drawn, samples.
 const MOST_LAGS: usize = 200;
@@ -196,7 +196,8 @@ pub(super) fn low_speed(outcome: &Outcome) -> Option<Figure> {
 pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
     let series = &outcome.law().series;
     let length = symbols::length_unit(outcome.motion);
-    let (turn, window) = reversal(outcome, series);
+    let way = presliding_length(&outcome.law().values()).unwrap_or(0.0);
+    let (turn, window) = slowest_turn(&series.velocity, &series.position, way)?;
     if window.len() < FEWEST_SAMPLES_DRAWN || !outcome.law().law.kind.has_bristle() {
         return None;
     }
@@ -219,39 +220,6 @@ pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
     .layer(Layer::line(x, model).color(Color::Blue).label("Model"));
     let figure = Figure::new("Presliding around a reversal");
     Some(figure.panel(panel).half())
-}
-
-/// The slowest reversal, and the samples around it: until the bristle has surely turned over.
-fn reversal(outcome: &Outcome, series: &Series) -> (usize, std::ops::Range<usize>) {
-    let n = series.velocity.len();
-    let turns = (1..n).filter(|&i| series.velocity[i - 1] * series.velocity[i] < 0.0);
-    let values = outcome.law().values();
-    let length = match values.get(Quantity::Sigma0) {
-        Some(s) if s > 0.0 => 8.0 * values.on(Quantity::Coulomb, Side::Positive).unwrap_or(0.0) / s,
-        _ => 0.0,
-    };
-    let reach = |turn: usize| {
-        let origin = series.position[turn];
-        let mut end = turn;
-        while end + 1 < n
-            && end - turn < n / 10 + 20
-            && (series.position[end] - origin).abs() <= length
-        {
-            end += 1;
-        }
-        let mut start = turn;
-        while start > 0
-            && turn - start < n / 10 + 20
-            && (series.position[start] - origin).abs() <= length
-        {
-            start -= 1;
-        }
-        (turn, start..end + 1)
-    };
-    turns
-        .map(reach)
-        .max_by_key(|(_, window)| window.len())
-        .unwrap_or((0, 0..0))
 }
 
 /// Measured, model and residual in time.

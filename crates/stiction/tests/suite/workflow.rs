@@ -273,7 +273,10 @@ fn the_fit_is_a_log() {
         assert_eq!(table.columns[1].values, series.measured);
         assert_eq!(table.columns[2].values, series.model);
         assert_eq!(table.columns[3].values, series.residual());
-        assert_eq!(table.columns.len(), 3 + logs.len());
+        assert_eq!(table.columns[4].values, series.position);
+        assert_eq!(table.columns[5].unit.as_deref(), Some("m/s"));
+        assert_eq!(table.columns[6].values, series.other);
+        assert_eq!(table.columns.len(), 6 + logs.len());
     }
 }
 

@@ -52,19 +52,25 @@ pub fn tiles(
     Ok(out)
 }
 
-/// Velocity, force and position of a stretch, every n-th sample of it; what the log lacks is not a number.
+/// What is mapped of a log.
+pub const MAPPED: [&str; 3] = ["velocity", "force", "position"];
+/// Most channels of a map.
+const MOST_MAPPED: usize = 16;
+
+/// Channels of a stretch, every n-th sample of it; what the log lacks is not a number.
 ///
-/// Two 32-bit numbers: how many points there are, and how many samples apart they are. Then the three columns as 64-bit floats.
-pub fn map(series: &Series, (from, to): (f64, f64)) -> Vec<u8> {
+/// Two 32-bit numbers: how many points there are, and how many samples apart they are. Then the columns as 64-bit floats.
+pub fn map(series: &Series, names: &[&str], (from, to): (f64, f64)) -> Vec<u8> {
     let start = series.time.partition_point(|t| *t < from);
     let end = series.time.partition_point(|t| *t <= to).max(start);
     let step = (end - start).div_ceil(MOST_POINTS).max(1);
     let count = (end - start).div_ceil(step);
-    let mut out = Vec::with_capacity(8 + 24 * count);
+    let names = &names[..names.len().min(MOST_MAPPED)];
+    let mut out = Vec::with_capacity(8 + 8 * names.len() * count);
     for number in [count, step] {
         out.extend((number as u32).to_le_bytes());
     }
-    for name in ["velocity", "force", "position"] {
+    for name in names {
         let channel = series.channel(name);
         for at in (start..end).step_by(step) {
             let value = channel.and_then(|own| own.values.get(at));
@@ -76,7 +82,7 @@ pub fn map(series: &Series, (from, to): (f64, f64)) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::{map, tiles};
+    use super::{MAPPED, map, tiles};
     use crate::logs::{Channel, Series};
     use crate::pyramid::Pyramid;
 
@@ -118,7 +124,7 @@ mod tests {
 
     #[test]
     fn a_map_has_what_there_is() {
-        let points = map(&series(100_000), (10.0, 20.0));
+        let points = map(&series(100_000), &MAPPED, (10.0, 20.0));
         let count = u32::from_le_bytes(points[..4].try_into().unwrap()) as usize;
         assert!((4000..=6000).contains(&count), "{count}");
         assert!(number(&points, 8).is_nan());

@@ -43,6 +43,25 @@ impl Channel {
     }
 }
 
+/// Friction, measured and of the model, in the table of a fit: what is left of the force without its other parts.
+fn friction(channels: &[Channel]) -> Vec<Channel> {
+    let of = |name: &str| channels.iter().find(|own| own.name == name);
+    let Some(other) = of("other") else {
+        return Vec::new();
+    };
+    let pairs = [("measured", "friction"), ("model", "model friction")];
+    let made = pairs.into_iter().filter_map(|(whole, name)| {
+        let whole = of(whole)?;
+        let parts = whole.values.iter().zip(&other.values);
+        let values = parts.map(|(force, other)| force - other).collect();
+        Some(Channel {
+            derived: true,
+            ..Channel::new(name, &whole.unit, values)
+        })
+    });
+    made.collect()
+}
+
 impl Series {
     /// The channels of a log, SI; a velocity that was not recorded follows from the position.
     pub fn of_log(mut log: recording::Log) -> Self {
@@ -105,7 +124,8 @@ impl Series {
             let unit = column.unit.as_deref().unwrap_or("");
             Channel::new(&column.name, unit, column.values)
         });
-        let channels = channels.collect();
+        let mut channels: Vec<Channel> = channels.collect();
+        channels.extend(friction(&channels));
         Self { time, channels }
     }
 

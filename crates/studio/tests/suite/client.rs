@@ -36,8 +36,13 @@ impl Answer {
 
 /// Serves an empty folder.
 pub fn serve() -> Served {
+    serve_with(|studio| studio)
+}
+
+/// The same with other settings.
+pub fn serve_with(set: impl FnOnce(Studio) -> Studio) -> Served {
     let folder = tempfile::tempdir().unwrap();
-    let studio = Studio::open(folder.path(), 0).unwrap();
+    let studio = set(Studio::open(folder.path(), 0).unwrap());
     let (sender, receiver) = channel();
     std::thread::spawn(move || studio.serve(|address| sender.send(address.to_string()).unwrap()));
     let address = receiver.recv_timeout(Duration::from_secs(60)).unwrap();
@@ -53,24 +58,7 @@ pub fn serve() -> Served {
 
 /// The same with a session.
 pub fn open() -> Served {
-    let mut served = serve();
-    let body = format!("{{\"token\":\"{}\"}}", served.token);
-    let answer = served.send(
-        "POST",
-        "/api/session",
-        &[json(), served.origin()],
-        body.as_bytes(),
-    );
-    assert_eq!(answer.status, 200, "{}", answer.text());
-    let cookie = answer
-        .head
-        .lines()
-        .find_map(|line| line.strip_prefix("set-cookie: "));
-    let cookie = cookie.unwrap();
-    assert!(cookie.contains("HttpOnly; SameSite=Strict"), "{cookie}");
-    let key = answer.json()["key"].as_str().unwrap().to_string();
-    served.session = Some((cookie.split(';').next().unwrap().into(), key));
-    served
+    serve().begin()
 }
 
 pub fn json() -> String {
@@ -80,6 +68,27 @@ pub fn json() -> String {
 impl Served {
     pub fn path(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// With a session.
+    pub fn begin(mut self) -> Self {
+        let body = format!("{{\"token\":\"{}\"}}", self.token);
+        let answer = self.send(
+            "POST",
+            "/api/session",
+            &[json(), self.origin()],
+            body.as_bytes(),
+        );
+        assert_eq!(answer.status, 200, "{}", answer.text());
+        let cookie = answer
+            .head
+            .lines()
+            .find_map(|line| line.strip_prefix("set-cookie: "));
+        let cookie = cookie.unwrap();
+        assert!(cookie.contains("HttpOnly; SameSite=Strict"), "{cookie}");
+        let key = answer.json()["key"].as_str().unwrap().to_string();
+        self.session = Some((cookie.split(';').next().unwrap().into(), key));
+        self
     }
 
     pub fn origin(&self) -> String {

@@ -2,5 +2,7 @@
 
 mod client;
 mod sessions;
+mod slow;
+mod trial;
 mod uploads;
 mod work;

@@ -16,7 +16,7 @@ fn log(served: &Served, name: &str) {
 }
 
 /// Waits for work to end, and gives it.
-fn ended(served: &Served, id: u64) -> serde_json::Value {
+pub fn ended(served: &Served, id: u64) -> serde_json::Value {
     let began = Instant::now();
     loop {
         let all = served.ask("GET", "/api/jobs", "").json();
@@ -137,12 +137,7 @@ fn work_is_seen_stopped_and_found_again() {
         .unwrap();
     let twice = served.ask("POST", "/api/jobs", asked);
     assert_eq!(twice.status, 409, "{}", twice.text());
-    let stopped = served.ask("POST", &format!("/api/jobs/{id}/stop"), "{}");
-    let job = ended(&served, id);
-    assert_eq!(job["state"], "done", "{job}");
-    if stopped.status == 200 && job["verdict"] == "interrupted" {
-        assert!(served.path().join("result/result.json").is_file());
-    }
+    assert_eq!(ended(&served, id)["state"], "done");
     // Refused work says why, in the words of the command line.
     let asked = "{\"kind\":\"simulate\",\"study\":\"run.csv\",\"out\":\"study\"}";
     let id = served
@@ -153,6 +148,72 @@ fn work_is_seen_stopped_and_found_again() {
     let job = ended(&served, id);
     assert_eq!(job["state"], "failed", "{job}");
     assert!(job["text"].as_str().unwrap().contains("run.csv"), "{job}");
+}
+
+/// Waits until work says what it is doing, which it does until it is stopped, and stops it.
+fn stopped(served: &Served, asked: &serde_json::Value) -> serde_json::Value {
+    let answer = served.ask("POST", "/api/jobs", &asked.to_string());
+    let id = answer.json().as_u64().unwrap();
+    let began = Instant::now();
+    loop {
+        let all = served.ask("GET", "/api/jobs", "").json();
+        let job = all.as_array().unwrap().iter().find(|job| job["id"] == id);
+        let job = job.unwrap();
+        assert_eq!(job["state"], "running", "{job}");
+        if job["stage"].is_string() {
+            break;
+        }
+        assert!(began.elapsed() < Duration::from_secs(300), "{job}");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let answer = served.ask("POST", &format!("/api/jobs/{id}/stop"), "{}");
+    assert_eq!(answer.status, 200, "{}", answer.text());
+    ended(served, id)
+}
+
+/// A study and a plan that take minutes are stopped: what was found stays, and is said to be a part.
+#[test]
+fn work_that_is_stopped_keeps_what_it_found() {
+    let served = open();
+    let corners = "[[parameter_error]]\nkind = \"corners\"\nby = \"10 %\"\n";
+    let study = format!(
+        "[axis]\nknown = \"motor\"\nrate = \"4 kHz\"\n\n{}\n[[controller]]\nkind = \"cascade\"\nbandwidth = \"30 Hz\"\n\
+         force_limit = \"200 N\"\n\n[[compensator]]\nkind = \"lugre\"\n\n{corners}",
+        (0..30)
+            .map(|k| format!(
+                "[[path]]\nname = \"{k}\"\nkind = \"sine\"\namplitude = \"1 mm\"\nfrequency = \"1 Hz\"\ncycles = 200\n"
+            ))
+            .collect::<String>()
+    );
+    std::fs::write(served.path().join("study.toml"), study).unwrap();
+    let asked = serde_json::json!({ "kind": "simulate", "study": "study.toml", "out": "study" });
+    let job = stopped(&served, &asked);
+    assert_eq!(
+        (&job["state"], &job["verdict"]),
+        (&"done".into(), &"interrupted".into()),
+        "{job}"
+    );
+    let text = std::fs::read_to_string(served.path().join("study/study.json")).unwrap();
+    let found: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(found["status"], "interrupted");
+    let limits = "[limits]\nstroke = [\"-100 mm\", \"100 mm\"]\nspeed = \"0.2 m/s\"\nacceleration = \"6 m/s2\"\n\
+                  rated_force = \"150 N\"\nmass = \"10 kg\"\n";
+    std::fs::write(
+        served.path().join("axis.toml"),
+        format!("kind = \"linear\"\n\n{limits}"),
+    )
+    .unwrap();
+    let asked =
+        serde_json::json!({ "kind": "plan", "axis": "axis.toml", "time": 600.0, "out": "plan" });
+    let job = stopped(&served, &asked);
+    assert_eq!(
+        (&job["state"], &job["verdict"]),
+        (&"done".into(), &"interrupted".into()),
+        "{job}"
+    );
+    // Either it had a motion, or it says that there was none yet.
+    let there = served.path().join("plan/plan.toml").is_file();
+    assert_eq!(there, job["folder"] == "plan", "{job}");
 }
 
 #[test]

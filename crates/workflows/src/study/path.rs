@@ -113,7 +113,7 @@ pub(super) fn on_path<L: OfAxis, I: Integrator<L>>(
             load.as_ref(),
         ),
         switched_off: compensator.is_some_and(|c| c.state().watch.tripped()),
-        trace: exact.then(|| Trace {
+        trace: (exact || family.kind == "moved").then(|| Trace {
             load,
             ..Trace::of(study.names(job), counted)
         }),

@@ -152,7 +152,7 @@ fn simulated(study: &Study, runs: Option<&Runs>, observer: &mut dyn Observer) ->
 }
 
 /// The runs of a study, or of one with a value of a sweep, and what they have in common.
-struct Grid<'a> {
+pub(super) struct Grid<'a> {
     study: &'a Study,
     sampled: Vec<Option<Sampled>>,
     learnt: Learnt,
@@ -160,7 +160,7 @@ struct Grid<'a> {
 
 impl<'a> Grid<'a> {
     /// One of `count` grids.
-    fn of(study: &'a Study, count: usize) -> Self {
+    pub(super) fn of(study: &'a Study, count: usize) -> Self {
         Grid {
             study,
             sampled: path::sampled(study, count),
@@ -169,7 +169,7 @@ impl<'a> Grid<'a> {
     }
 
     /// One run, whose metrics must be finite numbers; `None` where the work was stopped.
-    fn run(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, Fault> {
+    pub(super) fn run(&self, job: Job, go_on: &dyn Fn() -> bool) -> Result<Option<Done>, Fault> {
         let study = self.study;
         let done = match study.contours.get(job.path.wrapping_sub(study.paths.len())) {
             Some(contour) => Some(contour::on_contour(study, job, contour, &self.learnt)?),

@@ -1,0 +1,32 @@
+//! Files of the folder that name others, which are in the folder as well.
+
+use crate::refused::Refused;
+use crate::workspace::Workspace;
+use std::path::Path;
+use stiction::{Axis, Study};
+
+/// An axis file of the workspace, of which no log lies outside, and no file that a column of one of these logs comes from.
+pub fn read_axis(workspace: &Workspace, name: &str, logs: &[&Path]) -> Result<Axis, Refused> {
+    let axis = Axis::read(workspace.file(name)?)?;
+    let listed = axis.logs.iter().map(|log| log.file.as_path());
+    let logs: Vec<&Path> = listed.chain(logs.iter().copied()).collect();
+    for log in &logs {
+        workspace.holds(log)?;
+    }
+    for other in axis.joined.iter().filter_map(|joined| joined.file.as_ref()) {
+        if let Some(file) = other.of_one_log() {
+            workspace.holds(file)?;
+        }
+        for log in &logs {
+            workspace.holds(&other.of(log))?;
+        }
+    }
+    Ok(axis)
+}
+
+/// A study of the workspace, which reads what it names, its model first of all.
+pub fn read_study(workspace: &Workspace, name: &str) -> Result<Study, Refused> {
+    let file = workspace.file(name)?;
+    workspace.holds_named(&std::fs::read_to_string(&file)?, &file)?;
+    Ok(Study::read(file)?)
+}
