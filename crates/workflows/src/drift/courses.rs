@@ -139,7 +139,7 @@ impl Courses {
 
 /// Refuses a number whose square would be none.
 fn allowed(row: &LogRow, what: &str, number: Option<f64>) -> Result<(), Error> {
-    match number.filter(|x| !(x.abs() < LARGEST)) {
+    match number.filter(|x| x.is_nan() || x.abs() >= LARGEST) {
         None => Ok(()),
         Some(number) => Err(Error::usage(
             format!("{}: {what} is {}", row.path, stiction_number::short(number)),
