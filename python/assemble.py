@@ -38,8 +38,8 @@ def main(library: Path, folder: Path) -> Path:
         *(f'Requires-Dist: {needed}; extra == "{extra}"' for extra, all_of_it in extras.items() for needed in all_of_it),
     ]
     wheel = ["Wheel-Version: 1.0", "Generator: assemble.py", "Root-Is-Purelib: false", f"Tag: {tag}"]
-    sources = sorted(path for path in PACKAGE.iterdir() if path.suffix in {".py", ".pyi"} or path.name == "py.typed")
-    files = {f"stiction/{path.name}": path.read_bytes() for path in sources}
+    sources = sorted(path for path in PACKAGE.rglob("*") if path.suffix in {".py", ".pyi"} or path.name == "py.typed")
+    files = {f"stiction/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes() for path in sources}
     files["stiction/_native.abi3.so"] = library.read_bytes()
     files |= {f"{about}/licenses/{name}": (ROOT / name).read_bytes() for name in project["license-files"]}
     files[f"{about}/METADATA"] = ("\n".join(metadata) + "\n").encode()

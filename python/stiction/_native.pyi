@@ -7,7 +7,7 @@ from typing import Any, Literal, final
 import numpy
 from numpy.typing import NDArray
 
-from ._types import ExportOptions, IdentifyOptions, PlanOptions
+from ._types import ExportOptions, IdentifyOptions, PlanOptions, RowLog
 
 __all__ = [
     "Axis",
@@ -22,11 +22,17 @@ __all__ = [
     "check_files",
     "choices",
     "export",
+    "find_logs",
     "identify",
     "identify_files",
+    "identify_row",
+    "keep_rows",
     "plan",
+    "read_rows",
     "simulate",
+    "unread_row",
     "write_demo_log",
+    "write_rows",
 ]
 
 __version__: str
@@ -152,6 +158,16 @@ def identify_files(
     progress: _Tell,
     threads: int | None,
 ) -> tuple[Fit, bool]: ...
+def identify_row(
+    log: RowLog, options: IdentifyOptions, known: str | None, memory: int | None
+) -> str | None: ...
+def unread_row(log: RowLog, options: IdentifyOptions, code: str, message: str) -> str: ...
+def find_logs(
+    inputs: list[_Path], axis: _Path | None, out: _Path
+) -> list[tuple[Path, str | None, float | None, float | None, Path | None]]: ...
+def read_rows(table: _Path) -> list[tuple[str, str, str | None, bool | None]]: ...
+def write_rows(table: _Path, rows: list[str]) -> None: ...
+def keep_rows(table: _Path, out: _Path, without: set[str]) -> int: ...
 def simulate(
     study: _Path, max_samples: int | None, progress: _Tell, threads: int | None
 ) -> tuple[Study, bool]: ...

@@ -85,3 +85,15 @@ class PlanOptions(TypedDict):
     wants: list[str]
     formats: list[str]
     start: str | None
+
+
+class RowLog(TypedDict):
+    """A log of a fleet, as Rust takes it."""
+
+    file: str
+    path: str | None
+    machine: str | None
+    time: float | None
+    temperature: float | None
+    axis_file: str | None
+    axis: str | None

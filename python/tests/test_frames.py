@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import json
+from pathlib import Path
 from typing import Any
 
 import numpy
 import pytest
 import stiction
 from conftest import quietly
+from fleet_logs import good
+from stiction import _native
+from stiction.fleet import identify_uri
 from test_bad_input import GOOD, refused
 
 
@@ -94,3 +99,23 @@ def test_any_table_that_passes_on_arrow_is_read() -> None:
     twice = pyarrow.Table.from_arrays([pyarrow.array([1.0, 2.0])] * 2, names=["force [N]"] * 2)
     assert "two columns" in refused(Foreign(twice)).found
     assert "no table" in refused(Foreign(pyarrow.chunked_array([[1.0, 2.0]]))).found
+
+
+def test_the_tables_of_a_fleet_are_one_data_set(tmp_path: Path) -> None:
+    """As `stiction.fleet` leaves them: pandas and pyarrow read the folder, polars its tables."""
+    pandas, dataset, polars = (pytest.importorskip(name) for name in ("pandas", "pyarrow.dataset", "polars"))
+    logs = good(tmp_path / "logs", 3)
+    found = [json.dumps(identify_uri(path, law="coulomb-viscous", time=86_400.0 * k)) for k, path in enumerate(logs)]
+    found.append(json.dumps(identify_uri(tmp_path / "gone.csv", law="coulomb-viscous")))
+    out = tmp_path / "out"
+    out.mkdir()
+    _native.write_rows(str(out / "part-000001.parquet"), found[:2])
+    _native.write_rows(str(out / "part-000002.parquet"), found[2:])
+    (out / ".stiction-fleet").touch()
+    table = pandas.read_parquet(out)
+    coulomb = table.query("parameter == 'coulomb' and identifiable")
+    assert list(coulomb.path) == [str(path) for path in logs] and list(coulomb.time) == [0.0, 86_400.0, 172_800.0]
+    assert coulomb.value.between(19.0, 23.0).all()
+    assert table[table.error.notna()].path.to_list() == [str(tmp_path / "gone.csv")]
+    assert dataset.dataset(out).to_table().num_rows == len(table)
+    assert polars.read_parquet(out / "*.parquet").shape == table.shape

@@ -11,8 +11,8 @@ mod summary;
 mod table;
 mod time;
 
-pub use list::{Listed, is_list, read_list};
-pub use read::read_results;
+pub use list::{Listed, is_address, is_list, read_list};
+pub use read::{read_results, tables};
 pub use row::{LogRow, ParameterRow};
 pub use summary::{BatchFile, Failure, SCHEMA};
 pub use table::{COLUMNS, Results};

@@ -7,6 +7,7 @@ mod axis;
 mod error;
 mod export;
 mod fit;
+mod fleet;
 mod law;
 mod log;
 mod motion;
@@ -25,6 +26,8 @@ mod _native {
     use crate::export::export;
     #[pymodule_export]
     use crate::fit::{Fit, identify, identify_files};
+    #[pymodule_export]
+    use crate::fleet::{find_logs, identify_row, keep_rows, read_rows, unread_row, write_rows};
     #[pymodule_export]
     use crate::law::Law;
     #[pymodule_export]

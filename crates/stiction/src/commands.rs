@@ -4,9 +4,10 @@
 /// Many logs, and the table of what was identified of each.
 pub mod batch {
     pub use stiction_files::batch::{
-        BatchFile, COLUMNS, LogRow, ParameterRow, RESULTS, Results, SCHEMA, read_results,
+        BatchFile, COLUMNS, Listed, LogRow, ParameterRow, RESULTS, Results, SCHEMA, is_list,
+        read_list, read_results,
     };
-    pub use stiction_workflows::batch::{Batch, Done};
+    pub use stiction_workflows::batch::{Batch, Called, Done};
 }
 
 /// Friction over time, from the table of a batch.

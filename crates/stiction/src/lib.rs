@@ -126,7 +126,7 @@ pub use stiction_files::study::Study;
 pub use stiction_files::{Axis, ModelFile, Warning, model, result};
 pub use stiction_friction::compensator::{Compensator, Input};
 pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
-pub use stiction_log::{Reading, allow_memory, watch};
+pub use stiction_log::{Reading, allow_memory, allowed_memory, watch};
 pub use stiction_parameters::FrictionLaw;
 pub use stiction_workflows::export::{
     ExportOptions, Exported, Feedforward, Safety, Target, export, export_file,

@@ -4,6 +4,7 @@ mod found;
 mod one;
 mod prepare;
 mod run;
+mod single;
 
-pub use prepare::Batch;
+pub use prepare::{Batch, Called};
 pub use run::Done;

@@ -54,7 +54,16 @@ fn named(cell: &str, name: &str) -> bool {
     bare.unwrap_or(cell).trim().eq_ignore_ascii_case(name)
 }
 
-/// Reads a list; paths in it are relative to its folder.
+/// Whether a path is the address of something elsewhere (`s3://..`), which programs on top of this one fetch.
+pub fn is_address(path: &Path) -> bool {
+    let text = path.to_string_lossy();
+    text.split_once("://").is_some_and(|(scheme, _)| {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "+-.:".contains(c);
+        !scheme.is_empty() && scheme.chars().all(plain)
+    })
+}
+
+/// Reads a list; paths in it are relative to its folder, but for addresses.
 ///
 /// # Errors
 /// With the row and the column, and what is allowed there.
@@ -132,6 +141,10 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
         return Err(refused("row 1: ".into(), found, allowed));
     }
     let folder = file.parent().unwrap_or(Path::new(""));
+    let from_there = |path: &str| match is_address(Path::new(path)) {
+        true => PathBuf::from(path),
+        false => folder.join(path),
+    };
     let mut seen: HashMap<PathBuf, u64> = HashMap::new();
     let mut numbers = None;
     let mut out = Vec::new();
@@ -155,7 +168,7 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
                 "the path of a log, from the folder of the list",
             ));
         };
-        let path = folder.join(path);
+        let path = from_there(path);
         if let Some(before) = seen.insert(path.clone(), row) {
             let found = format!("{} is in row {before} already", shell::text(&path));
             return Err(refused(at("path"), found, "each log once"));
@@ -182,7 +195,7 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
             machine: cell("machine").map(String::from),
             time: time.transpose()?,
             temperature: temperature.transpose()?,
-            axis: cell("axis").map(|axis| folder.join(axis)),
+            axis: cell("axis").map(from_there),
         });
     }
     if out.is_empty() {

@@ -4,17 +4,60 @@ use super::row::{LogRow, ParameterRow};
 use super::summary::SCHEMA;
 use super::table::{COLUMNS, KINDS, Kind};
 use crate::error::Error;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_log::{Cells, Limits, read_cells};
 
-/// Reads the table of an earlier batch, and hands on its logs in their order.
+/// The tables of a path: itself, or where it is a folder those in it, as [`crate::batch`] names and orders them.
 ///
 /// # Errors
-/// Where it cannot be read or is no table of a batch, and what `take` refuses.
+/// Where the folder cannot be read or holds no table.
+pub fn tables(path: &Path) -> Result<Vec<PathBuf>, Error> {
+    if !path.is_dir() {
+        return Ok(vec![path.to_path_buf()]);
+    }
+    let refused = |found: String| Error::Config {
+        file: path.to_path_buf(),
+        place: String::new(),
+        found,
+        allowed:
+            "a table that stiction batch writes, or a folder of tables that stiction.fleet writes"
+                .into(),
+    };
+    let entries = std::fs::read_dir(path).map_err(|e| refused(format!("cannot be read ({e})")))?;
+    let is_table = |path: &PathBuf| {
+        let name = path.file_name().unwrap_or_default().as_encoded_bytes();
+        path.extension().is_some_and(|end| end == "parquet") && !name.starts_with(b".")
+    };
+    let mut all: Vec<PathBuf> = entries
+        .flatten()
+        .map(|entry| entry.path())
+        .filter(is_table)
+        .collect();
+    if all.is_empty() {
+        return Err(refused("holds no table (*.parquet)".into()));
+    }
+    all.sort();
+    Ok(all)
+}
+
+/// Reads the table of an earlier batch, or those of a folder, and hands on their logs in their order.
+///
+/// # Errors
+/// Where one cannot be read or is no table of a batch, and what `take` refuses.
 pub fn read_results(
     path: &Path,
     mut take: impl FnMut(LogRow) -> Result<(), Error>,
+) -> Result<(), Error> {
+    for table in tables(path)? {
+        read_table(&table, &mut take)?;
+    }
+    Ok(())
+}
+
+fn read_table(
+    path: &Path,
+    take: &mut impl FnMut(LogRow) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let columns = read_cells(path, &COLUMNS, Limits::default())?;
     let columns = checked(path, &columns)?;
@@ -250,6 +293,23 @@ mod tests {
             prop_assert_eq!(&read, &logs);
             let other = write("b.parquet");
             prop_assert_eq!(std::fs::read(path).unwrap(), std::fs::read(other).unwrap());
+        }
+
+        /// A folder is read as its tables one after the other, by name.
+        #[test]
+        fn a_folder_is_its_tables(logs in prop::collection::vec(log(), 1..8), cut in 0.0..1.0f64) {
+            let folder = tempfile::tempdir().unwrap();
+            let (first, rest) = logs.split_at((cut * logs.len() as f64) as usize);
+            for (name, logs) in [("part-000010.parquet", rest), ("part-000002.parquet", first)] {
+                let mut out = Results::begin(&folder.path().join(name)).unwrap();
+                logs.iter().for_each(|log| out.add(log).unwrap());
+                out.end().unwrap();
+            }
+            std::fs::write(folder.path().join(".part-000003.parquet"), "half").unwrap();
+            std::fs::write(folder.path().join("drift.json"), "{}").unwrap();
+            let mut read = Vec::new();
+            read_results(folder.path(), |log| { read.push(log); Ok(()) }).unwrap();
+            prop_assert_eq!(&read, &logs);
         }
 
         /// Cut or changed anywhere, a table is read or refused.

@@ -53,6 +53,7 @@ pub struct LogRow {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ParameterRow {
     /// Name, such as `coulomb`.
+    #[serde(rename = "parameter")]
     pub name: String,
     /// Value in `unit`; none where it is no finite number.
     pub value: Option<f64>,

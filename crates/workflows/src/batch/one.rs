@@ -4,7 +4,7 @@ use super::prepare::{Batch, Entry};
 use crate::error::Error;
 use crate::identify::{Files, Outcome, identify};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::RwLock;
 use stiction_codes::Code;
 use stiction_files::batch::LogRow;
@@ -107,7 +107,7 @@ pub(super) fn one(
         ),
     };
     row.error = Some(refused.0);
-    row.message = Some(refused.1);
+    row.message = Some(called(entry, &batch.axes[entry.axis].file, refused.1));
     row.key.clone_from(&failed);
     Ok(Became::Row(failed, Box::new(row)))
 }
@@ -117,15 +117,33 @@ pub(super) fn begun(batch: &Batch, entry: &Entry) -> LogRow {
     let axis = &batch.axes[entry.axis];
     let name = axis.axis.as_ref().and_then(|axis| axis.name.clone());
     LogRow {
-        path: shell::text(&entry.listed.path),
+        path: entry.name(),
         machine: entry.listed.machine.clone().or(name),
         time: entry.listed.time,
         temperature: entry.listed.temperature,
-        axis: axis.file.as_deref().map(shell::text),
+        axis: entry
+            .called
+            .axis
+            .clone()
+            .or(axis.file.as_deref().map(shell::text)),
         version: env!("CARGO_PKG_VERSION").into(),
         seed: batch.options.seed,
         ..LogRow::default()
     }
+}
+
+/// What is said of copies, as said of what they are copies of.
+fn called(entry: &Entry, axis: &Option<PathBuf>, message: String) -> String {
+    let copies = [
+        (Some(&entry.listed.path), &entry.called.log),
+        (axis.as_ref(), &entry.called.axis),
+    ];
+    copies.into_iter().fold(message, |said, pair| match pair {
+        (Some(copy), Some(name)) => said
+            .replace(&copy.display().to_string(), name)
+            .replace(&shell::text(copy), name),
+        _ => said,
+    })
 }
 
 /// Reads a log within its share of the memory, and where that is too little alone, with all that is allowed.

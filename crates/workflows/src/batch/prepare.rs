@@ -27,6 +27,25 @@ pub(super) struct Entry {
     pub listed: Listed,
     /// Place of its axis.
     pub axis: usize,
+    /// What the row calls the files, where they are copies of others.
+    pub called: Called,
+}
+
+impl Entry {
+    /// What the row calls the log.
+    pub fn name(&self) -> String {
+        let own = || shell::text(&self.listed.path);
+        self.called.log.clone().unwrap_or_else(own)
+    }
+}
+
+/// What the row of a log calls files that were fetched to be read: their addresses.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Called {
+    /// The log.
+    pub log: Option<String>,
+    /// The axis file.
+    pub axis: Option<String>,
 }
 
 /// An axis file, or that there is none.
@@ -122,12 +141,37 @@ impl Batch {
             logs.push(Entry {
                 listed,
                 axis: place,
+                called: Called::default(),
             });
         }
         // What belongs to another log is none itself.
         let others = |entry: &Entry| axes[entry.axis].of_log(&entry.listed.path);
         let others: HashSet<PathBuf> = logs.iter().flat_map(others).collect();
         logs.retain(|entry| !others.contains(&entry.listed.path));
+        let inputs = inputs.iter().map(|input| shell::text(input)).collect();
+        Ok(Self::of(logs, axes, options, reports, inputs))
+    }
+
+    /// One log by itself, for whoever spreads logs over processes and machines. What is wrong with it, or with its axis file, is
+    /// said in its row.
+    pub fn single(listed: Listed, called: Called, options: &Options) -> Self {
+        let axes = vec![OfAxis::read(listed.axis.clone()).0];
+        let inputs = vec![shell::text(&listed.path)];
+        let entry = Entry {
+            listed,
+            axis: 0,
+            called,
+        };
+        Self::of(vec![entry], axes, options, false, inputs)
+    }
+
+    fn of(
+        logs: Vec<Entry>,
+        axes: Vec<OfAxis>,
+        options: &Options,
+        reports: bool,
+        inputs: Vec<String>,
+    ) -> Self {
         let procedures = &options.procedures;
         let files = procedures
             .statics
@@ -137,14 +181,19 @@ impl Batch {
         let files: Vec<String> = files.map(|file| hash_of(file)).collect();
         let version = env!("CARGO_PKG_VERSION");
         let settings = format!("{version}\n{options:?}\n{}", files.join("\n"));
-        Ok(Self {
+        Self {
             logs,
             axes,
             options: options.clone(),
             reports,
             settings: sha256_of(settings.as_bytes()),
-            inputs: inputs.iter().map(|input| shell::text(input)).collect(),
-        })
+            inputs,
+        }
+    }
+
+    /// The logs with what is known of them, in their order.
+    pub fn logs(&self) -> impl Iterator<Item = &Listed> {
+        self.logs.iter().map(|entry| &entry.listed)
     }
 
     /// How many logs there are.
@@ -241,7 +290,7 @@ impl Batch {
             .as_ref()
             .is_some_and(|axis| axis.listed(&entry.listed.path).is_some());
         let path = match listed || self.reports {
-            true => shell::text(&entry.listed.path),
+            true => entry.name(),
             false => String::new(),
         };
         let given = entry.listed.temperature.is_some();
@@ -255,7 +304,7 @@ impl Batch {
 
     /// The same of a log that failed, whose error names its path.
     pub(super) fn key_of_failure(&self, entry: &Entry, key: &str) -> String {
-        let path = shell::text(&entry.listed.path);
+        let path = entry.name();
         sha256_of(format!("failed\n{key}\n{path}").as_bytes())
     }
 }

@@ -6,9 +6,9 @@ use crate::error::Error;
 use std::collections::BTreeMap;
 use std::path::Path;
 use stiction_drift::{Judged, Kind, Limits, Noise, Point, Settings, judge};
-use stiction_files::batch::{BatchFile, SUMMARY, read_results};
+use stiction_files::batch::{BatchFile, SUMMARY, read_results, tables};
 use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA, Table};
-use stiction_files::{sha256, shell};
+use stiction_files::{sha256, sha256_of, shell};
 
 /// What changed, and the courses of what did.
 pub struct DriftOutcome {
@@ -38,7 +38,7 @@ pub struct Shown {
 
 const DAY: f64 = 86_400.0; // s
 
-/// Follows every parameter of every machine of a table that `batch` wrote.
+/// Follows every parameter of every machine of a table that `batch` wrote, or of a folder of such tables.
 ///
 /// # Errors
 /// Where it cannot be read, holds no parameter that its logs determine, or a limit is of a parameter or a unit that it does not have.
@@ -54,7 +54,7 @@ pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
     if let Some(fault) = fault {
         return Err(fault);
     }
-    let hash = sha256(table)?;
+    let hash = hash_of(table)?;
     courses.sort();
     if courses.stands_still() {
         return Err(Error::usage(
@@ -164,6 +164,18 @@ fn check_finished(table: &Path) -> Result<(), Error> {
             format!("a batch that is complete: {}", batch.command(dir)),
         )),
     }
+}
+
+/// SHA-256 of a table; of a folder of tables that of theirs, one after the other.
+fn hash_of(table: &Path) -> Result<String, Error> {
+    if !table.is_dir() {
+        return Ok(sha256(table)?);
+    }
+    let mut hashes = String::new();
+    for part in tables(table)? {
+        hashes += &sha256(&part)?;
+    }
+    Ok(sha256_of(hashes.as_bytes()))
 }
 
 /// Refuses a limit of what the table does not have.
