@@ -5,6 +5,7 @@ use crate::commands::{law, method};
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::large;
+use crate::looking::looking;
 use crate::output;
 use crate::progress::Bar;
 use std::io::Write;
@@ -23,7 +24,9 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
     options.seed = typed.seed;
     options.procedures.method = method(typed.method);
     let axis = typed.axis.as_deref();
-    let batch = Batch::new(&typed.inputs, axis, &options, typed.reports, dir)?;
+    let batch = looking(common.json || common.quiet, || {
+        Batch::new(&typed.inputs, axis, &options, typed.reports, dir)
+    })?;
     check_inputs(
         dir,
         batch

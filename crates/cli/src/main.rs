@@ -8,6 +8,7 @@ mod drift;
 mod exit;
 mod interrupt;
 mod large;
+mod looking;
 mod next;
 mod output;
 mod panics;

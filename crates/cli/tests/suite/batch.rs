@@ -332,3 +332,44 @@ fn a_log_that_grows_is_a_row() {
         rows[0]
     );
 }
+
+/// A pattern that goes on looking for hours, in folders one in the other: TERM ends it at once, and nothing is written.
+#[cfg(unix)]
+#[test]
+fn looking_for_logs_can_be_stopped() {
+    let bench = Bench::new(0, false);
+    let deep: PathBuf = (0..60).map(|k| format!("{k}")).collect();
+    fs::create_dir_all(bench.path("deep").join(deep)).unwrap();
+    let pattern = format!("deep/{}none.csv", "**/*/".repeat(12));
+    let mut child = bench.command(&["batch", &pattern, "--out", "out"]);
+    let mut child = child.stderr(Stdio::piped()).spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    assert_eq!(child.try_wait().unwrap(), None);
+    let term = Command::new("kill").arg(child.id().to_string()).status();
+    assert!(term.unwrap().success());
+    let (code, _, said) = crate::split(child.wait_with_output().unwrap());
+    assert_eq!(code, 130);
+    assert!(
+        said.contains("[interrupted] stopped; nothing was written"),
+        "{said}"
+    );
+    assert!(!bench.path("out").exists());
+}
+
+/// What nobody would see of many logs stands in their rows.
+#[test]
+fn a_unit_that_was_assumed_stands_in_the_row() {
+    let bench = Bench::new(2, false);
+    let plain = log(20.0, 3000).replacen("Position [mm]", "Position", 1);
+    let plain = plain
+        .replacen("Time [s]", "Time", 1)
+        .replacen("Force [N]", "Force", 1);
+    fs::write(bench.path("logs/run0.csv"), plain).unwrap();
+    bench.run(&batch("out", &[]));
+    let assumed: Vec<bool> = bench
+        .rows("out")
+        .iter()
+        .map(|row| row.warnings.contains(&Code::UnitAssumed))
+        .collect();
+    assert_eq!(assumed, [true, false]);
+}

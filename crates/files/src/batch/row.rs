@@ -75,6 +75,10 @@ impl LogRow {
     /// Takes what was identified.
     pub fn take(&mut self, result: &ResultFile) {
         let mut warnings: Vec<Code> = result.warnings.iter().map(|w| w.code).collect();
+        // Of many logs nobody reads the reports, and what an axis file would settle changes every number.
+        if result.inputs.iter().any(|input| !input.assumed.is_empty()) {
+            warnings.push(Code::UnitAssumed);
+        }
         warnings.sort_by_key(|code| code.as_str());
         warnings.dedup();
         self.law = Some(result.law.clone());
