@@ -1,8 +1,8 @@
-"""What the Python package costs over the library: measure.py TIMED, the built example `timed` of crates/stiction.
+"""What the Python package costs over the library: measure.py TIMED [WHEEL], the built example `timed` of crates/stiction.
 
 Prints import time, identification of 30 001 samples against the same call in Rust (in turn, the least of all), two Python
-threads against one, and the memory of many calls. Run it with the Python that the wheel is installed in, on a machine that
-does nothing else.
+threads against one, the memory of many calls and the size of the wheel, and ends with exit code 1 where one misses its bar.
+Run it with the Python that the wheel is installed in, on a machine that does nothing else: `cargo xtask wheel` does.
 """
 
 from __future__ import annotations
@@ -75,8 +75,27 @@ def kept(calls: int) -> float:
     return (run(calls) - first) / 1e6
 
 
-def main(timed: str) -> None:
-    print(f"import stiction {1e3 * importing('stiction'):.0f} ms, numpy {1e3 * importing('numpy'):.0f} ms")
+class Bars:
+    """What is measured against what is allowed."""
+
+    def __init__(self) -> None:
+        self.missed: list[str] = []
+
+    def hold(self, name: str, is_held: bool) -> None:
+        if not is_held:
+            self.missed.append(name)
+
+
+def main(timed: str, wheel: str | None) -> list[str]:
+    """The bars that are missed."""
+    bars = Bars()
+    if wheel:
+        size = Path(wheel).stat().st_size / 1e6
+        print(f"wheel {size:.2f} MB")
+        bars.hold("a wheel of at most 8 MB", size <= 8.0)
+    own = importing("stiction")
+    print(f"import stiction {1e3 * own:.0f} ms, numpy {1e3 * importing('numpy'):.0f} ms")
+    bars.hold("an import within 60 ms", own < 0.06)
     with tempfile.TemporaryDirectory() as folder:
         whole = stiction.write_demo_log(Path(folder) / "whole.csv", seed=1)
         path = Path(folder) / "run.csv"
@@ -88,14 +107,21 @@ def main(timed: str) -> None:
             theirs.append(float(subprocess.run([timed, path, "3"], capture_output=True, text=True, check=True).stdout))
         python, rust = min(ours), min(theirs)
         print(f"identify, {SAMPLES} samples: Rust {rust:.4f} s, Python {python:.4f} s, {100 * (python / rust - 1):+.1f} %")
+        bars.hold("identify at most 5 % over Rust", python <= 1.05 * rust)
         held = min(with_the_interpreter(log) for _ in range(ROUNDS))
         print(f"processor time of the calling thread: {100 * held:.2f} % of that of the search")
         one = min(together(log, 1) for _ in range(ROUNDS))
         two = min(together(log, 2) for _ in range(ROUNDS))
         print(f"two threads do {2 * one / two:.2f} times the work of one")
-    print(f"10 000 identifications: {kept(10_000):+.1f} MB")
+        bars.hold("two threads 1.8 times one", 2 * one >= 1.8 * two)
+    growth = kept(10_000)
+    print(f"10 000 identifications: {growth:+.1f} MB")
+    bars.hold("no growth over 10 000 calls", growth < 10.0)
+    return bars.missed
 
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
-    main(sys.argv[1])
+    missed = main(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None)
+    if missed:
+        sys.exit("missed: " + "; ".join(missed))

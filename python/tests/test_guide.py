@@ -1,7 +1,8 @@
-"""The blocks of docs/python.md and docs/python-from.md run as they stand, one after the other."""
+"""The blocks of docs/python.md and docs/python-from.md and the cells of the notebook run as they stand, one after the other."""
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 from typing import Any
@@ -10,6 +11,7 @@ import pytest
 from conftest import quietly
 
 DOCS = Path(__file__).parents[2] / "docs"
+NOTEBOOK = DOCS.parent / "examples" / "python" / "first_log.ipynb"
 
 
 def run_blocks(page: str, least: int) -> None:
@@ -37,3 +39,15 @@ def test_what_others_write_now_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     run_blocks("python-from.md", 3)
     assert any(path.suffix == ".m" for path in (tmp_path / "for-matlab").rglob("*"))
     assert any("damping" in path.read_text() for path in (tmp_path / "for-mujoco").glob("*.xml"))
+
+
+def test_every_cell_of_the_notebook_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {}
+    cells = [cell for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"] if cell["cell_type"] == "code"]
+    assert len(cells) >= 5
+    for k, cell in enumerate(cells):
+        assert not cell["outputs"], "outputs are of one machine and one day: clear them"
+        quietly(exec, compile("".join(cell["source"]), f"{NOTEBOOK.name}, cell {k + 1}", "exec"), names)
+    assert names["fit"].verdict == "trustworthy"
+    assert any(path.suffix == ".c" for path in (tmp_path / "controller").iterdir())

@@ -37,7 +37,7 @@ const TASKS: &[Task] = &[
     },
     Task {
         name: "soak",
-        help: "what CI has no time for: the same tests with more seeds, packed crates built on their own",
+        help: "what CI has no time for: the same tests with more seeds, packed crates built on their own, killed workers",
         run: soak::run,
     },
     Task {
@@ -62,7 +62,7 @@ const TASKS: &[Task] = &[
     },
     Task {
         name: "wheel",
-        help: "the Python wheel as users get it, tested: target/python/release",
+        help: "the Python wheel as users get it, tested and measured: target/python/release",
         run: wheel::release,
     },
     Task {

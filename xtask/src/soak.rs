@@ -1,8 +1,8 @@
 //! What CI has no time for: the tests marked `#[ignore = "soak: .."]`, most of them one of the ordinary tests with more
-//! seeds, the crate with features without them, and the packed crates built on their own.
+//! seeds, the crate with features without them, the packed crates built on their own, and fleets whose workers are killed.
 
 use crate::shell::{self, Outcome};
-use crate::{package, setup, tools};
+use crate::{package, setup, tools, wheel};
 
 /// The one crate with features, without them.
 const BARE: &str =
@@ -14,5 +14,6 @@ pub fn run() -> Outcome {
     package::verified()?;
     shell::run(tools::command(&tools::NEXTEST, BARE)?)?;
     let tests = "nextest run --workspace --no-fail-fast --run-ignored only";
-    shell::run(tools::command(&tools::NEXTEST, tests)?)
+    shell::run(tools::command(&tools::NEXTEST, tests)?)?;
+    wheel::soak()
 }

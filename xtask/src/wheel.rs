@@ -32,9 +32,11 @@ pub fn test() -> Outcome {
     tested(Path::new(wheel.trim()), "debug")
 }
 
-/// Builds the wheel that users get, and runs the tests of the package with it.
+/// Builds the wheel that users get, runs the tests of the package with it, and measures it against its bars.
 pub fn release() -> Outcome {
-    shell::run(cargo("build --package stiction-cli --release"))?;
+    shell::run(cargo(
+        "build --release --package stiction-cli --package stiction --bins --example timed",
+    ))?;
     let folder = shell::target().join(FOLDER).join("release");
     // Of another version there may be one.
     let _ = fs::remove_dir_all(&folder);
@@ -51,7 +53,22 @@ pub fn release() -> Outcome {
     let wheels = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut wheels = wheels.flatten().map(|entry| entry.path());
     let wheel = wheels.next().ok_or("maturin built no wheel")?;
-    tested(&wheel, "release")
+    tested(&wheel, "release")?;
+    let timed = text(&shell::target().join("release/examples/timed"));
+    let measure = ["bench/python/measure.py", &timed, &text(&wheel)];
+    shell::run(shell::command(&python::bare()?, &measure))
+}
+
+/// The tests of fleets with what there is no time for: more logs, and a worker that is killed twenty times. Needs what
+/// [`built`] has built and installed.
+pub fn soak() -> Outcome {
+    built()?;
+    let fleet = format!("{TESTS}/test_fleet.py");
+    let mut tests = shell::command(&python::bare()?, &["-m", "pytest", "-q", &fleet]);
+    tests
+        .env("STICTION_PROGRAM", program("debug"))
+        .env("STICTION_SOAK", "1");
+    shell::run(tests)
 }
 
 /// Installs a wheel beside numpy and pytest, and runs its tests: all in that environment, and those of tables of other
