@@ -8,6 +8,7 @@
 The command line `stiction` in Python: the same names, defaults and bits. Guide: docs/python.md.
 """
 
+from ._drift import Course, Drift, drift
 from ._errors import StictionError, StictionWarning
 from ._export import Exported, export
 from ._fit import Covariance, Fit, Prediction
@@ -25,7 +26,9 @@ load = Fit.load
 
 __all__ = [
     "Check",
+    "Course",
     "Covariance",
+    "Drift",
     "Exported",
     "Finding",
     "Fit",
@@ -42,6 +45,7 @@ __all__ = [
     "__version__",
     "allow_memory",
     "check",
+    "drift",
     "export",
     "identify",
     "load",

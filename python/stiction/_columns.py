@@ -32,7 +32,7 @@ def is_columns(data: object) -> bool:
 def columns(data: Any, name: str) -> list[Column]:
     """Every column of a table; `name` is that of the argument."""
     out: list[Column] = []
-    for header, values in _items(data, name):
+    for header, values in items(data, name):
         if not isinstance(header, str) or not header.strip() or not header.isprintable():
             raise argument(name, f"a column called {header!r}", "names that are text, such as 'position [mm]'")
         place = f"{name}[{header!r}]"
@@ -48,7 +48,13 @@ def columns(data: Any, name: str) -> list[Column]:
     return out
 
 
-def _items(data: Any, name: str) -> Iterator[tuple[Any, Any]]:
+def is_missing(value: Any) -> bool:
+    """None, NaN and the like of tables."""
+    return value is None or type(value).__name__ in ("NaTType", "NAType") or value != value
+
+
+def items(data: Any, name: str) -> Iterator[tuple[Any, Any]]:
+    """The columns of a table with their names."""
     if isinstance(data, Mapping):
         yield from data.items()
     elif hasattr(data, "column_names"):  # pyarrow
@@ -56,7 +62,7 @@ def _items(data: Any, name: str) -> Iterator[tuple[Any, Any]]:
         for header in data.column_names:
             yield header, data.column(header)
     elif hasattr(data, "__arrow_c_stream__") and not _has_arrays(data):
-        yield from _items(_arrow(data, name), name)
+        yield from items(_arrow(data, name), name)
     elif hasattr(data, "columns"):  # pandas, polars
         headers = list(data.columns)
         _each_once(headers, name)

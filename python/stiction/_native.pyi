@@ -11,6 +11,7 @@ from ._types import ExportOptions, IdentifyOptions, PlanOptions, RowLog
 
 __all__ = [
     "Axis",
+    "Drift",
     "Fit",
     "Law",
     "Log",
@@ -21,6 +22,9 @@ __all__ = [
     "check",
     "check_files",
     "choices",
+    "drift",
+    "drift_of_columns",
+    "drift_of_rows",
     "export",
     "find_logs",
     "identify",
@@ -41,6 +45,8 @@ _Path = str
 _Array = NDArray[numpy.float64]
 _Tell = Callable[[str, float, float | None], Any] | None
 _Parts = tuple[list[tuple[str, bytes]], str, str, list[Path], str]
+_CourseParts = tuple[tuple[str, str, str, str], list[list[float]], float, list[str]]
+_DriftParts = tuple[list[tuple[str, bytes]], str, str, list[_CourseParts], list[Path]]
 _Verdict = Literal["trustworthy", "not-trustworthy", "interrupted"]
 
 @final
@@ -125,6 +131,19 @@ class Study:
     def file(self, name: str) -> str | None: ...
     def save(self, folder: _Path, force: bool) -> list[Path]: ...
 
+_Course = tuple[tuple[str, str, str, str], list[tuple[str, _Array]], float, list[str]]
+
+@final
+class Drift:
+    @staticmethod
+    def of_parts(parts: _DriftParts) -> Drift: ...
+    def parts(self) -> _DriftParts: ...
+    def result_json(self) -> str: ...
+    def text(self) -> str: ...
+    def report(self) -> str: ...
+    def courses(self) -> list[_Course]: ...
+    def save(self, folder: _Path, force: bool) -> list[Path]: ...
+
 @final
 class Plan:
     @staticmethod
@@ -142,6 +161,9 @@ def check(
 def check_files(
     logs: list[_Path], axis: _Path | None, progress: _Tell, threads: int | None
 ) -> tuple[str, str, bool]: ...
+def drift(table: _Path, limit: list[str]) -> Drift: ...
+def drift_of_columns(name: str, columns: list[tuple[str, list[Any]]], limit: list[str]) -> Drift: ...
+def drift_of_rows(name: str, rows: list[str], limit: list[str]) -> Drift: ...
 def identify(
     logs: list[Log],
     validate: list[Log],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import operator
+from collections.abc import Iterable
 from typing import Any
 
 from ._errors import argument
@@ -53,7 +54,7 @@ def some_threads(value: Any) -> int | None:
 
 def words(value: Any, place: str) -> list[str]:
     """Names; one alone is a list of one."""
-    names = [value] if isinstance(value, str) else list(value)
+    names = [value] if isinstance(value, str) or not isinstance(value, Iterable) else list(value)
     if not all(isinstance(name, str) for name in names):
         raise argument(place, repr(value), "names")
     return names

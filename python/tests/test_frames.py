@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import drift_rows
 import numpy
 import pytest
 import stiction
@@ -119,3 +120,20 @@ def test_the_tables_of_a_fleet_are_one_data_set(tmp_path: Path) -> None:
     assert table[table.error.notna()].path.to_list() == [str(tmp_path / "gone.csv")]
     assert dataset.dataset(out).to_table().num_rows == len(table)
     assert polars.read_parquet(out / "*.parquet").shape == table.shape
+
+
+def test_drift_of_a_table_is_that_of_its_file(frame: Any, tmp_path: Path) -> None:
+    found = stiction.drift(drift_rows.table(tmp_path / "results.parquet"))
+    other = stiction.drift(frame(drift_rows.columns()))
+    assert found.changed and other.alarms == found.alarms and other.noise == found.noise
+
+
+def test_drift_of_what_pandas_reads(tmp_path: Path) -> None:
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("pyarrow")
+    table = drift_rows.table(tmp_path / "results.parquet")
+    found = stiction.drift(table)
+    for frame in (pandas.read_parquet(table), pandas.read_parquet(table, dtype_backend="pyarrow")):
+        assert stiction.drift(frame).alarms == found.alarms
+        untimed = stiction.drift(frame.assign(time=None, temperature=numpy.nan))
+        assert not untimed.result["timed"] and untimed.noise[0]["by_temperature"] is None

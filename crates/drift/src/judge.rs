@@ -54,6 +54,20 @@ pub struct Judged {
     pub changes: Vec<Change>,
 }
 
+impl Judged {
+    /// The 95 % interval of each log without what temperature does, with the scatter between logs, in the unit of the number.
+    pub fn intervals(&self) -> impl Iterator<Item = (f64, f64)> {
+        let each = self.corrected.iter().zip(&self.half);
+        each.map(|(value, half)| {
+            let half = match self.measure {
+                Measure::Relative => value * half,
+                Measure::Absolute => *half,
+            };
+            (value - half, value + half)
+        })
+    }
+}
+
 /// Standard deviations of half a 95 % interval.
 const HALF: f64 = 1.959_963_984_540_054;
 

@@ -4,6 +4,7 @@
 //! stub `_native.pyi`. While Rust works the interpreter is free: see `run`.
 
 mod axis;
+mod drift;
 mod error;
 mod export;
 mod fit;
@@ -22,6 +23,8 @@ mod _native {
 
     #[pymodule_export]
     use crate::axis::Axis;
+    #[pymodule_export]
+    use crate::drift::{Drift, drift, drift_of_columns, drift_of_rows};
     #[pymodule_export]
     use crate::export::export;
     #[pymodule_export]

@@ -5,15 +5,16 @@
 pub mod batch {
     pub use stiction_files::batch::{
         BatchFile, COLUMNS, Listed, LogRow, ParameterRow, RESULTS, Results, SCHEMA, is_list,
-        read_list, read_results,
+        read_list, read_results, rows_of,
     };
+    pub use stiction_log::Cells;
     pub use stiction_workflows::batch::{Batch, Called, Done};
 }
 
 /// Friction over time, from the table of a batch.
 pub mod drift {
     pub use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA};
-    pub use stiction_workflows::drift::{DriftOutcome, Limit, drift};
+    pub use stiction_workflows::drift::{DriftOutcome, Limit, Shown, drift, drift_of_rows};
 }
 
 /// A recording in SI with how its columns were understood.

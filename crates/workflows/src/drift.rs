@@ -6,4 +6,4 @@ mod run;
 
 pub use asked::{Limit, Side};
 pub use courses::Followed;
-pub use run::{DriftOutcome, Shown, drift};
+pub use run::{DriftOutcome, Shown, drift, drift_of_rows};

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .. import _native
+from .._columns import is_missing
 from .._errors import argument
 from .._options import maybe
 from .._types import AxisLike
@@ -70,7 +71,7 @@ def _of_dict(given: Mapping[str, Any], place: str) -> Log:
     unknown = [key for key in given if key not in KEYS]
     if unknown or "path" not in given:
         raise argument(place, f"the keys {', '.join(map(str, given))}", f"path, and where they are known {', '.join(KEYS[1:])}")
-    known = {key: None if _is_missing(value) else value for key, value in given.items()}
+    known = {key: None if is_missing(value) else value for key, value in given.items()}
     machine = known.get("machine")
     return Log(
         text_of_uri(known["path"], f"{place}['path']"),
@@ -79,11 +80,6 @@ def _of_dict(given: Mapping[str, Any], place: str) -> Log:
         _number(known.get("temperature"), f"{place}['temperature']"),
         axis_text(known.get("axis")),
     )
-
-
-def _is_missing(value: Any) -> bool:
-    """None, NaN and the like of tables."""
-    return value is None or value != value or type(value).__name__ in ("NaTType", "NAType")
 
 
 def _number(value: Any, place: str) -> float | None:

@@ -60,7 +60,20 @@ fn read_table(
     take: &mut impl FnMut(LogRow) -> Result<(), Error>,
 ) -> Result<(), Error> {
     let columns = read_cells(path, &COLUMNS, Limits::default())?;
-    let columns = checked(path, &columns)?;
+    rows_of(path, &columns, take)
+}
+
+/// Hands on the logs of columns that are in memory already, in the order of [`COLUMNS`] and all of one length; `path` is what
+/// errors call them.
+///
+/// # Errors
+/// Where they are no table of a batch, and what `take` refuses.
+pub fn rows_of(
+    path: &Path,
+    columns: &[Option<Cells>],
+    mut take: impl FnMut(LogRow) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let columns = checked(path, columns)?;
     let of = |name: &str| {
         let place = COLUMNS.iter().position(|column| *column == name);
         columns[place.expect("a name of the columns")]

@@ -37,6 +37,24 @@ pub enum Cells {
 }
 
 impl Cells {
+    /// Cells of text.
+    pub fn of_text(texts: impl IntoIterator<Item = Option<String>>) -> Self {
+        let mut places: HashMap<String, u32> = HashMap::new();
+        let (mut rows, mut words) = (Vec::new(), Vec::new());
+        for text in texts {
+            rows.push(text.map_or(NONE, |text| match places.get(&text) {
+                Some(place) => *place,
+                None => {
+                    let place = words.len() as u32;
+                    words.push(text.clone());
+                    places.insert(text, place);
+                    place
+                }
+            }));
+        }
+        Cells::Text { rows, words }
+    }
+
     /// How many rows there are.
     pub fn len(&self) -> usize {
         match self {

@@ -130,16 +130,7 @@ fn course(file: &DriftFile, shown: &Shown) -> Figure {
     let days = |time: f64| (time - first) / DAY;
     let judged = &shown.judged;
     let x: Vec<f64> = points.iter().map(|point| days(point.time)).collect();
-    let relative = shown.relative;
-    let half = judged.corrected.iter().zip(&judged.half);
-    let half = half.map(|(y, half)| if relative { y * half } else { *half });
-    let ends: Vec<(f64, f64)> = judged
-        .corrected
-        .iter()
-        .zip(half)
-        .map(|(y, h)| (y - h, y + h))
-        .collect();
-    let (low, high): (Vec<f64>, Vec<f64>) = ends.into_iter().unzip();
+    let (low, high): (Vec<f64>, Vec<f64>) = judged.intervals().unzip();
     let unit = shown.unit.as_str();
     let mut panel = Panel::new(
         Axis::new("Time since the first log", "d"),

@@ -6,7 +6,7 @@ use crate::error::Error;
 use std::collections::BTreeMap;
 use std::path::Path;
 use stiction_drift::{Judged, Kind, Limits, Noise, Point, Settings, judge};
-use stiction_files::batch::{BatchFile, SUMMARY, read_results, tables};
+use stiction_files::batch::{BatchFile, LogRow, SUMMARY, read_results, tables};
 use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA, Table};
 use stiction_files::{sha256, sha256_of, shell};
 
@@ -43,7 +43,6 @@ const DAY: f64 = 86_400.0; // s
 /// # Errors
 /// Where it cannot be read, holds no parameter that its logs determine, or a limit is of a parameter or a unit that it does not have.
 pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
-    let settings = Settings::default();
     let mut courses = Courses::default();
     check_finished(table)?;
     let mut fault = None;
@@ -54,19 +53,46 @@ pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
     if let Some(fault) = fault {
         return Err(fault);
     }
-    let hash = hash_of(table)?;
+    followed(shell::text(table), hash_of(table)?, courses, limits)
+}
+
+/// The same of rows that are in memory; the hash is of what is written of them as JSON, one after the other.
+///
+/// # Errors
+/// Where a number of them is larger than any machine has, they hold no parameter that their logs determine, or a limit is of a parameter or a unit that they do not have.
+pub fn drift_of_rows(
+    name: &str,
+    rows: impl IntoIterator<Item = LogRow>,
+    limits: &[Limit],
+) -> Result<DriftOutcome, Error> {
+    let mut courses = Courses::default();
+    let mut hash = String::new();
+    for row in rows {
+        let text = serde_json::to_string(&row).expect("plain data");
+        hash = sha256_of(format!("{hash}{text}").as_bytes());
+        courses.take(&row)?;
+    }
+    followed(name.into(), hash, courses, limits)
+}
+
+fn followed(
+    name: String,
+    hash: String,
+    mut courses: Courses,
+    limits: &[Limit],
+) -> Result<DriftOutcome, Error> {
+    let settings = Settings::default();
     courses.sort();
     if courses.stands_still() {
         return Err(Error::usage(
-            format!("{}: all logs have the same time", shell::text(table)),
+            format!("{name}: all logs have the same time"),
             "times in the list of the batch, or none for the order of the table",
         ));
     }
     if courses.of.is_empty() {
         return Err(Error::usage(
             format!(
-                "{}: {} logs, and none determines a parameter",
-                shell::text(table),
+                "{name}: {} logs, and none determines a parameter",
                 courses.logs
             ),
             "a table of stiction batch with logs of which something was identified",
@@ -129,7 +155,7 @@ pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
             schema: SCHEMA.into(),
             version: env!("CARGO_PKG_VERSION").into(),
             input: Table {
-                path: shell::text(table),
+                path: name,
                 sha256: hash,
                 logs: courses.logs,
                 failed: courses.failed,
