@@ -92,10 +92,11 @@ class Drift:
     @cached_property
     def courses(self) -> list[Course]:
         """The courses of what is alarmed, in the order of the alarms."""
-        return [
-            Course(*names, **dict(columns), reference=reference, logs=logs)
-            for names, columns, reference, logs in self._native.courses()
-        ]
+        found = []
+        for names, columns, reference, logs in self._native.courses():
+            named: dict[str, Any] = dict(columns)
+            found.append(Course(*names, **named, reference=reference, logs=logs))
+        return found
 
     def save(self, folder: PathLike, *, force: bool = False) -> list[Path]:
         """Writes `drift.json` and `report.html`, as `stiction drift --out`."""
