@@ -59,7 +59,7 @@ def test_everything_public_is_described() -> None:
 def test_the_wheel_is_small() -> None:
     wheel = os.environ.get("STICTION_WHEEL")
     if not wheel:
-        pytest.skip("set STICTION_WHEEL to the built wheel")
+        pytest.skip("set STICTION_WHEEL to the wheel of a release")
     assert Path(wheel).stat().st_size <= LARGEST
 
 

@@ -83,9 +83,11 @@ fn tested(wheel: &Path, profile: &str) -> Outcome {
     shell::run(shell::command(&bare, &arguments))?;
     shell::run(shell::command(&bare, &["-m", "pip", "check"]))?;
     let mut tests = shell::command(&bare, &["-m", "pytest", "-q", TESTS]);
-    tests
-        .env("STICTION_PROGRAM", program(profile))
-        .env("STICTION_WHEEL", &wheel);
+    tests.env("STICTION_PROGRAM", program(profile));
+    // What users get is held small: the build of the tests checks every sum for overflow besides.
+    if profile == "release" {
+        tests.env("STICTION_WHEEL", &wheel);
+    }
     shell::run(tests)?;
     let place = "import sysconfig; print(sysconfig.get_path('purelib'))";
     let place = shell::output(shell::command(&bare, &["-c", place]))?;
