@@ -22,8 +22,8 @@ fn a_folder_gives_back_what_was_written() {
     let saved = SavedFit::read(&folder).unwrap();
     assert_eq!(saved.model(), &fit.model());
     assert_eq!(saved.law().unwrap().unwrap(), fit.law().unwrap());
-    let residual = saved.series().unwrap().pop().unwrap();
-    assert_eq!(residual.name, "residual");
+    let mut series = saved.series().unwrap().into_iter();
+    let residual = series.find(|column| column.name == "residual").unwrap();
     assert_eq!(residual.unit.as_deref(), Some("N"));
     assert_eq!(residual.values, fit.series().residual());
 
