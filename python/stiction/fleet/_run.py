@@ -156,7 +156,8 @@ class _Work:
         identified = self._counts["trustworthy"] + self._counts["doubtful"]
         own = ("trustworthy", "doubtful")
         failed = {code: count for code, count in self._counts.most_common() if code not in own}
-        return Summary(self._written, identified, self._counts["trustworthy"], self._taken, failed, not stopped)
+        complete = not stopped or self._written == len(self.logs)
+        return Summary(self._written, identified, self._counts["trustworthy"], self._taken, failed, complete)
 
 
 class _Cluster:
