@@ -66,7 +66,7 @@ pub(crate) fn few(file: &DriftFile) -> Option<String> {
     let most = file.noise.iter().max_by_key(|noise| noise.machines)?;
     (most.machines < FEW).then(|| {
         format!(
-            "{} {} few to tell slow changes of one from what all do by themselves: a limit finds them, such as --limit \"{} > 1.3\"",
+            "{} {} too few to tell slow changes of one from what all do by themselves: a limit finds them, such as --limit \"{} > 1.3\"",
             counted(most.machines, "machine"),
             if most.machines == 1 { "is" } else { "are" },
             most.parameter
