@@ -1,15 +1,19 @@
 //! Rests of an axis in a log.
 
 use crate::conditioning::record::{Record, Segment};
+use stiction_signal::Travel;
 
 /// Samples over which a position that stays is a rest.
 const WINDOW: usize = 16;
 /// Speed below which an axis rests, parts of the top speed.
 const RESTING_SPEED: f64 = 0.003;
 
-/// Part of the samples of a record at which its axis rests, by its readings; 0 where the log has none.
+/// Part of the samples of a record at which its axis rests, by its readings; 0 where the log has none. However slow it is, an axis
+/// whose readings move by more than encoder and noise explain is under way.
 pub(crate) fn share(record: &Record) -> f64 {
-    let farthest = RESTING_SPEED * record.top_speed() * WINDOW as f64 * record.step();
+    let slow = RESTING_SPEED * record.top_speed() * WINDOW as f64 * record.step();
+    let unseen = Travel::shortest_movement(record.resolution.unwrap_or(0.0), record.position_noise);
+    let farthest = slow.min(unseen);
     let at_rest = |segment: &Segment| {
         let windows = segment.reading.windows(WINDOW + 1);
         let moved = windows.map(|x| (x[WINDOW] - x[0]).abs());
@@ -53,5 +57,19 @@ mod tests {
         let dwells = |t: f64| if t % 2.0 < 1.0 { sine(t) } else { 0.0 };
         let found = shares(dwells);
         assert!((found - 0.5).abs() < 0.05, "{found}");
+    }
+
+    #[test]
+    fn slow_motion_that_the_encoder_follows_is_no_rest() {
+        // One second in two at a thousandth of the top speed, half a count in a sample.
+        let slow = |t: f64| {
+            if t % 2.0 < 1.0 {
+                0.5 * libm::sin(6.3 * t)
+            } else {
+                5e-4
+            }
+        };
+        let found = shares(slow);
+        assert!(found < 0.02, "{found}");
     }
 }
