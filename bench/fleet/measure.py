@@ -21,6 +21,8 @@ LAW = "coulomb-viscous"
 ROUNDS = 3
 SAMPLES = 1000
 """Of a log of the comparison; as it is in the fleet tests."""
+PRICE = 0.05
+"""Of a core for an hour, USD: an assumption."""
 DAY = 86_400.0
 
 
@@ -70,7 +72,12 @@ def compared(program: str, client: Any, good: Any, run: Any, folder: Path) -> No
         print(f"{logs} logs of {SAMPLES} samples: batch {theirs[-1]:.2f} s, Dask {ours[-1]:.2f} s, {theirs[-1] / ours[-1]:.0%}")
     each = 2.0 * min(ours) / logs
     print(f"throughput of the fleet over that of batch: {min(theirs) / min(ours):.0%}; {1e3 * each:.1f} ms of a core for a log")
-    print(f"1e6 logs a day at that: {1e6 * each / DAY:.2f} cores; of 30 s of a core for a log: {1e6 * 30.0 / DAY:.0f} cores")
+    for cost in (each, 30.0):
+        hours = 1e6 * cost / 3600.0
+        print(
+            f"1e6 logs a day at {1e3 * cost:.0f} ms of a core: {1e6 * cost / DAY:.2f} cores, {hours:.0f} core-hours, "
+            f"{PRICE * hours:.1f} USD at {PRICE} USD a core-hour"
+        )
 
 
 def many(program: str, client: Any, cluster: Any, good: Any, run: Any, folder: Path, count: int) -> None:

@@ -131,6 +131,15 @@ const MIN_SAMPLES: usize = 3;
 /// Fewest values of a force from which parameters may be constants: with fewer the error of a step is a tenth of the force and more.
 const FEWEST_FORCE_LEVELS: usize = 10;
 
+/// Says that numbers of a counter were read with their sign.
+fn signed(role: Role, bits: u32) -> Finding {
+    let largest = (1_u64 << bits) - 1;
+    let message = format!(
+        "{role}: whole numbers near 0 and near {largest} alone, as a counter of {bits} bits without its sign; {largest} is read as -1"
+    );
+    Finding::new(Code::UnsignedCounts, Severity::Note, message)
+}
+
 impl Log {
     /// Reads a table as this mapping says; what the mapping leaves open is detected.
     ///
@@ -175,7 +184,15 @@ impl Log {
         let mut findings = completed.findings;
         let mut sources = Vec::new();
         for role in Role::ALL {
-            if let Some(source) = Source::of(&mapping, &table, role)? {
+            if let Some(mut source) = Source::of(&mapping, &table, role)? {
+                // A position that jumps so wraps, which the axis file says.
+                if matches!(
+                    role,
+                    Role::Velocity | Role::Acceleration | Role::Force | Role::External
+                ) && let Some(bits) = source.restore_sign(&table)
+                {
+                    findings.push(signed(role, bits));
+                }
                 sources.push((role, source));
             }
         }

@@ -174,7 +174,11 @@ impl Read for Watched<'_> {
 }
 
 /// Hands on the bytes of a file that was not read in order, which must be the same as before.
-fn hand_on(path: &Path, before: &Metadata, seen: &mut dyn FnMut(&[u8])) -> Result<(), Error> {
+pub(crate) fn hand_on(
+    path: &Path,
+    before: &Metadata,
+    seen: &mut dyn FnMut(&[u8]),
+) -> Result<(), Error> {
     let mut file = File::open(path).map_err(io)?;
     let mut buffer = vec![0; 1 << 16];
     loop {

@@ -4,6 +4,7 @@ use super::row::{LogRow, ParameterRow};
 use super::summary::SCHEMA;
 use super::table::{COLUMNS, KINDS, Kind};
 use crate::error::Error;
+use crate::hash::{Hash, sha256_of};
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_log::{Cells, Limits, read_cells};
@@ -12,7 +13,7 @@ use stiction_log::{Cells, Limits, read_cells};
 ///
 /// # Errors
 /// Where the folder cannot be read or holds no table.
-pub fn tables(path: &Path) -> Result<Vec<PathBuf>, Error> {
+fn tables(path: &Path) -> Result<Vec<PathBuf>, Error> {
     if !path.is_dir() {
         return Ok(vec![path.to_path_buf()]);
     }
@@ -41,26 +42,28 @@ pub fn tables(path: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(all)
 }
 
-/// Reads the table of an earlier batch, or those of a folder, and hands on their logs in their order.
+/// Reads the table of an earlier batch, or those of a folder, and hands on their logs in their order; gives the SHA-256 of what
+/// was read, of a folder of tables that of theirs, one after the other.
 ///
 /// # Errors
 /// Where one cannot be read or is no table of a batch, and what `take` refuses.
 pub fn read_results(
     path: &Path,
     mut take: impl FnMut(LogRow) -> Result<(), Error>,
-) -> Result<(), Error> {
+) -> Result<String, Error> {
+    let mut hashes = String::new();
     for table in tables(path)? {
-        read_table(&table, &mut take)?;
+        let mut hash = Hash::default();
+        let columns = read_cells(&table, &COLUMNS, Limits::default(), |bytes| {
+            hash.take(bytes)
+        })?;
+        rows_of(&table, &columns, &mut take)?;
+        hashes += &hash.finish();
     }
-    Ok(())
-}
-
-fn read_table(
-    path: &Path,
-    take: &mut impl FnMut(LogRow) -> Result<(), Error>,
-) -> Result<(), Error> {
-    let columns = read_cells(path, &COLUMNS, Limits::default())?;
-    rows_of(path, &columns, take)
+    Ok(match path.is_dir() {
+        true => sha256_of(hashes.as_bytes()),
+        false => hashes,
+    })
 }
 
 /// Hands on the logs of columns that are in memory already, in the order of [`COLUMNS`] and all of one length; `path` is what
@@ -302,8 +305,9 @@ mod tests {
             };
             let path = write("a.parquet");
             let mut read = Vec::new();
-            read_results(&path, |log| { read.push(log); Ok(()) }).unwrap();
+            let hash = read_results(&path, |log| { read.push(log); Ok(()) }).unwrap();
             prop_assert_eq!(&read, &logs);
+            prop_assert_eq!(hash, sha256_of(&std::fs::read(&path).unwrap()));
             let other = write("b.parquet");
             prop_assert_eq!(std::fs::read(path).unwrap(), std::fs::read(other).unwrap());
         }

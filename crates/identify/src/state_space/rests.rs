@@ -8,12 +8,13 @@ const WINDOW: usize = 16;
 /// Speed below which an axis rests, parts of the top speed.
 const RESTING_SPEED: f64 = 0.003;
 
-/// Part of the samples of a record at which its axis rests, by its readings; 0 where the log has none. However slow it is, an axis
-/// whose readings move by more than encoder and noise explain is under way.
+/// Part of the samples of a record at which its axis rests, by its readings; 0 where the log has none. An axis whose encoder follows
+/// it, by a count in each sample or more, is under way, however slow it is.
 pub(crate) fn share(record: &Record) -> f64 {
     let slow = RESTING_SPEED * record.top_speed() * WINDOW as f64 * record.step();
-    let unseen = Travel::shortest_movement(record.resolution.unwrap_or(0.0), record.position_noise);
-    let farthest = slow.min(unseen);
+    let counts = WINDOW as f64 * record.resolution.unwrap_or(0.0);
+    let noise = Travel::shortest_movement(0.0, record.position_noise);
+    let farthest = slow.min(counts.max(noise));
     let at_rest = |segment: &Segment| {
         let windows = segment.reading.windows(WINDOW + 1);
         let moved = windows.map(|x| (x[WINDOW] - x[0]).abs());
@@ -61,7 +62,7 @@ mod tests {
 
     #[test]
     fn slow_motion_that_the_encoder_follows_is_no_rest() {
-        // One second in two at a thousandth of the top speed, half a count in a sample.
+        // One second in two at a four-hundredth of the top speed, 1.2 counts in a sample.
         let slow = |t: f64| {
             if t % 2.0 < 1.0 {
                 0.5 * libm::sin(6.3 * t)

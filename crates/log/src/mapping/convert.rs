@@ -21,6 +21,8 @@ pub(crate) struct Source {
     pub dimension: Dimension,
     scale: f64,
     scale_text: Option<String>,
+    /// Numbers of a counter that was read without its sign, from half of which on they are below zero.
+    unsigned: Option<f64>,
 }
 
 impl Source {
@@ -67,7 +69,16 @@ impl Source {
             dimension,
             scale,
             scale_text,
+            unsigned: None,
         })
+    }
+
+    /// Reads numbers below zero that were written without their sign, 65535 for -1, with it; the bits of their counter, where there
+    /// are such numbers.
+    pub fn restore_sign(&mut self, table: &Table) -> Option<u32> {
+        let bits = unsigned_bits(&table.columns[self.column].values)?;
+        self.unsigned = Some((1_u64 << bits) as f64);
+        Some(bits)
     }
 
     /// The source of a role in a mapping that is complete; `None` where it has none.
@@ -85,7 +96,11 @@ impl Source {
 
     /// One number of the file in SI; what is no measurement becomes NaN, a missing sample.
     pub fn si(&self, number: f64) -> f64 {
-        let si = self.unit.to_si(number) * self.scale;
+        let signed = match self.unsigned {
+            Some(whole) if number >= 0.5 * whole => number - whole,
+            _ => number,
+        };
+        let si = self.unit.to_si(signed) * self.scale;
         if si.abs() <= LARGEST_VALUE {
             si
         } else {
@@ -226,4 +241,55 @@ pub(super) fn is_force(dimension: Dimension) -> bool {
         Dimension::ONE,
     ]
     .contains(&dimension)
+}
+
+/// Counters of drives, bits.
+const COUNTERS: [u32; 2] = [16, 32];
+/// Fewest numbers on each side of zero that tell a counter from flags and codes.
+const FEWEST_EACH_SIDE: usize = 10;
+
+/// The bits of a counter whose numbers below zero were read without their sign: all are whole, some in its lowest quarter, some in
+/// its highest, and none between. What a drive measures does not jump there.
+fn unsigned_bits(values: &[f64]) -> Option<u32> {
+    let bits_of = |bits: &u32| {
+        let whole = (1_u64 << *bits) as f64;
+        let (mut low, mut high) = (0, 0);
+        for number in values.iter().filter(|number| !number.is_nan()) {
+            let is_count = (0.0..whole).contains(number) && number.fract() == 0.0;
+            if !is_count || (0.25 * whole..0.75 * whole).contains(number) {
+                return false;
+            }
+            *(if *number < 0.5 * whole {
+                &mut low
+            } else {
+                &mut high
+            }) += 1;
+        }
+        low.min(high) >= FEWEST_EACH_SIDE
+    };
+    COUNTERS.into_iter().find(bits_of)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_below_zero_without_their_sign_are_told_from_others() {
+        let swing = |k: usize| libm::round(300.0 * libm::sin(0.1 * k as f64));
+        let signed: Vec<f64> = (0..200).map(swing).collect();
+        let without =
+            |whole: f64| -> Vec<f64> { signed.iter().map(|x| x.rem_euclid(whole)).collect() };
+        assert_eq!(unsigned_bits(&without(65536.0)), Some(16));
+        assert_eq!(unsigned_bits(&without(4294967296.0)), Some(32));
+        assert_eq!(unsigned_bits(&signed), None);
+        let mut broken = without(65536.0);
+        broken[7] += 0.5;
+        assert_eq!(unsigned_bits(&broken), None);
+        // A counter that runs through all its numbers, a flag beside a code, and no number at all.
+        let counter: Vec<f64> = (0..200).map(|k| 400.0 * f64::from(k) % 65536.0).collect();
+        assert_eq!(unsigned_bits(&counter), None);
+        assert_eq!(unsigned_bits(&[0.0, 65535.0, 0.0]), None);
+        assert_eq!(unsigned_bits(&[]), None);
+    }
 }

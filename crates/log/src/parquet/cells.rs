@@ -13,6 +13,7 @@ use parquet::schema::types::ColumnDescriptor;
 use super::column::{Meaning, each};
 use super::{broken, chunk, library, scan};
 use crate::binary::{Clock, Collector, guard};
+use crate::open::hand_on;
 use crate::{Error, Kind, Limits};
 
 /// A word that is missing.
@@ -94,19 +95,27 @@ impl Cells {
     }
 }
 
-/// Reads the columns of a Parquet file that are named; `None` for one that it does not have.
+/// Reads the columns of a Parquet file that are named; `None` for one that it does not have. The bytes that were read are handed
+/// on, in order, for a hash of exactly these.
 ///
 /// # Errors
-/// Where the file cannot be read, is damaged or asks for more memory than is allowed, with the file and the column.
+/// Where the file cannot be read, is damaged, has changed since it was opened or asks for more memory than is allowed, with the
+/// file and the column.
 pub fn read_cells(
     path: &Path,
     names: &[&str],
     limits: Limits,
+    mut bytes: impl FnMut(&[u8]),
 ) -> Result<Vec<Option<Cells>>, Error> {
-    guard("Parquet", || read(path, names, limits)).map_err(|error| error.in_file(path))
+    guard("Parquet", || read(path, names, limits, &mut bytes)).map_err(|error| error.in_file(path))
 }
 
-fn read(path: &Path, names: &[&str], limits: Limits) -> Result<Vec<Option<Cells>>, Error> {
+fn read(
+    path: &Path,
+    names: &[&str],
+    limits: Limits,
+    bytes: &mut dyn FnMut(&[u8]),
+) -> Result<Vec<Option<Cells>>, Error> {
     let io = |error: std::io::Error| Error::new(Kind::Io, format!("cannot be read ({error})"), "");
     // Looked at before it is opened: opening a pipe that nobody writes to would wait forever.
     let about = std::fs::metadata(path).map_err(io)?;
@@ -130,6 +139,7 @@ fn read(path: &Path, names: &[&str], limits: Limits) -> Result<Vec<Option<Cells>
             .map_err(|error| error.in_column(&name))?;
         out[place] = Some(cells);
     }
+    hand_on(path, &about, bytes)?;
     Ok(out)
 }
 

@@ -870,3 +870,25 @@ fn long_headers_are_cut() {
     assert!(said.len() < 500, "{} bytes", said.len());
     assert!(said.contains("aaa...]"), "{said}");
 }
+
+#[test]
+fn counts_without_their_sign_are_read_with_it() {
+    let mut own = axis(5000);
+    own.force
+        .iter_mut()
+        .for_each(|force| *force = (100.0 * *force).round());
+    let signed = own.table();
+    let mut unsigned = signed.clone();
+    let written = &mut unsigned.columns[3].values;
+    written
+        .iter_mut()
+        .for_each(|count| *count = count.rem_euclid(65536.0));
+    assert!(written.iter().any(|count| *count > 65000.0));
+    let log = read(&unsigned);
+    assert_eq!(log.force, read(&signed).force);
+    assert_eq!(
+        message(&log, "unsigned-counts"),
+        "force: whole numbers near 0 and near 65535 alone, as a counter of 16 bits without its sign; 65535 is read as -1"
+    );
+    assert!(!codes(&read(&signed)).contains(&"unsigned-counts"));
+}

@@ -6,9 +6,9 @@ use crate::error::Error;
 use std::collections::BTreeMap;
 use std::path::Path;
 use stiction_drift::{Judged, Kind, Limits, Noise, Point, Settings, judge};
-use stiction_files::batch::{BatchFile, LogRow, SUMMARY, read_results, tables};
+use stiction_files::batch::{BatchFile, LogRow, SUMMARY, read_results};
 use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA, Table};
-use stiction_files::{sha256, sha256_of, shell};
+use stiction_files::{sha256_of, shell};
 
 /// What changed, and the courses of what did.
 pub struct DriftOutcome {
@@ -46,14 +46,14 @@ pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
     let mut courses = Courses::default();
     check_finished(table)?;
     let mut fault = None;
-    read_results(table, |row| {
+    let hash = read_results(table, |row| {
         fault = fault.take().or_else(|| courses.take(&row).err());
         Ok(())
     })?;
     if let Some(fault) = fault {
         return Err(fault);
     }
-    followed(shell::text(table), hash_of(table)?, courses, limits)
+    followed(shell::text(table), hash, courses, limits)
 }
 
 /// The same of rows that are in memory; the hash is of what is written of them as JSON, one after the other.
@@ -190,18 +190,6 @@ fn check_finished(table: &Path) -> Result<(), Error> {
             format!("a batch that is complete: {}", batch.command(dir)),
         )),
     }
-}
-
-/// SHA-256 of a table; of a folder of tables that of theirs, one after the other.
-fn hash_of(table: &Path) -> Result<String, Error> {
-    if !table.is_dir() {
-        return Ok(sha256(table)?);
-    }
-    let mut hashes = String::new();
-    for part in tables(table)? {
-        hashes += &sha256(&part)?;
-    }
-    Ok(sha256_of(hashes.as_bytes()))
 }
 
 /// Refuses a limit of what the table does not have.
