@@ -121,14 +121,15 @@ impl Words {
     /// An option without a value, where it is set.
     pub fn flag(&mut self, name: &str, set: bool) {
         if set {
-            self.word(name);
+            self.0.push(name.into());
         }
     }
 
     /// An option with a value, where there is one.
     pub fn option(&mut self, name: &str, value: Option<&str>) {
         if let Some(value) = value {
-            self.word(name);
+            // An option is no file, which would be told from one.
+            self.0.push(name.into());
             self.word(value);
         }
     }
