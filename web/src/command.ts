@@ -3,7 +3,7 @@
 import { post } from "./api";
 import { attempt, h, put, say } from "./dom";
 
-export function commandLine(label = "The same on the command line"): { element: HTMLElement; show: (text: string) => void; of: (asked: unknown) => void } {
+export function commandLine(label = "The same on the command line"): { element: HTMLElement; show: (text: string) => void; of: (asked: unknown, path?: string) => void } {
   const code = h("code", { tabindex: "0" });
   const copy = h("button", {
     class: "quiet",
@@ -17,10 +17,10 @@ export function commandLine(label = "The same on the command line"): { element: 
   return {
     element,
     show: (text) => put(code, text),
-    of: (asked) => {
+    of: (asked, path = "/api/command") => {
       last += 1;
       const own = last;
-      void post<string>("/api/command", asked).then((text) => { if (own === last) put(code, text); }).catch(() => { if (own === last) put(code, ""); });
+      void post<string>(path, asked).then((text) => { if (own === last) put(code, text); }).catch(() => { if (own === last) put(code, ""); });
     },
   };
 }

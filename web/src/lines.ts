@@ -14,14 +14,21 @@ export class Lines {
   private lines: Line[] = [];
   private unit = "";
   private readonly stage = h("div", {});
+  private readonly heading = h("span", {});
   private readonly keys = h("div", { class: "keys" });
   private readonly resize = new ResizeObserver(() => this.build());
   private readonly noTheme: () => void;
 
-  constructor(private readonly title: string, private readonly height: number, private readonly nothing: string) {
-    this.element = h("figure", { class: "map lines" }, h("figcaption", {}, title, this.keys), this.stage);
+  constructor(private title: string, private readonly height: number, private readonly nothing: string) {
+    this.element = h("figure", { class: "map lines" }, h("figcaption", {}, this.heading, this.keys), this.stage);
+    this.called(title);
     this.resize.observe(this.element);
     this.noTheme = onTheme(() => this.build());
+  }
+
+  called(title: string): void {
+    this.title = title;
+    put(this.heading, title);
   }
 
   end(): void {

@@ -203,6 +203,32 @@ try {
   typed(simulate);
   passed(`simulated: ${compare(join(space, "result/study"), join(twin, "result/study"), "simulate")} files`);
 
+  // Two axes of that model go along a circle.
+  await page.getByText("Begin another, of one axis or two").click();
+  await page.getByLabel("Second axis, y").selectOption("result/model.toml");
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.includes("--second-model"));
+  const begun = await shown();
+  await page.getByRole("button", { name: "Begin", exact: true }).click();
+  await page.getByText("circle-study.toml is begun").waitFor();
+  typed(begun);
+  equal(readFileSync(join(space, "circle-study.toml"), "utf8"), readFileSync(join(twin, "circle-study.toml"), "utf8"), "the study of two axes");
+  await tried.locator(".plane svg").waitFor();
+  const still = await tried.locator("tbody").innerText();
+  const moved = page.waitForResponse(/\/api\/trial/);
+  await tried.getByRole("slider", { name: "y coulomb", exact: true }).press("End");
+  await (await moved).finished();
+  await page.waitForFunction((before) => document.querySelector(".try tbody").innerText !== before, still);
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction simulate circle-study.toml"));
+  const circle = await shown();
+  await page.getByRole("button", { name: "Simulate", exact: true }).click();
+  await page.locator(".runs .plane svg").waitFor({ timeout: 120_000 });
+  await look("contour-try");
+  await page.locator(".runs").evaluate((element) => element.scrollIntoView({ block: "end" }));
+  await look("contour");
+  await page.evaluate(() => document.querySelector("main").scrollTo(0, 0));
+  typed(circle);
+  passed(`two axes simulated: ${compare(join(space, "circle-study"), join(twin, "circle-study"), "simulate two axes")} files`);
+
   // The code is taken.
   await page.getByRole("button", { name: "Export" }).first().click();
   await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction export"));

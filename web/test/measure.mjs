@@ -1,8 +1,9 @@
 // How long the page takes, measured in a browser and written into docs/studio.md with the date and the machine.
 //
-//     node test/measure.mjs STICTION CHROMIUM DOCS/studio.md
+//     node test/measure.mjs STICTION CHROMIUM DOCS/studio.md ["WHAT | FOUND | BAR" ...]
 //
-// STICTION is the release build: what users get.
+// `cargo xtask studio-measure` runs it. STICTION is the release build: what users get. Rows that were measured elsewhere are put
+// below those of the browser.
 
 import { spawn } from "node:child_process";
 import { createWriteStream, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -11,9 +12,10 @@ import { join, resolve } from "node:path";
 import { once } from "node:events";
 import { chromium } from "playwright-core";
 
-const [program, browserPath, page_] = process.argv.slice(2).map((path) => resolve(path));
+const [program, browserPath, page_] = process.argv.slice(2, 5).map((path) => resolve(path));
+const more = process.argv.slice(5);
 const folder = mkdtempSync(join(tmpdir(), "stiction-measure-"));
-const BEGIN = "<!-- measured: web/test/measure.mjs writes what follows -->";
+const BEGIN = "<!-- measured: cargo xtask studio-measure writes what follows -->";
 const END = "<!-- end of what was measured -->";
 
 /** A log that goes to and fro with friction, `rows` long, with so many columns beside the time. */
@@ -151,7 +153,7 @@ const text = [
   "",
   "| what | found | bar |",
   "|---|---|---|",
-  ...rows.map((row) => `| ${row.join(" | ")} |`),
+  ...[...rows.map((row) => row.join(" | ")), ...more].map((row) => `| ${row} |`),
   "",
   END,
 ].join("\n");

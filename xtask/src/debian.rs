@@ -141,9 +141,18 @@ const PACKAGES: &[Package] = &[
 
 /// Installs what is missing as root; otherwise says the command to give.
 pub fn install() -> Outcome {
+    install_of(|_| true)
+}
+
+/// The same of one package.
+pub fn install_one(name: &str) -> Outcome {
+    install_of(|package| package.name == name)
+}
+
+fn install_of(wanted: impl Fn(&Package) -> bool) -> Outcome {
     let missing: Vec<&Package> = PACKAGES
         .iter()
-        .filter(|package| !present(package))
+        .filter(|package| wanted(package) && !present(package))
         .collect();
     if missing.is_empty() {
         return Ok(());

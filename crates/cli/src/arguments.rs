@@ -501,6 +501,9 @@ pub struct Simulate {
         conflicts_with = "study"
     )]
     pub model: Option<PathBuf>,
+    /// For --init: the model of a second axis, which may be the same; both then go along a circle.
+    #[arg(long, value_name = "MODEL.toml", requires = "model")]
+    pub second_model: Option<PathBuf>,
     /// Compiles the C in this folder, which stiction export --target c wrote, with gcc and runs it beside the compensator of the
     /// model.
     #[arg(long, value_name = "DIR", conflicts_with = "init")]

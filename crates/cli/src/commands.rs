@@ -667,15 +667,10 @@ fn plan(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
         let text = stiction::commands::text::planned(&planned, &plan.axis, &dir);
         output::print(&format!("{text}\n{}", written_to(&dir, &written)))?;
     }
-    Ok(match planned.file.status.as_str() {
-        "complete" if !interrupt::stopped() => {
-            match planned.file.wanted.iter().all(|wish| wish.met) {
-                true => Exit::Done,
-                false => Exit::NotTrustworthy,
-            }
-        }
-        _ => Exit::Interrupted,
-    })
+    match interrupt::stopped() {
+        true => Ok(Exit::Interrupted),
+        false => Ok(planned.verdict().into()),
+    }
 }
 
 fn carrier(form: arguments::Form) -> Carrier {
@@ -694,7 +689,8 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     // The arguments have both but for --init.
     let (Some(study), Some(dir)) = (&simulate.study, &simulate.out) else {
         let file = simulate.init.as_deref().unwrap_or(Path::new("study.toml"));
-        return init_study(file, simulate.model.as_deref(), common);
+        let models = [&simulate.model, &simulate.second_model];
+        return init_study(file, models.map(Option::as_deref), common);
     };
     check_folder_of(
         dir,
@@ -733,9 +729,13 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     Ok(outcome.verdict().into())
 }
 
-fn init_study(file: &Path, model: Option<&Path>, common: &Common) -> Result<Exit, Error> {
+fn init_study(
+    file: &Path,
+    [model, second]: [Option<&Path>; 2],
+    common: &Common,
+) -> Result<Exit, Error> {
     is_new(file)?;
-    let started = stiction::commands::study::start(model, file)?;
+    let started = stiction::commands::study::start(model, second, file)?;
     write_atomic(file, visible::toml(started.text.clone()).as_bytes())?;
     if common.json {
         output::json(&serde_json::json!({

@@ -77,6 +77,10 @@ pub mod trial {
     pub use stiction_files::study::{Knob, Range};
     pub use stiction_workflows::study::{NotTried, Tried, TriedRun, Which, trial};
 }
+/// A run on a contour, and how its deviations are drawn.
+pub mod contour {
+    pub use stiction_workflows::study::{ContourTrace, Line, Plane};
+}
 /// How an error names options.
 pub use stiction_workflows::{Part, Setting, Wording};
 /// Further workflows, and what an outcome is worth.

@@ -1,5 +1,6 @@
 //! What the page may ask for, each a small function over the workspace, the logs and the work.
 
+mod contour;
 mod events;
 mod files;
 mod fit;
@@ -44,8 +45,10 @@ pub fn router() -> Router<Arc<Shared>> {
         .route("/api/mark", post(marks::mark))
         .route("/api/text", get(files::read).put(files::write))
         .route("/api/study", post(files::study))
+        .route("/api/study/command", post(files::study_command))
         .route("/api/fit", get(fit::fit))
         .route("/api/left", get(fit::left))
+        .route("/api/contour", get(contour::contour))
         .route("/api/trial", post(trial::tried))
         .route("/api/targets", get(targets))
         .route("/api/command", post(command))
@@ -177,7 +180,7 @@ async fn table(State(shared): App, Query(asked): Query<Table>) -> Answer<serde_j
         "from": time.first(),
         "to": time.last(),
         "channels": found.about.channels,
-        "runs": runs,
+        "runs": runs.iter().map(|keys| keys.join(" · ")).collect::<Vec<_>>(),
     })))
 }
 

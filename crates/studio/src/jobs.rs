@@ -1,6 +1,6 @@
 //! Long work: started by one tab, seen by all of them, and still there after a reload.
 
-use crate::asked::{Asked, Done};
+use crate::asked::{Asked, Done, Run};
 use crate::refused::Refused;
 use crate::workspace::Workspace;
 use serde::Serialize;
@@ -122,7 +122,11 @@ impl Jobs {
             let work = || {
                 let mut watch = watch;
                 let stopped = || stopped.load(Ordering::Relaxed);
-                asked.run(&workspace, &mut watch, &stopped)
+                asked.run(Run {
+                    workspace: &workspace,
+                    observer: &mut watch,
+                    stopped: &stopped,
+                })
             };
             let ended = catch_unwind(AssertUnwindSafe(work));
             jobs.end(id, ended.unwrap_or_else(|_| {

@@ -263,7 +263,8 @@ fn kind_of_folder(path: &Path) -> &'static str {
     }
 }
 
-fn kind_of_file(name: &str) -> &'static str {
+/// What a file is for the page, by its name.
+pub fn kind_of_file(name: &str) -> &'static str {
     let lower = name.to_ascii_lowercase();
     let written = [
         "result.json",

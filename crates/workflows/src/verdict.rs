@@ -3,6 +3,7 @@
 use crate::check::Check;
 use crate::export::Exported;
 use crate::identify::Outcome;
+use crate::plan::Planned;
 use crate::reproduce::Reproduction;
 use crate::study::StudyOutcome;
 use stiction_files::batch::BatchFile;
@@ -54,6 +55,14 @@ impl StudyOutcome {
         let exported = self.file.exported_c.as_ref();
         let same = exported.is_none_or(|c| !c.runs.iter().any(|run| run.differs));
         Verdict::new(self.file.status == "interrupted", any && same)
+    }
+}
+
+impl Planned {
+    /// Whether all that is wanted is expected of the motion.
+    pub fn verdict(&self) -> Verdict {
+        let met = self.file.wanted.iter().all(|wish| wish.met);
+        Verdict::new(self.file.status != "complete", met)
     }
 }
 

@@ -7,11 +7,15 @@ import { editor } from "../editor";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { length, short } from "../numbers";
 import { exists, files, onChange, refresh, state } from "../state";
+import { Lines } from "../lines";
+import { Plane, type PlaneData } from "../plane";
 import { Trace } from "../trace";
 import { Try } from "./try";
 
 interface Metric { name: string; unit: string; mean: number; reduction_percent: number | null }
-interface Row { path: string; controller: string; compensator: string; parameters: string; metrics: Metric[] }
+interface Row { path: string; controller: string; compensator: string; parameters: string; coupled: boolean; metrics: Metric[] }
+interface OnContour { unit: string; plane: PlaneData; runs: { name: string; time: number[]; deviation: number[] }[] }
+interface Table { from: number | null; to: number | null; channels: Channel[]; runs: string[] }
 interface StudyFile { results: Row[]; warnings: { code: string; message: string }[] }
 
 export class StudyView {
@@ -25,9 +29,12 @@ export class StudyView {
   private study = "";
   private out = "";
   private trace: Trace | null = null;
-  private run = 0;
+  /** What is drawn of it: a file of courses and a run in it. */
+  private course = "";
+  private deviation: Lines | null = null;
   private shown = "";
   private editing = "";
+  private begins = false;
 
   constructor() {
     put(this.element, h("div", { class: "head" }, h("h2", {}, "Study"), h("span", { class: "muted" }, "the axis with and without compensation, simulated")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.tried.element, this.work, this.found)), this.command.element);
@@ -47,14 +54,20 @@ export class StudyView {
   end(): void {
     this.stop();
     this.tried.end();
+    this.clear();
+  }
+
+  private clear(): void {
     this.trace?.end();
+    this.deviation?.end();
+    this.trace = null;
+    this.deviation = null;
   }
 
   private pick(study: string): void {
     this.study = study;
-    const folder = study.includes("/") ? study.slice(0, study.lastIndexOf("/") + 1) : "";
-    this.out = study ? `${folder}study` : "";
-    this.run = 0;
+    this.out = study.replace(/\.toml$/, "");
+    this.course = "";
   }
 
   private asked() { return { kind: "simulate", study: this.study, out: this.out }; }
@@ -63,14 +76,8 @@ export class StudyView {
     const all = files("study");
     this.tried.of(this.study || (all[0]?.name ?? ""));
     if (!this.study && all[0]) this.pick(all[0].name);
-    const models = files("model");
     if (!all.length) {
-      put(
-        this.form,
-        h("p", {}, "A study needs a model. An identification that may be used writes one with it."),
-        h("button", { class: "primary wide", onclick: () => void this.start(models[0]?.name ?? null) }, models[0] ? `Begin one of ${models[0].name}` : "Begin one of a known axis"),
-      );
-      this.command.show(`stiction simulate --init study.toml${models[0] ? ` --model ${models[0].name}` : ""}`);
+      put(this.form, h("p", {}, "A study needs a model. An identification that may be used writes one with it."), ...this.beginning("study.toml"));
       return;
     }
     const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); this.command.of(this.asked()); } });
@@ -81,19 +88,50 @@ export class StudyView {
       place,
       field("Folder for the result", out),
       h("button", { class: "primary wide", onclick: () => void begin(this.asked()) }, "Simulate"),
+      this.another(),
     );
     if (this.editing !== this.study) this.editing = this.study;
     void editor(this.study, "Paths, controllers and compensators").then((own) => put(place, own));
     this.command.of(this.asked());
   }
 
-  private async start(model: string | null): Promise<void> {
+  /** Another study, such as one of two axes. */
+  private another(): HTMLElement {
+    const details = h("details", { open: this.begins }, h("summary", {}, "Begin another, of one axis or two"));
+    details.addEventListener("toggle", () => {
+      this.begins = details.open;
+      if (details.open) put(details, details.firstElementChild, ...this.beginning("circle-study.toml"));
+      else this.command.of(this.asked());
+    });
+    return details;
+  }
+
+  /** What a study is begun of: a model, or two along a circle. */
+  private beginning(file: string): HTMLElement[] {
+    const models = files("model").map((own) => own.name);
+    const asked = { model: models.find((name) => name === `${state.chosen.result}/model.toml`) ?? models[0] ?? null, second: null as string | null, name: file };
+    const show = () => this.command.of(asked, "/api/study/command");
+    const of = (names: string[]) => names.map((name): [string, string] => [name, name]);
+    const name = h("input", { type: "text", value: asked.name, spellcheck: "false", oninput: () => { asked.name = name.value.trim(); show(); } });
+    show();
+    return [
+      field("Axis", choice([...of(models), ["", "a known one, a linear motor"]], asked.model ?? "", (value) => { asked.model = value || null; if (!value) asked.second = null; show(); })),
+      models.length ? field("Second axis, y", choice([["", "none: one axis by itself"], ...of(models)], "", (value) => { asked.second = value || null; show(); }), "It may be the same model. Both go along a circle; radius and feed are in the text of the study.") : null,
+      field("Study file", name),
+      h("button", { class: "primary wide", onclick: () => void this.start(asked) }, "Begin"),
+    ].filter((own) => own !== null);
+  }
+
+  private async start(asked: { name: string }): Promise<void> {
     await attempt(async () => {
-      await post("/api/study", { model, name: "study.toml" });
-      say("study.toml is begun");
+      await post("/api/study", asked);
+      say(`${asked.name} is begun`);
+      this.begins = false;
       await refresh();
+      this.pick(asked.name);
     });
     this.drawForm();
+    void this.drawStudied();
   }
 
   private drawWork(): void {
@@ -103,11 +141,10 @@ export class StudyView {
 
   private async drawStudied(): Promise<void> {
     const file = state.workspace.files.find((own) => own.name === `${this.out}/study.json`);
-    const now = JSON.stringify([this.out, file?.modified, this.run]);
+    const now = JSON.stringify([this.out, file?.modified, this.course]);
     if (now === this.shown) return;
     this.shown = now;
-    this.trace?.end();
-    this.trace = null;
+    this.clear();
     if (!file) {
       put(this.found, h("p", { class: "muted" }, "Not simulated as a whole yet. A study of a few paths takes seconds."));
       return;
@@ -125,16 +162,22 @@ export class StudyView {
     await attempt(() => this.courses());
   }
 
-  /** The course of one run after another. */
+  /** The course of one run after another, along paths and contours. */
   private async courses(): Promise<void> {
-    const name = `${this.out}/trajectories.csv`;
-    if (!exists(name)) return;
-    const table = await get<{ from: number | null; to: number | null; channels: Channel[]; runs: string[] }>("/api/table", { name, run: this.run });
+    const shown = this.shown;
+    const kinds = (["trajectories", "contours"] as const).filter((kind) => exists(`${this.out}/${kind}.csv`));
     const place = this.found.querySelector(".runs");
-    if (!place || table.from === null || table.to === null) return;
-    const channel = (...names: string[]) => names.map((own) => table.channels.find((one) => one.name === own)).filter((one) => one !== undefined);
+    if (!place || !kinds[0]) return;
+    const read = (own: string, at: number) => get<Table>("/api/table", { name: `${this.out}/${own}.csv`, run: at });
+    const tables = await Promise.all(kinds.map((own) => read(own, 0)));
+    // On a contour the last run, which has the best compensation, is drawn beside that without.
+    const usual = kinds[0] === "contours" ? `contours ${(tables[0]?.runs.length ?? 1) - 1}` : `${kinds[0]} 0`;
+    const [kind = "", run = ""] = (this.course || usual).split(" ");
+    const table = await read(kind, Number(run));
+    if (this.shown !== shown || table.from === null || table.to === null) return;
+    const channel = (...names: string[]) => names.flatMap((own) => [own, `${own} x`, `${own} y`]).map((own) => table.channels.find((one) => one.name === own)).filter((one) => one !== undefined);
     this.trace = new Trace({
-      source: { name, table: true, run: this.run },
+      source: { name: `${this.out}/${kind}.csv`, table: true, run: Number(run) },
       panels: [
         { title: "position", channels: channel("reference", "position") },
         { title: "tracking error", channels: channel("error") },
@@ -145,30 +188,48 @@ export class StudyView {
       height: 110,
       label: "Course of a run",
     });
-    const select = choice(table.runs.map((own, k): [string, string] => [String(k), own]), String(this.run), (value) => { this.run = Number(value); void this.drawStudied(); });
-    put(place, field("Course of", select), this.trace.element);
+    const names = tables.flatMap((one, k) => one.runs.map((own, at): [string, string] => [`${kinds[k]} ${at}`, kinds[k] === "contours" ? own.replace(/ · 0$/, "").replace(/ · 1$/, " · coupled") : own]));
+    const select = choice(names, `${kind} ${run}`, (value) => { this.course = value; void this.drawStudied(); });
+    put(place, field("Course of", select), kind === "contours" ? await this.onContour(Number(run)) : null, this.trace.element);
+  }
+
+  /** A run in the plane of both axes, and how far it is from the contour. */
+  private async onContour(run: number): Promise<HTMLElement | null> {
+    const drawn = await attempt(() => get<OnContour>("/api/contour", { folder: this.out, run }));
+    if (!drawn) return null;
+    const plane = new Plane();
+    const names = drawn.runs.map((own) => own.name);
+    plane.draw(drawn.plane, names, drawn.unit);
+    this.deviation = new Lines("Deviation from the contour", 300, "");
+    this.deviation.draw(drawn.runs.map((own) => ({ name: own.name, x: own.time, y: own.deviation })), drawn.unit);
+    return h("div", { class: "maps" }, plane.element, this.deviation.element);
   }
 }
 
 function results(file: StudyFile): HTMLElement {
   const shown = file.results.filter((row) => row.parameters !== "promised");
-  const rows = shown.map((row) => {
-    const metric = (...names: string[]) => names.map((name) => row.metrics.find((own) => own.name === name)).find((own) => own !== undefined);
-    const cell = (own: Metric | undefined) => h("td", { class: "number" }, own ? length(own.mean, own.unit) : "–");
-    const judged = metric("contour_peak", "peak_error");
-    const less = judged?.reduction_percent;
-    return h("tr", {}, h("th", { scope: "row" }, row.path), h("td", {}, row.compensator), h("td", {}, row.parameters === "exact" ? "as modelled" : row.parameters), cell(metric("contour_rms", "rms_error")), cell(judged), cell(metric("reversal_peak")), h("td", { class: "number strong" }, less === null || less === undefined ? "–" : `${short(less)} %`));
-  });
+  const onContour = (row: Row) => row.metrics.some((own) => own.name === "contour_peak");
+  const groups = [
+    { caption: "Tracking error", heads: ["at reversals"], metrics: ["rms_error", "peak_error", "reversal_peak"], rows: shown.filter((row) => !onContour(row)) },
+    { caption: "Distance to the contour, and the tracking error of each axis at reversals, where its quadrants meet", heads: ["x at reversals", "y at reversals"], metrics: ["contour_rms", "contour_peak", "reversal_peak_x", "reversal_peak_y"], rows: shown.filter(onContour) },
+  ];
   return h(
     "div",
     {},
-    h(
+    ...groups.map(({ caption, heads, metrics, rows }) => rows.length ? h(
       "table",
       {},
-      h("caption", {}, "Tracking error, on a contour the distance to it"),
-      h("thead", {}, h("tr", {}, ...["path", "compensation", "the axis", "rms", "largest", "at reversals", "less by"].map((text) => h("th", { scope: "col" }, text)))),
-      h("tbody", {}, ...rows),
-    ),
+      h("caption", {}, caption),
+      h("thead", {}, h("tr", {}, ...["path", "compensation", "parameters", "rms", "largest", ...heads, "less by"].map((text) => h("th", { scope: "col" }, text)))),
+      h("tbody", {}, ...rows.map((row) => tableRow(row, metrics))),
+    ) : null),
     file.warnings.length ? h("ul", { class: "findings" }, ...file.warnings.map((one) => h("li", { class: "warning" }, h("code", {}, one.code), h("span", {}, one.message)))) : null,
   );
+}
+
+function tableRow(row: Row, metrics: string[]): HTMLElement {
+  const metric = (name: string) => row.metrics.find((own) => own.name === name);
+  const cell = (own: Metric | undefined) => h("td", { class: "number" }, own ? length(own.mean, own.unit) : "–");
+  const less = metric(metrics[1] ?? "")?.reduction_percent;
+  return h("tr", {}, h("th", { scope: "row" }, row.path), h("td", {}, row.coupled ? `${row.compensator}, coupled` : row.compensator), h("td", {}, row.parameters === "exact" ? "as modelled" : row.parameters), ...metrics.map((name) => cell(metric(name))), h("td", { class: "number strong" }, less === null || less === undefined ? "–" : `${short(less)} %`));
 }

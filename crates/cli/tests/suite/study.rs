@@ -196,6 +196,49 @@ fn a_model_by_hand_is_simulated_and_exported() {
     assert_eq!((code, err.as_str()), (0, ""));
 }
 
+/// `--second-model` begins a study of two axes that runs as it is, along a circle.
+#[test]
+fn two_axes_are_begun_along_a_circle() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    std::fs::write(at.join("x.toml"), BY_HAND).unwrap();
+    let light = BY_HAND.replace("    { name = \"mass\", value = 4.6, unit = \"kg\" },\n", "");
+    std::fs::write(at.join("y.toml"), light).unwrap();
+    let init = |name: &str, second: &str| {
+        let args = [
+            "simulate",
+            "--init",
+            name,
+            "--model",
+            "x.toml",
+            "--second-model",
+            second,
+        ];
+        run(at, &args)
+    };
+    let (code, out, err) = init("study.toml", "x.toml");
+    assert_eq!((code, err.as_str()), (0, ""));
+    assert_eq!(
+        out,
+        "study.toml written\nnext: stiction simulate study.toml --out study\n"
+    );
+    let text = std::fs::read_to_string(at.join("study.toml")).unwrap();
+    insta::assert_snapshot!(text);
+    let (code, out, err) = run(at, &["simulate", "study.toml", "--out", "a"]);
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    assert!(out.contains("circle, cascade 30 Hz"), "{out}");
+    assert!(!out.contains("warning"), "{out}");
+    let (code, out, _) = init("s.toml", "y.toml");
+    assert_eq!(code, 0);
+    assert!(out.contains("to decide: a model has no mass"), "{out}");
+    let (code, _, err) = run(
+        at,
+        &["simulate", "--init", "t.toml", "--second-model", "x.toml"],
+    );
+    assert_eq!((code, at.join("t.toml").exists()), (2, false));
+    assert!(err.contains("--model"), "{err}");
+}
+
 /// Everything that is wrong with a model is said at once, a line each.
 #[test]
 fn faults_of_a_model_are_lines() {

@@ -56,6 +56,11 @@ impl Study {
         jobs
     }
 
+    /// Whether a compensator is run along a path or contour.
+    pub fn has_runs(&self, path: usize, compensator: usize) -> bool {
+        !self.couplings(path, compensator).is_empty()
+    }
+
     /// Without and with control of the contour, where there is one. Learning and the estimate of the load are of one axis.
     fn couplings(&self, path: usize, compensator: usize) -> &'static [bool] {
         let learns = match &self.compensators[compensator].value {

@@ -1,12 +1,12 @@
 //! The axis of a study with other parameters than its model has: which can be moved, and how far.
 
 use super::belief::{Belief, law_of};
-use super::model::is_simulated;
+use super::model::{Parameter, is_simulated};
 use super::plan::Machine;
 use crate::symbols;
 use serde::Serialize;
 use stiction_number::four_digits as short;
-use stiction_parameters::{Name, Quantity};
+use stiction_parameters::{Allowed, Name, Quantity};
 
 /// How far a parameter is moved to where nothing bounds it, as a part of its value, dimensionless ...
 const WITHOUT_BOUND: f64 = 3.0;
@@ -30,6 +30,8 @@ pub struct Knob {
     pub high: f64,
     /// Where these come from.
     pub range: Range,
+    /// How many elements of the law it moves together; 0 for a parameter that is one number.
+    pub elements: usize,
 }
 
 /// Where the ends of a range come from.
@@ -45,28 +47,41 @@ pub enum Range {
 }
 
 impl Machine {
-    /// The parameters that can be moved, in the order of the model. The elements of a law that has them hang together and stay.
+    /// The parameters that can be moved, in the order of the model. The elements of a law that has them move together: their
+    /// stiffnesses by `sigma0`, the sum of them, and the forces at which they yield by the levels of the steady curve, of which
+    /// each has its share.
     pub fn knobs(&self) -> Vec<Knob> {
-        let all = self.model.parameters.iter();
         let moves = |name: Name| {
             let stays = matches!(
                 name.quantity,
                 Quantity::Delay
+                    | Quantity::Mass
                     | Quantity::ElementStiffness(_)
                     | Quantity::ElementYield(_)
                     | Quantity::ElementForce(_)
             );
             is_simulated(name.quantity) && !stays
         };
-        let mut knobs: Vec<Knob> = all
-            .filter(|p| moves(p.name) && p.name != Quantity::Mass)
-            .map(|p| self.knob(p.name, p.value, &p.unit))
-            .collect();
+        let all = self.model.parameters.iter().filter(|p| moves(p.name));
+        let mut knobs: Vec<Knob> = all.map(|p| self.knob(p.name, p.value, &p.unit)).collect();
+        // A model by hand may have the elements and not their sum.
+        let total = Name::from(Quantity::Sigma0);
+        let stiffnesses: Vec<&Parameter> = self.stiffnesses().collect();
+        if let (Some(first), None) = (stiffnesses.first(), self.model.value(total)) {
+            let sum = stiffnesses.iter().map(|p| p.value).sum();
+            knobs.insert(0, self.knob(total, sum, &first.unit));
+        }
         let force = symbols::force_unit(self.motion);
         let unit = symbols::unit(Quantity::Mass.dimension(), self.motion, force, "");
         knobs.push(self.knob(Quantity::Mass.into(), self.mass, &unit));
         knobs.retain(|knob| knob.high > knob.low);
         knobs
+    }
+
+    /// Of the elements of the law, where it has any.
+    fn stiffnesses(&self) -> impl Iterator<Item = &Parameter> {
+        let is_one = |p: &&Parameter| matches!(p.name.quantity, Quantity::ElementStiffness(_));
+        self.model.parameters.iter().filter(is_one)
     }
 
     fn knob(&self, name: Name, value: f64, unit: &str) -> Knob {
@@ -95,24 +110,20 @@ impl Machine {
                 [or(low, open[0]), or(high, open[1])]
             }
         };
-        // An interval may reach beyond what a law can have.
         let allowed = name.quantity.allowed();
-        let least = match allowed.admits(low) {
-            true => low,
-            false => value / WITHOUT_BOUND,
+        let of_all = match name.quantity {
+            Quantity::Sigma0 | Quantity::Coulomb | Quantity::Static => self.stiffnesses().count(),
+            _ => 0,
         };
         Knob {
             symbol: name.symbol(),
             name: text,
             unit: unit.into(),
             value,
-            low: least.min(value),
-            high: if allowed.admits(high) {
-                high.max(value)
-            } else {
-                value
-            },
+            low: within(allowed, value, low).min(value),
+            high: within(allowed, value, high).max(value),
             range,
+            elements: of_all,
         }
     }
 
@@ -124,6 +135,7 @@ impl Machine {
         let knobs = self.knobs();
         let mut all = self.model.values();
         let mut mass = self.mass;
+        let stiffnesses: Vec<(Name, f64)> = self.stiffnesses().map(|p| (p.name, p.value)).collect();
         for (text, value) in values {
             let knob = knobs.iter().find(|knob| knob.name == *text);
             let Some((knob, name)) = knob.zip(text.parse::<Name>().ok()) else {
@@ -139,10 +151,28 @@ impl Machine {
             }
             match name.quantity {
                 Quantity::Mass => mass = *value,
+                // Each keeps its share of the force, so it yields earlier the stiffer it is.
+                Quantity::Sigma0 if !stiffnesses.is_empty() => {
+                    for (name, stiffness) in &stiffnesses {
+                        all.insert(*name, stiffness * (value / knob.value));
+                    }
+                }
                 _ => all.insert(name, *value),
             }
         }
         let law = law_of(&all, self.law.damping()).map_err(|e| e.to_string())?;
         Ok(Belief { law, mass })
+    }
+}
+
+/// An end of a range as far as a law can have it: an interval may reach beyond.
+fn within(allowed: Allowed, value: f64, end: f64) -> f64 {
+    match allowed {
+        _ if allowed.admits(end) => end,
+        // Two thirds of the way to the other end.
+        Allowed::Share if end > value => 1.0 - (1.0 - value) / WITHOUT_BOUND,
+        Allowed::Exponent => end.clamp(*Allowed::EXPONENTS.start(), *Allowed::EXPONENTS.end()),
+        _ if end > value => value,
+        _ => value / WITHOUT_BOUND,
     }
 }

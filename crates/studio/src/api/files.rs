@@ -1,7 +1,9 @@
 //! The text files of the folder, read and edited; what is written is what a text editor would write, once the engine has read it.
 
 use super::{Answer, App, blocking};
+use crate::asked::Words;
 use crate::refused::Refused;
+use crate::workspace::kind_of_file;
 use axum::Json;
 use axum::extract::{Query, State};
 use serde::{Deserialize, Serialize};
@@ -103,28 +105,57 @@ fn readable(path: &Path, text: &str) -> Result<(), Refused> {
     Ok(())
 }
 
+/// A study to begin.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Begun {
+    /// The model of the axis; `None` for a known axis.
     model: Option<String>,
+    /// The model of a second one.
+    second: Option<String>,
+    /// The file to write.
     name: String,
+}
+
+impl Begun {
+    /// The command line that does the same in the folder of the page.
+    fn command(&self) -> String {
+        let mut words = Words::of("simulate");
+        words.option("--init", Some(&self.name));
+        words.option("--model", self.model.as_deref());
+        words.option("--second-model", self.second.as_deref());
+        words.line()
+    }
+}
+
+/// The command line of a study to begin.
+pub async fn study_command(Json(asked): Json<Begun>) -> Json<String> {
+    Json(asked.command())
 }
 
 /// Begins a study as `stiction simulate --init` does.
 pub async fn study(State(shared): App, Json(asked): Json<Begun>) -> Answer<()> {
     let done = blocking(shared, move |shared| {
-        let path = shared.workspace.place(&asked.name)?;
+        let Begun {
+            model,
+            second,
+            name,
+        } = &asked;
+        let path = shared.workspace.place(name)?;
         if path.symlink_metadata().is_ok() {
-            return Err(Refused::conflict(format!(
-                "{}: is there already",
-                asked.name
+            return Err(Refused::conflict(format!("{name}: is there already")));
+        }
+        if kind_of_file(name) != "study" {
+            return Err(Refused::bad(format!(
+                "{name}: a study file ends in .toml and has study in its name, such as circle-study.toml"
             )));
         }
-        let model = asked
-            .model
-            .as_ref()
-            .map(|model| shared.workspace.file(model));
-        let started = study::start(model.transpose()?.as_deref(), &path)?;
+        let file = |model: &Option<String>| {
+            let name = model.as_ref();
+            name.map(|name| shared.workspace.file(name)).transpose()
+        };
+        let (model, second) = (file(model)?, file(second)?);
+        let started = study::start(model.as_deref(), second.as_deref(), &path)?;
         write_atomic(&path, visible::toml(started.text).as_bytes())?;
         Ok(())
     });

@@ -22,6 +22,9 @@ pub struct Moved {
     /// SI, of the parameters that are not those of the model.
     #[serde(default)]
     values: BTreeMap<String, f64>,
+    /// The same of the second axis.
+    #[serde(default)]
+    second_values: BTreeMap<String, f64>,
 }
 
 /// Tries it.
@@ -33,6 +36,7 @@ pub async fn tried(State(shared): App, Json(asked): Json<Moved>) -> Answer<Tried
             controller: asked.controller,
             compensator: asked.compensator,
             values: asked.values.into_iter().collect(),
+            second_values: asked.second_values.into_iter().collect(),
         };
         trial(study, &which).map_err(|e| Refused::bad(e.to_string()))
     });

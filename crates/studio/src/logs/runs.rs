@@ -1,4 +1,4 @@
-//! The names of the runs of a table, which stand before its time: path, controller and compensator.
+//! What names the runs of a table, which stands before its time: path, controller and compensator.
 
 use super::series::is_time;
 use std::fs::File;
@@ -8,23 +8,23 @@ use std::path::Path;
 /// Most runs that are named.
 const MOST: usize = 1000;
 
-/// Each run, in its order; nothing where the time is the first column.
-pub fn runs(path: &Path) -> std::io::Result<Vec<String>> {
+/// The names of each run, in its order; nothing where the time is the first column.
+pub fn runs(path: &Path) -> std::io::Result<Vec<Vec<String>>> {
     let mut lines = BufReader::new(File::open(path)?).lines();
     let header = lines.next().transpose()?.unwrap_or_default();
     let names = cells(&header, usize::MAX);
     let Some(before) = names.iter().position(|name| is_time(name)) else {
         return Ok(Vec::new());
     };
-    let mut out: Vec<String> = Vec::new();
+    let mut out: Vec<Vec<String>> = Vec::new();
     for line in lines {
         let line = line?;
         if before == 0 || out.len() == MOST {
             break;
         }
-        let name = cells(&line, before).join(" · ");
-        if out.last() != Some(&name) {
-            out.push(name);
+        let names = cells(&line, before);
+        if out.last() != Some(&names) {
+            out.push(names);
         }
     }
     Ok(out)
@@ -59,7 +59,7 @@ mod tests {
         let file = folder.path().join("t.csv");
         let text = "path,compensator,time [s],x\n\"a, b\",none,0,1\n\"a, b\",none,1,1\n\"a, b\",lugre,0,1\n";
         std::fs::write(&file, text).unwrap();
-        assert_eq!(runs(&file).unwrap(), ["a, b · none", "a, b · lugre"]);
+        assert_eq!(runs(&file).unwrap(), [["a, b", "none"], ["a, b", "lugre"]]);
         std::fs::write(&file, "t [s],x\n0,1\n").unwrap();
         assert!(runs(&file).unwrap().is_empty());
     }

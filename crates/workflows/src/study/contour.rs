@@ -197,7 +197,8 @@ pub(super) fn on_contour(
             ),
             false => String::new(),
         },
-        contour: exact.then(|| ContourTrace::of(names, job.coupled, &ran.samples[ran.counted..])),
+        contour: (exact || family.kind == "moved")
+            .then(|| ContourTrace::of(names, job.coupled, &ran.samples[ran.counted..])),
     })
 }
 

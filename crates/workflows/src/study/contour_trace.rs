@@ -39,6 +39,31 @@ impl ContourTrace {
         lengths.iter().all(|n| *n == self.time.len())
     }
 
+    /// From its rows in `contours.csv`: time, reference and deviation. The direction of motion follows from the places before and
+    /// after.
+    pub fn read(
+        names: [&str; 3],
+        coupled: bool,
+        (time, reference, deviation): (Vec<f64>, Vec<[f64; 2]>, Vec<f64>),
+    ) -> Self {
+        let last = reference.len().saturating_sub(1);
+        let places = 0..reference.len();
+        let left = places.map(|k| {
+            let (from, to) = (reference[k.saturating_sub(1)], reference[(k + 1).min(last)]);
+            to_the_left([to[0] - from[0], to[1] - from[1]])
+        });
+        ContourTrace {
+            path: names[0].into(),
+            controller: names[1].into(),
+            compensator: names[2].into(),
+            coupled,
+            left: left.collect(),
+            time,
+            reference,
+            deviation,
+        }
+    }
+
     /// Of each stretch the sample that deviates most.
     pub(super) fn of(names: [&str; 3], coupled: bool, samples: &[PlaneSample]) -> Self {
         let mut trace = ContourTrace {
@@ -56,12 +81,7 @@ impl ContourTrace {
                 .iter()
                 .max_by(|a, b| a.deviation.abs().total_cmp(&b.deviation.abs()));
             let Some(sample) = most else { continue };
-            let [vx, vy] = sample.axes.map(|a| a.reference.velocity);
-            let speed = libm::hypot(vx, vy);
-            let left = match speed {
-                0.0 => [0.0; 2],
-                _ => [-vy / speed, vx / speed],
-            };
+            let left = to_the_left(sample.axes.map(|a| a.reference.velocity));
             trace.time.push(sample.axes[0].time);
             trace
                 .reference
@@ -70,5 +90,13 @@ impl ContourTrace {
             trace.deviation.push(sample.deviation);
         }
         trace
+    }
+}
+
+/// Unit vector to the left of a motion; zero where there is none.
+fn to_the_left([x, y]: [f64; 2]) -> [f64; 2] {
+    match libm::hypot(x, y) {
+        0.0 => [0.0; 2],
+        length => [-y / length, x / length],
     }
 }

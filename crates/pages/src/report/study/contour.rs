@@ -8,10 +8,8 @@ use stiction_number::quantity;
 use stiction_report::{
     Align, Axis, Block, Color, Dash, Figure, Layer, Panel, Severity, Table, Text, number,
 };
-use stiction_workflows::study::{ContourTrace, StudyOutcome};
+use stiction_workflows::study::{ContourTrace, Plane, StudyOutcome};
 
-/// Size of the largest deviation in the picture, as a part of the size of the contour, dimensionless.
-const LARGEST_DEVIATION_DRAWN: f64 = 0.12;
 /// Height of the picture of the contour, and of the deviation beside it, px.
 const PICTURE_HEIGHT: f64 = 340.0;
 
@@ -89,31 +87,36 @@ pub(super) fn figures(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Bloc
         .iter()
         .filter_map(|r| Some((r.scheme(), outcome.contour(r)?)))
         .collect();
-    let (_, first) = traces.first()?;
+    let drawn: Vec<&ContourTrace> = traces.iter().map(|(_, trace)| *trace).collect();
+    let drawn = Plane::of(&drawn)?;
     let length = symbols::length_unit(match outcome.file.axis.kind.as_str() {
         "rotary" => Motion::Rotary,
         _ => Motion::Linear,
     });
-    let largest = first.deviation.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
-    let frame = Frame::of(first)?;
-    let magnified = magnification(LARGEST_DEVIATION_DRAWN * frame.size / largest);
-    let mut plane = Panel::new(frame.axis(0, length), frame.axis(1, length)).square();
-    let side = |i: usize| first.reference.iter().map(|p| p[i]).collect::<Vec<_>>();
+    let side = |i: usize| {
+        let reach = 0.7 * drawn.size;
+        let middle = drawn.middle[i];
+        Axis::new(["x", "y"][i], length).range(middle - reach, middle + reach)
+    };
+    let mut plane = Panel::new(side(0), side(1)).square();
     plane = plane.layer(
-        Layer::line(side(0), side(1))
+        Layer::line(drawn.reference.x, drawn.reference.y)
             .color(Color::Blue)
             .dash(Dash::Dotted)
             .label("Reference"),
     );
     let time = Axis::new("Time", "s");
     let mut course = Panel::new(time, Axis::new("Contour error", length)).height(PICTURE_HEIGHT);
-    for ((name, trace), color) in traces.iter().zip(COLORS) {
-        let [x, y] = drawn_off(trace, magnified);
-        plane = plane.layer(Layer::line(x, y).color(color).label(name.as_str()));
+    for (((name, trace), line), color) in traces.iter().zip(drawn.runs).zip(COLORS) {
+        plane = plane.layer(
+            Layer::line(line.x, line.y)
+                .color(color)
+                .label(name.as_str()),
+        );
         let line = Layer::line(trace.time.clone(), trace.deviation.clone());
         course = course.layer(line.color(color).label(name.as_str()));
     }
-    let plane = Figure::new(format!("Deviations × {}", number::sig(magnified, 1)))
+    let plane = Figure::new(format!("Deviations × {}", number::sig(drawn.magnified, 1)))
         .half()
         .panel(plane)
         .caption("Drawn from the reference across the contour.");
@@ -125,62 +128,4 @@ pub(super) fn figures(outcome: &StudyOutcome, rows: &[ResultRow]) -> Option<Bloc
             left_out(traces.len(), all)
         ));
     Some(Block::Columns(vec![plane.into(), course.into()]))
-}
-
-/// Places as far from the reference as the axes were from the contour, times a factor; a gap where it stands.
-fn drawn_off(trace: &ContourTrace, by: f64) -> [Vec<f64>; 2] {
-    [0, 1].map(|i| {
-        let points = trace
-            .reference
-            .iter()
-            .zip(&trace.left)
-            .zip(&trace.deviation);
-        points
-            .map(|((at, left), off)| match left {
-                [0.0, 0.0] => f64::NAN,
-                _ => at[i] - by * off * left[i],
-            })
-            .collect()
-    })
-}
-
-/// One, two or five times a power of ten, not above what is wanted.
-fn magnification(most: f64) -> f64 {
-    if !(most.is_finite() && most > 0.0) {
-        return 1.0;
-    }
-    let decade = libm::pow(10.0, libm::floor(libm::log10(most)));
-    let steps = [5.0, 2.0, 1.0].map(|step| step * decade);
-    let step = steps.into_iter().find(|step| *step <= most);
-    step.unwrap_or(decade).max(1.0)
-}
-
-/// A square about the contour.
-struct Frame {
-    middle: [f64; 2],
-    size: f64,
-}
-
-impl Frame {
-    fn of(trace: &ContourTrace) -> Option<Self> {
-        let range = |i: usize| {
-            let values = trace.reference.iter().map(|p| p[i]);
-            let ends = (f64::INFINITY, f64::NEG_INFINITY);
-            values.fold(ends, |(low, high), x| (low.min(x), high.max(x)))
-        };
-        let ranges = [range(0), range(1)];
-        let size = ranges
-            .iter()
-            .fold(0.0_f64, |m, (low, high)| m.max(high - low));
-        (size > 0.0 && size.is_finite()).then(|| Frame {
-            middle: ranges.map(|(low, high)| 0.5 * (low + high)),
-            size,
-        })
-    }
-
-    fn axis(&self, i: usize, unit: &str) -> Axis {
-        let reach = 0.7 * self.size;
-        let middle = self.middle[i];
-        Axis::new(["x", "y"][i], unit).range(middle - reach, middle + reach)
-    }
 }

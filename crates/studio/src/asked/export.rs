@@ -1,0 +1,75 @@
+//! `stiction export`: a compensator for a controller.
+
+use super::{Done, Run, Words, Work};
+use crate::refused::Refused;
+use serde::Deserialize;
+use std::path::Path;
+use stiction::commands::text;
+use stiction::{ExportOptions, Target};
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Export {
+    model: String,
+    target: String,
+    /// s.
+    cycle_time: f64,
+    gain: Option<f64>,
+    limit: Option<f64>,
+    rated_force: Option<f64>,
+    #[serde(default)]
+    adapt: bool,
+    out: String,
+    #[serde(default)]
+    force: bool,
+}
+
+impl Work for Export {
+    fn kind(&self) -> &'static str {
+        "export"
+    }
+
+    fn about(&self) -> String {
+        self.model.clone()
+    }
+
+    fn out(&self) -> Option<&str> {
+        Some(&self.out)
+    }
+
+    fn words(&self, words: &mut Words) {
+        words.word(&self.model);
+        words.option("--target", Some(&self.target));
+        words.number("--cycle-time", Some(self.cycle_time));
+        words.number("--gain", self.gain);
+        words.number("--limit", self.limit);
+        words.number("--rated-force", self.rated_force);
+        words.flag("--adapt", self.adapt);
+        words.flag("--force", self.force);
+    }
+
+    fn run(&self, run: Run<'_>) -> Result<Done, Refused> {
+        let dir = run.workspace.place(&self.out)?;
+        let mut targets = Target::ALL.into_iter();
+        let target = targets
+            .find(|own| own.name() == self.target)
+            .ok_or_else(|| Refused::bad(format!("{}: no such target", self.target)))?;
+        let mut options = ExportOptions::new(target, self.cycle_time);
+        options.gain = self.gain;
+        options.limit = self.limit;
+        options.rated_force = self.rated_force;
+        options.adapt = self.adapt;
+        let exported = stiction::export_file(run.workspace.file(&self.model)?, &options)?;
+        match self.force {
+            true => exported.write_over(&dir)?,
+            false => exported.write(&dir)?,
+        }
+        Ok(Done {
+            verdict: exported.verdict(),
+            text: text::exported(&exported, Path::new(&self.out)),
+            folder: Some(self.out.clone()),
+            written: exported.written.clone(),
+            json: serde_json::to_value(&exported).ok(),
+        })
+    }
+}

@@ -1,0 +1,113 @@
+//! `stiction identify`: friction from logs.
+
+use super::{Done, Found, Run, Words, Work};
+use crate::named::read_axis;
+use crate::refused::Refused;
+use crate::workspace::Workspace;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+use stiction::commands::{Files, check_folder_of, check_inputs, text};
+use stiction::{LawKind, Method, Options, Procedures, bundle, result};
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Identify {
+    logs: Vec<String>,
+    axis: Option<String>,
+    /// `None` lets the data choose.
+    law: Option<String>,
+    #[serde(default)]
+    asymmetric: bool,
+    method: Option<String>,
+    #[serde(default)]
+    validate: Vec<String>,
+    split: Option<f64>,
+    out: String,
+}
+
+impl Work for Identify {
+    fn kind(&self) -> &'static str {
+        "identify"
+    }
+
+    fn about(&self) -> String {
+        match self.logs.as_slice() {
+            [] => self.axis.clone().unwrap_or_default(),
+            logs => logs.join(", "),
+        }
+    }
+
+    fn out(&self) -> Option<&str> {
+        Some(&self.out)
+    }
+
+    fn words(&self, words: &mut Words) {
+        self.logs.iter().for_each(|log| words.word(log));
+        words.option("--axis", self.axis.as_deref());
+        words.option("--law", self.law.as_deref());
+        words.flag("--asymmetric", self.asymmetric);
+        words.option("--method", self.method.as_deref());
+        words.flag("--validate", !self.validate.is_empty());
+        self.validate.iter().for_each(|log| words.word(log));
+        words.number("--split", self.split);
+    }
+
+    fn run(&self, run: Run<'_>) -> Result<Done, Refused> {
+        let dir = run.workspace.place(&self.out)?;
+        let schema = result::SCHEMA;
+        check_folder_of(&dir, schema, false)?;
+        let files = self.files(run.workspace, &dir)?;
+        let outcome = stiction::commands::identify(&files, &self.options()?, run.observer)?;
+        let found = Found {
+            bundle: &bundle::identification_in(&outcome, &dir),
+            out: (&dir, &self.out),
+            schema,
+            verdict: outcome.verdict(),
+            stopped: (run.stopped)(),
+        };
+        found.done(|_| text::outcome(&outcome))
+    }
+}
+
+impl Identify {
+    /// Logs and axis file, all of the workspace and none of them in the folder for the result.
+    fn files(&self, workspace: &Workspace, dir: &Path) -> Result<Files, Refused> {
+        let all = |names: &[String]| -> Result<Vec<PathBuf>, Refused> {
+            names.iter().map(|name| workspace.file(name)).collect()
+        };
+        let axis = self.axis.as_ref().map(|axis| workspace.file(axis));
+        let files = Files {
+            logs: all(&self.logs)?,
+            validate: all(&self.validate)?,
+            axis: axis.transpose()?,
+        };
+        if let Some(axis) = &self.axis {
+            let logs = files.logs.iter().chain(&files.validate);
+            let logs: Vec<&Path> = logs.map(PathBuf::as_path).collect();
+            let read = read_axis(workspace, axis, &logs)?;
+            check_inputs(dir, read.logs.iter().map(|log| &log.file))?;
+        }
+        let inputs = files.logs.iter().chain(&files.validate).chain(&files.axis);
+        check_inputs(dir, inputs)?;
+        Ok(files)
+    }
+
+    fn options(&self) -> Result<Options, Refused> {
+        let unknown = |what: &str, name: &str| Refused::bad(format!("{name}: no such {what}"));
+        let mut options = Options::default();
+        options.law = match self.law.as_deref() {
+            None | Some("auto") => None,
+            Some(name) => Some(LawKind::from_name(name).ok_or_else(|| unknown("law", name))?),
+        };
+        options.asymmetric = self.asymmetric;
+        options.split = self.split;
+        options.procedures = Procedures {
+            method: match self.method.as_deref() {
+                None => Procedures::default().method,
+                Some(name) => Method::from_name(name).ok_or_else(|| unknown("method", name))?,
+            },
+            ..Procedures::default()
+        };
+        Ok(options)
+    }
+}

@@ -1,0 +1,83 @@
+//! `stiction plan`: the motion to record.
+
+use super::{Done, Found, Run, Words, Work};
+use crate::named::read_axis;
+use crate::refused::Refused;
+use serde::Deserialize;
+use stiction::commands::{
+    Known, PlanOptions, Want, check_folder_of, check_inputs, plan, plan_motion, text,
+};
+use stiction::{Verdict, bundle};
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    axis: String,
+    /// s.
+    time: Option<f64>,
+    model: Option<String>,
+    #[serde(default)]
+    wants: Vec<String>,
+    out: String,
+}
+
+impl Work for Plan {
+    fn kind(&self) -> &'static str {
+        "plan"
+    }
+
+    fn about(&self) -> String {
+        self.axis.clone()
+    }
+
+    fn out(&self) -> Option<&str> {
+        Some(&self.out)
+    }
+
+    fn words(&self, words: &mut Words) {
+        words.word(&self.axis);
+        let time = self.time.map(|time| format!("{time}s"));
+        words.option("--time", time.as_deref());
+        words.option("--model", self.model.as_deref());
+        for want in &self.wants {
+            words.option("--want", Some(want));
+        }
+    }
+
+    fn run(&self, run: Run<'_>) -> Result<Done, Refused> {
+        let dir = run.workspace.place(&self.out)?;
+        check_folder_of(&dir, plan::SCHEMA, false)?;
+        read_axis(run.workspace, &self.axis, &[])?;
+        let file = run.workspace.file(&self.axis)?;
+        let model = self.model.as_ref().map(|name| run.workspace.file(name));
+        let model = model.transpose()?;
+        check_inputs(&dir, model.iter().chain([&file]))?;
+        let wants = self.wants.iter().map(|text| Want::parse(text));
+        let options = PlanOptions {
+            time: self.time,
+            known: model.map(Known::Model),
+            wants: wants.collect::<Result<_, _>>()?,
+            ..PlanOptions::default()
+        };
+        let Some(planned) = plan_motion(&file, &options, run.observer)? else {
+            return Ok(Done {
+                verdict: Verdict::Interrupted,
+                text: "stopped before there was a motion; nothing is written".into(),
+                folder: None,
+                written: Vec::new(),
+                json: None,
+            });
+        };
+        let found = Found {
+            bundle: &bundle::plan(&planned),
+            out: (&dir, &self.out),
+            schema: plan::SCHEMA,
+            verdict: planned.verdict(),
+            stopped: (run.stopped)(),
+        };
+        Ok(Done {
+            json: serde_json::to_value(&planned.file).ok(),
+            ..found.done(|folder| text::planned(&planned, &file, folder))?
+        })
+    }
+}

@@ -1,0 +1,52 @@
+//! `stiction simulate`: a study.
+
+use super::{Done, Found, Run, Words, Work};
+use crate::named::read_study;
+use crate::refused::Refused;
+use serde::Deserialize;
+use std::path::PathBuf;
+use stiction::bundle;
+use stiction::commands::{check_folder_of, check_inputs, study, text};
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Simulate {
+    study: String,
+    out: String,
+}
+
+impl Work for Simulate {
+    fn kind(&self) -> &'static str {
+        "simulate"
+    }
+
+    fn about(&self) -> String {
+        self.study.clone()
+    }
+
+    fn out(&self) -> Option<&str> {
+        Some(&self.out)
+    }
+
+    fn words(&self, words: &mut Words) {
+        words.word(&self.study);
+    }
+
+    fn run(&self, run: Run<'_>) -> Result<Done, Refused> {
+        let dir = run.workspace.place(&self.out)?;
+        let schema = study::result::SCHEMA;
+        check_folder_of(&dir, schema, false)?;
+        let read = read_study(run.workspace, &self.study)?;
+        let inputs: Vec<PathBuf> = read.inputs().map(PathBuf::from).collect();
+        check_inputs(&dir, &inputs)?;
+        let outcome = stiction::simulate(&read, run.observer);
+        let found = Found {
+            bundle: &bundle::study(&outcome),
+            out: (&dir, &self.out),
+            schema,
+            verdict: outcome.verdict(),
+            stopped: (run.stopped)(),
+        };
+        found.done(|_| text::study(&outcome))
+    }
+}
