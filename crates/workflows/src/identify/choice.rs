@@ -205,7 +205,9 @@ pub(super) fn auto(
             Shape::Unknown => unsure = Some(estimate),
             Shape::Another => {
                 let known = [(&estimate, &optimum)];
-                let more = ladder.climb(&[next], &known, settings, observer);
+                let freer = damped(&climb, &next.law, ladder);
+                let next: Vec<Candidate> = [next].into_iter().chain(freer).collect();
+                let more = ladder.climb(&next, &known, settings, observer);
                 climb = climb.and(more);
             }
         }
@@ -371,6 +373,17 @@ fn shaped<'a>(climb: &Climb, ladder: &'a Ladder) -> Option<Candidate<'a>> {
     let shown = |quantity| !rung.leaves_open(quantity);
     let shows = shown(Quantity::Static) && shown(Quantity::StribeckVelocity);
     shows.then(|| curved(rung, ladder)).flatten()
+}
+
+/// The same law with the micro-damping that it holds at nothing: under a curve that was not the axis's it seemed to have none.
+fn damped<'a>(climb: &Climb, law: &Law, ladder: &'a Ladder) -> Option<Candidate<'a>> {
+    let is_damped = |rung: &&Rung| {
+        let own = &rung.estimate.law;
+        own.kind == law.kind && own.asymmetric == law.asymmetric && !own.undamped && !own.flat
+    };
+    let rung = climb.rungs.iter().find(is_damped);
+    rung.filter(|_| law.undamped)
+        .and_then(|rung| curved(rung, ladder))
 }
 
 /// A fitted law with its Stribeck exponent fitted too.

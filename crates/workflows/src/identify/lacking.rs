@@ -1,4 +1,5 @@
-//! What the axis file lacks where a law explains little: the travel after which the position wraps, the sign of the force, or gravity.
+//! What the axis file lacks where a law explains little, or explains it oddly: the travel after which the position wraps, the sign of
+//! the force, or gravity.
 
 use super::trust::{Evidence, LEAST_R2, Reasons};
 use crate::source::Source;
@@ -15,15 +16,28 @@ const MUCH_LEFT_PERCENT: f64 = 25.0;
 const BEYOND_BRISTLES: f64 = 0.1;
 /// Part of what friction and inertia leave that follows gravity from which it is named there.
 const LIKE_BRISTLES: f64 = 0.3;
+/// The same where friction explains the force well, but another in each direction, or something else is left: friction that differs
+/// with the direction explains much of a weight.
+const LIKE_DIRECTIONS: f64 = 0.9;
+/// Stroke of a joint, rad, from which gravity is no constant force.
+const BEYOND_A_CONSTANT: f64 = 1.0;
 
-/// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the wrap of the position, the sign of
+/// Names what the axis file lacks where a law explains little, or nothing of it makes sense, or it is another in each direction: the wrap of the position, the sign of
 /// the force, or gravity. Whether it is gravity.
 pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     let law = evidence.law;
     let much = law.fit.relative_error_percent;
-    let held = law.stays_in_presliding() && evidence.sources.iter().any(swings_widely);
+    let swings = |far: f64| evidence.sources.iter().any(|source| reaches(source, far));
+    let held = law.stays_in_presliding() && swings(BEYOND_BRISTLES);
     let poor = much.is_nan() || much > MUCH_LEFT_PERCENT || held;
-    let least = if held { LIKE_BRISTLES } else { LEAST_R2 };
+    let misfit = law.misfit.as_ref();
+    let odd = law.law.asymmetric || misfit.is_some_and(|misfit| misfit.cause().is_some());
+    let doubtful = odd && swings(BEYOND_A_CONSTANT);
+    let least = match (held, poor) {
+        (true, _) => LIKE_BRISTLES,
+        (false, true) => LEAST_R2,
+        (false, false) => LIKE_DIRECTIONS,
+    };
     let found = |code: Code| {
         let each = evidence.sources.iter();
         let mut each = each.flat_map(|source| &source.log.findings);
@@ -36,7 +50,7 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     }
     if let Some(finding) = found(Code::ForceSign) {
         reasons.push(finding.message.clone(), Next::AxisFile);
-    } else if poor && evidence.motion == Motion::Rotary && !law.terms.gravity {
+    } else if (poor || doubtful) && evidence.motion == Motion::Rotary && !law.terms.gravity {
         let swings = evidence.sources.iter().filter_map(swing);
         let part = explained_by_gravity(&swings.collect::<Vec<_>>());
         if part > least {
@@ -52,12 +66,12 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     false
 }
 
-/// Whether a joint goes farther than any bristles reach.
-fn swings_widely(source: &Source) -> bool {
+/// Whether a joint swings farther than this, rad.
+fn reaches(source: &Source, far: f64) -> bool {
     let angles = source.log.position.iter().flatten();
     let extent = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
     let (low, high) = angles.fold((f64::INFINITY, f64::NEG_INFINITY), extent);
-    high - low > BEYOND_BRISTLES
+    high - low > far
 }
 
 fn swing(source: &Source) -> Option<Swing<'_>> {

@@ -15,7 +15,15 @@ use stiction_parameters::Quantity;
 /// Lays force and motion beside each other, where no delay is given and whole records are fitted.
 pub(super) fn aligned(asked: Asked, mut loaded: Loaded) -> Result<Loaded, Error> {
     let is_sought = asked.axis.terms.delay == Delay::Fitted;
-    if !is_sought || !asked.options.procedures.method.fits_force() {
+    // A force of the wrong sign looks late, by half of a period.
+    let is_inverted = |source: &Source| {
+        let mut findings = source.log.findings.iter();
+        findings.any(|finding| finding.code == Code::ForceSign)
+    };
+    if !is_sought
+        || !asked.options.procedures.method.fits_force()
+        || loaded.sources.iter().any(is_inverted)
+    {
         return Ok(loaded);
     }
     let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
