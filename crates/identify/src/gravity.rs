@@ -1,4 +1,5 @@
-//! Whether the force of a rotary axis follows its angle, as gravity does: asked where a law without gravity explains little.
+//! Whether the force of a rotary axis follows its angle, as gravity does: asked where a law without gravity explains little, or friction is
+//! another in each direction.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -20,8 +21,8 @@ pub struct Swing<'a> {
     pub rate: f64,
 }
 
-/// Part of the variance that direction, speed, acceleration and a constant leave of the force, which the sine and cosine of
-/// the angle explain, 0 to 1; 0 where nothing can be told.
+/// Part of the variance that direction, speed in each direction, acceleration and a constant leave of the force, which the sine and
+/// cosine of the angle explain, 0 to 1; 0 where nothing can be told.
 ///
 /// ```
 /// use stiction_identify::{Swing, explained_by_gravity};
@@ -33,9 +34,16 @@ pub struct Swing<'a> {
 /// let force: Vec<f64> = time.iter().map(force).collect();
 /// let log = Swing { time: &time, angle: &angle, force: &force, rate: 1000.0 };
 /// assert!(explained_by_gravity(&[log]) > 0.9);
+///
+/// // Friction that differs with the direction is no weight.
+/// let speed = |t: f64| 1.6 * (2.0 * t).cos();
+/// let friction = |v: f64| if v > 0.0 { 0.5 + 0.4 * v } else { -0.3 + 0.1 * v };
+/// let force: Vec<f64> = time.iter().map(|t| friction(speed(*t)) + 0.1 * (40.0 * t).sin()).collect();
+/// let log = Swing { force: &force, ..log };
+/// assert!(explained_by_gravity(&[log]) < 0.1);
 /// ```
 pub fn explained_by_gravity(logs: &[Swing]) -> f64 {
-    let mut rows: Vec<[f64; 6]> = Vec::new();
+    let mut rows: Vec<[f64; 7]> = Vec::new();
     let mut forces = Vec::new();
     for log in logs {
         let x = log.angle;
@@ -46,7 +54,8 @@ pub fn explained_by_gravity(logs: &[Swing]) -> f64 {
             let speed = |i: usize| (x[i + wide] - x[i - wide]) / dt;
             let v = speed(i);
             let a = (speed(i + wide) - speed(i - wide)) / dt;
-            rows.push([v.signum(), v, a, 1.0, libm::sin(x[i]), libm::cos(x[i])]);
+            let (sin, cos) = (libm::sin(x[i]), libm::cos(x[i]));
+            rows.push([v.signum(), v, v.abs(), a, 1.0, sin, cos]);
             forces.push(log.force[i]);
         }
     }
@@ -56,10 +65,10 @@ pub fn explained_by_gravity(logs: &[Swing]) -> f64 {
         let found = a.clone().svd(true, true).solve(&b, 1e-12).ok()?;
         Some((b - a * found).norm_squared())
     };
-    if rows.len() < 2 * 6 || rows.iter().flatten().any(|x| !x.is_finite()) {
+    if rows.len() < 2 * 7 || rows.iter().flatten().any(|x| !x.is_finite()) {
         return 0.0;
     }
-    match (left(4), left(6)) {
+    match (left(5), left(7)) {
         (Some(without), Some(with)) if without > 0.0 && with.is_finite() => {
             (1.0 - with / without).max(0.0)
         }

@@ -33,6 +33,13 @@ const BEYOND_ALL_DELAYS: &str = "the delay of the force came out at the end of t
 const ANOTHER_SHAPE: &str =
     "depends on the shape of the law, and a simpler one holds better on held-out samples";
 
+/// Why the best law is not the one that is reported.
+const AT_AN_END: &str =
+    "one of its parameters came out at the end of what is searched, and another law holds as well";
+
+/// Error on held-out samples, percent, from which on a law says nothing of them: as much as without any force.
+const NOTHING_HOLDS: f64 = 100.0;
+
 /// A fitted law and the laws it was compared with.
 pub(super) struct Choice {
     pub estimate: Estimate,
@@ -121,7 +128,12 @@ fn beside(
             }
             let able = (0..laws.len()).filter(|&i| laws[i].held_back.is_none());
             let best = climb.best_of(&able.collect::<Vec<_>>());
+            let holds = |law: &&LawEntry| {
+                let error = law.held_out_error_percent;
+                error.is_none_or(|error| error < NOTHING_HOLDS)
+            };
             let best = best.map(|i| &laws[i]).filter(|best| !best.reported);
+            let best = best.filter(holds);
             better = best.map(|best| BetterLaw {
                 law: best.law.clone(),
                 asymmetric: best.asymmetric,
@@ -155,7 +167,9 @@ fn simpler_shape_holds_better(laws: &[LawEntry]) -> bool {
     };
     let better = |other: &LawEntry| {
         let errors = own.held_out_error_percent.zip(other.held_out_error_percent);
-        errors.is_some_and(|(mine, least)| mine > SIMPLER_LAW_WINS_FROM * least)
+        errors.is_some_and(|(mine, least)| {
+            least < NOTHING_HOLDS && mine > SIMPLER_LAW_WINS_FROM * least
+        })
     };
     laws.iter()
         .any(|other| other.law != own.law && other.parameters < own.parameters && better(other))
@@ -221,6 +235,7 @@ pub(super) fn auto(
     };
     let at = reliable(&climb, &laws, best);
     laws[at].reported = true;
+    let left_aside = at != best && laws[best].held_back.is_none();
     let Climb { mut rungs, stopped } = climb;
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     // Too few samples may be left to hold some out.
@@ -243,6 +258,9 @@ pub(super) fn auto(
             && laws[i].held_back.is_some()
             && other.held_out_error() < own.held_out_error()
     });
+    if left_aside {
+        laws[best].held_back = Some(AT_AN_END.into());
+    }
     let rung = rungs.swap_remove(at);
     let another_curve = rests.then(|| curved(&rung, ladder)).flatten();
     let held_out_rmse = rung.cross_validated_rmse(ladder);

@@ -17,8 +17,8 @@ const BEYOND_BRISTLES: f64 = 0.1;
 /// Part of what friction and inertia leave that follows gravity from which it is named there.
 const LIKE_BRISTLES: f64 = 0.3;
 /// The same where friction explains the force well, but another in each direction, or something else is left: friction that differs
-/// with the direction explains much of a weight.
-const LIKE_DIRECTIONS: f64 = 0.9;
+/// with the direction makes up for much of a weight.
+const LIKE_DIRECTIONS: f64 = 0.7;
 /// Stroke of a joint, rad, from which gravity is no constant force.
 const BEYOND_A_CONSTANT: f64 = 1.0;
 

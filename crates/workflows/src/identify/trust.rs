@@ -715,7 +715,10 @@ fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
 /// A residual that is autocorrelated over many samples is not noise.
 fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let fit = &estimate.fit;
-    if fit.effective_samples < SYSTEMATIC_BELOW_SHARE * fit.samples as f64 {
+    // What counts say is not from this residual.
+    if !estimate.of_the_counts
+        && fit.effective_samples < SYSTEMATIC_BELOW_SHARE * fit.samples as f64
+    {
         warnings.push(Warning::new(
             Code::CorrelatedResidual,
             format!(
