@@ -110,6 +110,7 @@ codes! {
     PositionRipple = "position-ripple": "a force repeats with the position",
     Resonance = "resonance": "motor and load vibrate against each other on a spring",
     Backlash = "backlash": "a gap lies between motor and load",
+    Gravity = "gravity": "the force follows the angle of a joint as that of a weight does",
     LawShape = "law-shape": "friction or inertia has another shape than the law",
     CorrelatedResidual = "correlated-residual": "the residual is not noise: a systematic effect is left",
     ForceLate = "force-late": "the force was logged much later than the motion it belongs to",

@@ -71,3 +71,17 @@ fn damiao_reports_its_gaps() {
     assert!((4.5..5.5).contains(&longest), "longest gap {longest} s");
     assert!(source.log.findings.iter().any(|f| f.code.as_str() == "gap"));
 }
+
+/// A wrist that swings through half a turn, whose weight looks like friction that is another in each direction.
+#[test]
+fn a_weight_is_named_where_friction_is_another_in_each_direction() {
+    let Some(data) = recordings() else {
+        return;
+    };
+    let run = DEFAULT_RUNS.iter().find(|run| run.name == "UR10e joint 4");
+    let result = measure::run_by_default(run.unwrap(), &data).result;
+    assert!(result.asymmetric, "{}", result.law);
+    let cause = result.trust.cause.unwrap();
+    assert_eq!(cause.code, stiction::Code::Gravity);
+    assert!(result.warnings.iter().any(|w| w.code == cause.code));
+}

@@ -4,10 +4,14 @@
 use super::trust::{Evidence, LEAST_R2, Reasons};
 use crate::source::Source;
 use stiction_codes::Code;
-use stiction_files::result::Next;
-use stiction_identify::{Swing, explained_by_gravity};
+use stiction_files::Warning;
+use stiction_files::result::{CauseEntry, Cure, Next};
+use stiction_identify::{Misfit, Swing, explained_by_gravity};
 use stiction_log::Motion;
 use stiction_number::Percent;
+
+/// What takes a weight into the fit.
+const LINE: &str = "gravity = true";
 
 /// Relative error of a fit, percent, above which something else than friction and inertia is looked for: a quarter.
 const MUCH_LEFT_PERCENT: f64 = 25.0;
@@ -27,17 +31,9 @@ const BEYOND_A_CONSTANT: f64 = 1.0;
 pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     let law = evidence.law;
     let much = law.fit.relative_error_percent;
-    let swings = |far: f64| evidence.sources.iter().any(|source| reaches(source, far));
-    let held = law.stays_in_presliding() && swings(BEYOND_BRISTLES);
+    let held = law.stays_in_presliding() && swings(evidence, BEYOND_BRISTLES);
     let poor = much.is_nan() || much > MUCH_LEFT_PERCENT || held;
-    let misfit = law.misfit.as_ref();
-    let odd = law.law.asymmetric || misfit.is_some_and(|misfit| misfit.cause().is_some());
-    let doubtful = odd && swings(BEYOND_A_CONSTANT);
-    let least = match (held, poor) {
-        (true, _) => LIKE_BRISTLES,
-        (false, true) => LEAST_R2,
-        (false, false) => LIKE_DIRECTIONS,
-    };
+    let least = if held { LIKE_BRISTLES } else { LEAST_R2 };
     let found = |code: Code| {
         let each = evidence.sources.iter();
         let mut each = each.flat_map(|source| &source.log.findings);
@@ -50,28 +46,68 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     }
     if let Some(finding) = found(Code::ForceSign) {
         reasons.push(finding.message.clone(), Next::AxisFile);
-    } else if (poor || doubtful) && evidence.motion == Motion::Rotary && !law.terms.gravity {
-        let swings = evidence.sources.iter().filter_map(swing);
-        let part = explained_by_gravity(&swings.collect::<Vec<_>>());
-        if part > least {
-            let text = format!(
-                "{} of what friction and inertia leave follows the sine and cosine of the angle, as gravity does: set \
-                 gravity = true under [terms]",
-                Percent::error(100.0 * part).digits(2)
-            );
-            reasons.push(text, Next::AxisFile);
-            return true;
-        }
+    } else if poor && let Some(part) = like_gravity(evidence).filter(|part| *part > least) {
+        let text = format!(
+            "{} follows the sine and cosine of the angle, as gravity does: set {LINE} under [terms]",
+            of_what_is_left(part)
+        );
+        reasons.push(text, Next::AxisFile);
+        return true;
     }
     false
 }
 
-/// Whether a joint swings farther than this, rad.
-fn reaches(source: &Source, far: f64) -> bool {
-    let angles = source.log.position.iter().flatten();
-    let extent = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
-    let (low, high) = angles.fold((f64::INFINITY, f64::NEG_INFINITY), extent);
-    high - low > far
+/// Gravity as the cause of friction that is another in each direction, or of what is left, where a law explains the force well.
+pub(super) fn weight(evidence: &Evidence) -> Option<CauseEntry> {
+    let law = evidence.law;
+    let left = law.misfit.as_ref().and_then(Misfit::cause);
+    if !(law.law.asymmetric || left.is_some()) || !swings(evidence, BEYOND_A_CONSTANT) {
+        return None;
+    }
+    let part = like_gravity(evidence).filter(|part| *part > LIKE_DIRECTIONS)?;
+    Some(CauseEntry {
+        code: Code::Gravity,
+        text: "the force follows the angle as that of a weight does".into(),
+        size: of_what_is_left(part),
+        cure: Some(Cure::Line {
+            table: "terms".into(),
+            line: LINE.into(),
+            replaces: false,
+        }),
+    })
+}
+
+/// The same as a warning.
+pub(super) fn warned(cause: &CauseEntry) -> Warning {
+    let message = format!(
+        "{}, in {}; without it friction comes out as another in each direction. Set {LINE} under [terms] in the axis file",
+        cause.text, cause.size
+    );
+    Warning::new(cause.code, message)
+}
+
+fn of_what_is_left(part: f64) -> String {
+    let part = Percent::error(100.0 * part).digits(2);
+    format!("{part} of what friction and inertia leave")
+}
+
+/// The part of what friction and inertia leave that follows the angle of a joint, where no gravity is asked for.
+fn like_gravity(evidence: &Evidence) -> Option<f64> {
+    if evidence.motion != Motion::Rotary || evidence.law.terms.gravity {
+        return None;
+    }
+    let swings = evidence.sources.iter().filter_map(swing);
+    Some(explained_by_gravity(&swings.collect::<Vec<_>>()))
+}
+
+/// Whether a joint swings farther than this, rad, in a log.
+fn swings(evidence: &Evidence, far: f64) -> bool {
+    evidence.sources.iter().any(|source| {
+        let angles = source.log.position.iter().flatten();
+        let extent = |(low, high): (f64, f64), x: &f64| (low.min(*x), high.max(*x));
+        let (low, high) = angles.fold((f64::INFINITY, f64::NEG_INFINITY), extent);
+        high - low > far
+    })
 }
 
 fn swing(source: &Source) -> Option<Swing<'_>> {

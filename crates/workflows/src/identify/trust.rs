@@ -134,7 +134,8 @@ impl Judged {
         };
         if evidence.shows_friction() && !first.contains(&self.trust.next) {
             let compared = evidence.chosen && !evidence.laws.is_empty();
-            let own = left::cause(evidence.law, evidence.sources, compared);
+            let own = lacking::weight(evidence)
+                .or_else(|| left::cause(evidence.law, evidence.sources, compared));
             let between = || disagree::cause(&evidence.law.disagreements);
             // Levels that differ have a cure; what of another shape is left may be of them.
             let found = match own {
@@ -488,7 +489,11 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         reasons.push(text, evidence.another_law());
     }
     // Causes first: what they leave open, and what else shows them, comes after.
-    let mut causes = Vec::new();
+    let mut causes: Vec<Warning> = lacking::weight(evidence)
+        .filter(|_| !gravity)
+        .iter()
+        .map(lacking::warned)
+        .collect();
     left::named(law, evidence.sources, &evidence.options, &mut causes);
     // A weight on a lever repeats with the angle: cogging would take it up in part.
     causes.retain(|cause| !gravity || cause.code != Code::PositionRipple);
