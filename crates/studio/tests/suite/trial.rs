@@ -256,7 +256,7 @@ fn each_axis_of_a_contour_moves_by_itself() {
     for (asked, said) in [
         (
             json!({ "study": "circle-study.toml", "second_values": { "coulomb": 99.0 } }),
-            "second axis: coulomb = 99; allowed: from 9.6 to 14.4",
+            "second axis: coulomb = 99.00; allowed: from 9.600 to 14.40",
         ),
         (
             json!({ "study": "study.toml", "second_values": { "coulomb": 12.0 } }),
