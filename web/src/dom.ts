@@ -24,9 +24,12 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** Replaces what is in an element. */
+/** Replaces what is in an element. Where it is the same already nothing is touched: a button that is put anew while it is pressed loses the click. */
 export function put(element: Element, ...children: Child[]): void {
-  element.replaceChildren(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false));
+  const wanted = children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false);
+  const own = element.childNodes;
+  if (wanted.length === own.length && wanted.every((child, place) => child === own[place])) return;
+  element.replaceChildren(...wanted);
 }
 
 let ids = 0;

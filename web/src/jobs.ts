@@ -19,8 +19,25 @@ export async function begin(asked: unknown): Promise<number | undefined> {
   return attempt(() => post<number>("/api/jobs", asked));
 }
 
+/** What shows that work goes on: made once for each, since it is told of several times a second. */
+class Progress {
+  readonly facts = h("span");
+  readonly stop: HTMLButtonElement;
+  readonly bar = h("progress", { max: "100" });
+  readonly root: HTMLElement;
+
+  constructor(id: number) {
+    this.stop = h("button", { onclick: () => void attempt(() => post(`/api/jobs/${id}/stop`, {})) });
+    this.root = h("div", { class: "progress" }, h("div", { class: "row" }, this.facts, this.stop), this.bar);
+  }
+}
+
+const going = new Map<number, Progress>();
+
 /** A bar with what is being done, and a button that stops it and keeps what was found. */
 export function progress(job: Job): HTMLElement {
+  const shown = going.get(job.id) ?? new Progress(job.id);
+  going.set(job.id, shown);
   const percent = Math.round(100 * job.fraction);
   const facts = [
     job.stage ?? "reading",
@@ -28,12 +45,14 @@ export function progress(job: Job): HTMLElement {
     `${seconds(job.seconds)} so far`,
     job.left === null || job.left < 1 ? "" : `this step ${seconds(job.left)} more`,
   ];
-  return h(
-    "div",
-    { class: "progress" },
-    h("div", { class: "row" }, h("span", {}, facts.filter(Boolean).join(" · ")), h("button", { disabled: job.state === "stopping", onclick: () => void attempt(() => post(`/api/jobs/${job.id}/stop`, {})) }, job.state === "stopping" ? "stopping …" : "Stop and keep what was found")),
-    h("progress", { max: "100", value: String(percent), "aria-label": `${job.kind}: ${job.stage ?? "reading"}` }),
-  );
+  shown.facts.textContent = facts.filter(Boolean).join(" · ");
+  const stopping = job.state === "stopping";
+  const label = stopping ? "stopping …" : "Stop and keep what was found";
+  shown.stop.disabled = stopping;
+  if (shown.stop.textContent !== label) shown.stop.textContent = label;
+  shown.bar.value = percent;
+  shown.bar.setAttribute("aria-label", `${job.kind}: ${job.stage ?? "reading"}`);
+  return shown.root;
 }
 
 /** What the command line prints, or why the work failed. */

@@ -258,7 +258,11 @@ try {
   const stop = page.getByRole("button", { name: "Stop and keep what was found" });
   const drawn = page.locator(".runs canvas").first();
   const first = await Promise.race([stop.waitFor({ timeout: 120_000 }).then(() => "runs"), drawn.waitFor({ timeout: 120_000 }).then(() => "done")]);
-  if (first === "runs") await stop.click({ timeout: 5_000 }).catch(() => {});
+  // Pressed as long as a person presses; it may end by itself meanwhile.
+  const fails = async (error) => {
+    if (await stop.isVisible()) throw error;
+  };
+  if (first === "runs") await stop.click({ delay: 150, timeout: 5_000 }).catch(fails);
   await page.getByText("Set points as CSV").or(page.getByText("Stopped: what was found until then")).first().waitFor({ timeout: 240_000 });
   await look("plan");
   passed(`planned: ${plan}`);

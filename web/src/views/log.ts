@@ -18,6 +18,7 @@ export class LogView {
   private readonly head = h("div", { class: "head" });
   private readonly center = h("div", { class: "center" });
   private readonly right = h("div", { class: "right" });
+  private readonly heading = h("h3", {}, "Check");
   private readonly checked = h("section", { "aria-label": "What the log can determine" });
   private readonly stop: () => void;
   private trace: Trace | null = null;
@@ -257,6 +258,6 @@ export class LogView {
     const { log, axis } = state.chosen;
     const job = latest("check", (own) => own.about === log);
     const ask = h("button", { disabled: isRunning(job) || !log, onclick: () => void begin({ kind: "check", log, axis }) }, "What can it determine?");
-    put(this.checked, h("h3", {}, "Check"), isRunning(job) ? progress(job!) : ask, job && !isRunning(job) ? h("div", {}, job.state === "failed" ? printed(job) : h("pre", { tabindex: "0", class: "small" }, job.text.trimEnd())) : null);
+    put(this.checked, this.heading, isRunning(job) ? progress(job!) : ask, job && !isRunning(job) ? h("div", {}, job.state === "failed" ? printed(job) : h("pre", { tabindex: "0", class: "small" }, job.text.trimEnd())) : null);
   }
 }
