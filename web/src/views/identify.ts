@@ -29,10 +29,13 @@ interface Fit { signal: string; unit: string; rmse: number; relative_error_perce
 interface Result {
   law: string; asymmetric: boolean; method: string; inputs: { path: string; samples: number; part?: string | null }[];
   parameters: Parameter[]; fit: Fit; validation: (Fit & { path: string })[];
-  trust: { trustworthy: boolean; reasons: string[]; constants: string[]; next: string; compensation: { friction_left_percent: number } | null };
+  trust: { trustworthy: boolean; reasons: string[]; cause?: Cause | null; constants: string[]; next: string; compensation: { friction_left_percent: number; judged_on: string } | null };
   laws?: { law: string; asymmetric: boolean; held_out_percent?: number; relative_error_percent?: number }[];
   warnings: { code: string; message: string }[];
 }
+
+/** What the law leaves, and what takes it into the fit: a line of the axis file or another law. */
+interface Cause { text: string; size: string; cure?: { table?: string; line?: string; law?: string } | null }
 
 /** What is drawn of a fit: the stretch about its slowest reversal, and what is force over position and over velocity in it. */
 interface Drawable { from: number | null; to: number | null; channels: Channel[]; turn: Stretch | null; loop: Pairs | null; curve: Pairs | null }
@@ -228,11 +231,27 @@ export class IdentifyView {
 }
 
 function banner(own: Result): HTMLElement {
-  const left = own.trust.compensation?.friction_left_percent;
-  return own.trust.trustworthy
-    ? h("div", { class: "banner good" }, h("strong", {}, "May be used for compensation"), h("p", {}, left === undefined ? "" : `It leaves ${short(left)} % of the friction.`))
-    : h("div", { class: "banner warn" }, h("strong", {}, "Not to be used for compensation as it is"), ...own.trust.reasons.map((reason) => h("p", {}, reason)));
+  const { trustworthy, reasons, cause, constants, compensation } = own.trust;
+  if (!trustworthy) {
+    return h("div", { class: "banner warn" }, h("strong", {}, "Not to be used for compensation as it is"), ...reasons.map((reason) => h("p", {}, reason)));
+  }
+  const cure = cause?.cure;
+  const on = JUDGED_ON[compensation?.judged_on ?? ""] ?? "the log";
+  return h(
+    "div",
+    { class: `banner ${cause ? "warn" : "good"}` },
+    h("strong", {}, "May be used for compensation", cause ? `, though ${cause.text}` : ""),
+    cause ? h("p", {}, `That is ${cause.size}.`, cure?.line ? ` Write ${cure.line} under [${cure.table}] in the axis file and identify again.` : cure?.law ? ` Try the law ${cure.law}.` : "") : null,
+    compensation ? h("p", {}, `It leaves ${short(compensation.friction_left_percent)} % of the friction on ${on}.`) : null,
+    constants.length ? null : h("p", {}, "The log leaves every parameter open: none is a constant of the machine."),
+  );
 }
+
+const JUDGED_ON: Record<string, string> = {
+  "held-out": "samples it was not fitted to",
+  validation: "the validation data",
+  fitted: "the samples it was fitted to",
+};
 
 function next(own: Result, result: string): HTMLElement[] {
   const go = (view: "study" | "export" | "plan" | "log", label: string, primary = true) => h("button", { class: primary ? "primary" : "", onclick: () => choose({ view, result }) }, label);
