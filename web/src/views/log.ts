@@ -179,6 +179,10 @@ export class LogView {
       say("Brush a stretch first: drag over the trace, or type from and to.");
       return;
     }
+    if (as !== "nothing" && !(this.to.valueAsNumber > this.from.valueAsNumber)) {
+      say("What stands in from and to is no stretch: two times in seconds, from before to.", "error");
+      return;
+    }
     const axis = state.chosen.axis ?? AXIS;
     const [from, to] = stretch ?? [0, 0];
     const marks = await attempt(() => post<Marks>("/api/mark", { log, axis, as, from, to, seconds: this.about?.seconds ?? 0 }));
