@@ -55,11 +55,16 @@ export function choice(options: [value: string, label: string][], value: string,
   return select;
 }
 
+/** How long a note stays, ms; an error stays until it is closed. */
+const NOTE_STAYS = 10_000;
+
 /** Says something to who sees the page and to who hears it. */
 export function say(text: string, kind: "note" | "error" = "note"): void {
   const place = document.getElementById("said");
   if (!place) return;
-  put(place, h("div", { class: `toast ${kind}` }, h("span", {}, text), h("button", { class: "quiet", "aria-label": "Close this message", onclick: () => put(place) }, "×")));
+  const toast = h("div", { class: `toast ${kind}` }, h("span", {}, text), h("button", { class: "quiet", "aria-label": "Close this message", onclick: () => toast.remove() }, "×"));
+  put(place, toast);
+  if (kind === "note") window.setTimeout(() => toast.remove(), NOTE_STAYS);
 }
 
 /** Does something, and says what went wrong with it. */
