@@ -47,7 +47,11 @@ mod tests {
             position: Some(position),
             ..Samples::default()
         };
-        share(&condition(&[samples], &Conditioning::default()).unwrap())
+        let conditioning = Conditioning {
+            resolution: Some(1e-6),
+            ..Conditioning::default()
+        };
+        share(&condition(&[samples], &conditioning).unwrap())
     }
 
     #[test]
@@ -67,7 +71,7 @@ mod tests {
             if t % 2.0 < 1.0 {
                 0.5 * libm::sin(6.3 * t)
             } else {
-                5e-4
+                1.2e-3
             }
         };
         let found = shares(slow);

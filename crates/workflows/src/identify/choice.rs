@@ -132,8 +132,8 @@ fn beside(
                 let error = law.held_out_error_percent;
                 error.is_none_or(|error| error < NOTHING_HOLDS)
             };
-            let best = best.map(|i| &laws[i]).filter(|best| !best.reported);
-            let best = best.filter(holds);
+            let best = best.map(|i| &laws[i]);
+            let best = best.filter(|best| !best.reported).filter(holds);
             better = best.map(|best| BetterLaw {
                 law: best.law.clone(),
                 asymmetric: best.asymmetric,

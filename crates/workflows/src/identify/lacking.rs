@@ -26,7 +26,7 @@ const LIKE_DIRECTIONS: f64 = 0.7;
 /// Stroke of a joint, rad, from which gravity is no constant force.
 const BEYOND_A_CONSTANT: f64 = 1.0;
 
-/// Names what the axis file lacks where a law explains little, or nothing of it makes sense, or it is another in each direction: the wrap of the position, the sign of
+/// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the wrap of the position, the sign of
 /// the force, or gravity. Whether it is gravity.
 pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     let law = evidence.law;
