@@ -4,7 +4,7 @@ const KEY = "stiction-key";
 
 export interface Entry { name: string; kind: string; bytes: number; modified: number }
 export interface Workspace { folder: string; version: string; files: Entry[] }
-export interface Column { number: number; name: string; role: string | null; unit: string; reason: string; assumed: boolean }
+export interface Column { number: number; name: string; role: string | null; unit: string; reason: string; assumed: boolean; range: Stretch | null }
 export interface Channel { name: string; unit: string; derived: boolean }
 export interface Found { code: string; severity: string; message: string; at_s: number | null }
 export interface LeftOut { code: string; from_s: number; to_s: number }
@@ -14,6 +14,8 @@ export interface About {
   samples: number; rate_hz: number; seconds: number; motion: string; force_unit: string; detected: string[];
   findings: Found[]; excluded: LeftOut[]; columns: Column[]; channels: Channel[]; marks: Marks; refused: string | null;
 }
+/** The axis file that a log is read with, and one that is there and is of another log. */
+export interface Which { axis: string | null; not: string | null }
 export interface Job {
   id: number; kind: string; command: string; about: string; state: "running" | "stopping" | "done" | "failed";
   stage: string | null; fraction: number; seconds: number; left: number | null; error_percent: number | null;

@@ -1,7 +1,7 @@
 // Work as it goes: how far it is, how to stop it, and what it printed.
 
 import { post, type Job } from "./api";
-import { attempt, h } from "./dom";
+import { attempt, h, put } from "./dom";
 import { seconds, short } from "./numbers";
 import { state } from "./state";
 
@@ -27,12 +27,43 @@ class Progress {
   readonly root: HTMLElement;
 
   constructor(id: number) {
-    this.stop = h("button", { onclick: () => void attempt(() => post(`/api/jobs/${id}/stop`, {})) });
+    this.stop = h("button", { onclick: () => void stopped(id) });
     this.root = h("div", { class: "progress" }, h("div", { class: "row" }, this.facts, this.stop), this.bar);
   }
 }
 
 const going = new Map<number, Progress>();
+
+/** All work that goes on, whichever log or folder it is about, each with a button that stops it. */
+export class Working {
+  readonly element = h("section", { class: "working hidden", "aria-label": "Work that goes on" });
+  private readonly title = h("h2", {}, "At work");
+  private readonly lines = new Map<number, { about: HTMLElement; far: HTMLElement; root: HTMLElement }>();
+
+  draw(): void {
+    const running = [...state.jobs.values()].filter(isRunning);
+    put(this.element, this.title, ...running.map((job) => this.line(job)));
+    this.element.classList.toggle("hidden", !running.length);
+  }
+
+  private line(job: Job): HTMLElement {
+    let own = this.lines.get(job.id);
+    if (!own) {
+      const [about, far] = [h("span", { class: "name", title: job.command }), h("span", { class: "size" })];
+      const stop = h("button", { class: "quiet", "aria-label": `Stop ${job.kind} ${job.about}`, onclick: () => void stopped(job.id) }, "Stop");
+      own = { about, far, root: h("div", { class: "row" }, about, far, stop) };
+      this.lines.set(job.id, own);
+    }
+    own.about.textContent = `${job.kind} ${job.about}`;
+    own.far.textContent = job.state === "stopping" ? "stopping …" : `${Math.round(100 * job.fraction)} %`;
+    return own.root;
+  }
+}
+
+/** Asks work to stop; what it found until then is kept. */
+async function stopped(id: number): Promise<void> {
+  await attempt(() => post(`/api/jobs/${id}/stop`, {}));
+}
 
 /** A bar with what is being done, and a button that stops it and keeps what was found. */
 export function progress(job: Job): HTMLElement {

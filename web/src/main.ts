@@ -4,8 +4,9 @@ import "uplot/dist/uPlot.min.css";
 import "./style.css";
 import { begin, NoSession, upload, watch } from "./api";
 import { attempt, choice, field, h, put, say } from "./dom";
+import { Working } from "./jobs";
 import { bytes } from "./numbers";
-import { changed, choose, exists, files, onChange, readAddress, refresh, state, VIEWS, type View } from "./state";
+import { changed, choose, chooseLog, exists, files, onChange, readAddress, refresh, state, VIEWS, type View } from "./state";
 import { ExportView } from "./views/export";
 import { IdentifyView } from "./views/identify";
 import { LogView } from "./views/log";
@@ -24,6 +25,7 @@ const made: Record<View, () => Shown> = {
 
 const tabs = h("nav", { "aria-label": "Views" });
 const side = h("aside", { "aria-label": "Files of the folder" });
+const working = new Working();
 const main = h("main", { id: "main", tabindex: "-1" });
 const folder = h("span", { class: "folder" });
 const picker = h("input", { type: "file", multiple: true, class: "hidden", tabindex: "-1", "aria-hidden": "true", onchange: () => void take([...(picker.files ?? [])]) });
@@ -38,7 +40,7 @@ async function take(dropped: File[]): Promise<void> {
       await upload(file, there);
       await refresh();
       put(document.getElementById("said")!);
-      if (files("log").some((own) => own.name === file.name)) choose({ log: file.name, view: "log" });
+      if (files("log").some((own) => own.name === file.name)) await chooseLog(file.name, { view: "log" });
       else say(`${file.name} is in the folder`);
     });
   }
@@ -59,8 +61,9 @@ function drawSide(): void {
     h("button", { class: "drop", onclick: () => picker.click() }, h("strong", {}, "Choose logs"), h("span", {}, "or drop them anywhere")),
     h("h2", {}, "Logs"),
     logs.length
-      ? h("ul", { class: "files" }, ...logs.map((file) => h("li", {}, h("button", { "aria-current": file.name === chosen.log ? "true" : null, title: file.name, onclick: () => choose({ log: file.name, view: "log" }) }, h("span", { class: "name" }, file.name), h("span", { class: "size" }, bytes(file.bytes))))))
+      ? h("ul", { class: "files" }, ...logs.map((file) => h("li", {}, h("button", { "aria-current": file.name === chosen.log ? "true" : null, title: file.name, onclick: () => void chooseLog(file.name, { view: "log" }) }, h("span", { class: "name" }, file.name), h("span", { class: "size" }, bytes(file.bytes))))))
       : h("p", { class: "muted" }, "None yet. CSV, MATLAB, HDF5, Parquet, TwinCAT and others."),
+    working.element,
     h("h2", {}, "What is known of the axis"),
     field("Axis file", choice([["", "none: as found"], ...axes.map((file): [string, string] => [file.name, file.name])], chosen.axis ?? "", (axis) => choose({ axis: axis || null }))),
     h("h2", {}, "Results"),
@@ -113,8 +116,12 @@ async function start(): Promise<void> {
   // Files may be written by other programs meanwhile.
   addEventListener("focus", () => void attempt(refresh));
   readAddress();
-  if (!state.chosen.axis && exists("axis.toml") && !location.hash.includes("axis=")) state.chosen.axis = "axis.toml";
-  onChange((reason) => { if (reason !== "jobs") draw(); });
+  const { log, axis } = state.chosen;
+  if (log && !axis) await chooseLog(log);
+  onChange((reason) => {
+    if (reason === "jobs") working.draw();
+    else draw();
+  });
   choose({});
   const ended = new Set<number>();
   let first = true;

@@ -1,7 +1,7 @@
 // A contour in its plane: the reference, and the deviations of runs from it as the server magnified them.
 
 import { h, put } from "./dom";
-import { length, short } from "./numbers";
+import { lengthScale, short } from "./numbers";
 
 export interface Path { x: (number | null)[]; y: (number | null)[] }
 export interface PlaneData { magnified: number; bar: number; middle: [number, number]; size: number; reference: Path; runs: Path[] }
@@ -40,7 +40,8 @@ export class Plane {
       picture.append(label);
     }
     const label = svg("text", { x: "10", y: String(SIDE - 18) });
-    label.textContent = length(plane.bar, unit);
+    const [barUnit, by] = lengthScale(unit, plane.bar);
+    label.textContent = `${Number((plane.bar * by).toPrecision(4))} ${barUnit}`;
     picture.append(svg("path", { class: "bar", d: `M10 ${SIDE - 10}h${(scale * plane.magnified * plane.bar).toFixed(2)}` }), label);
     put(this.title, `Deviations × ${plane.magnified}`);
     put(this.keys, ...names.map((name, k) => h("span", { class: `key key-${last - k}` }, name)));

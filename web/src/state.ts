@@ -1,6 +1,7 @@
 // What is chosen, kept in the fragment of the address: a reload and a second tab see the same.
 
-import { get, type Entry, type Job, type Workspace } from "./api";
+import { get, type Entry, type Job, type Which, type Workspace } from "./api";
+import { attempt, say } from "./dom";
 
 export type View = "log" | "identify" | "study" | "plan" | "export";
 export const VIEWS: [View, string][] = [["log", "Log"], ["identify", "Identify"], ["study", "Study"], ["plan", "Plan"], ["export", "Export"]];
@@ -65,12 +66,44 @@ export function choose(what: Partial<Chosen>): void {
   changed("chosen");
 }
 
+/** The name in the folder of a path that a result has. */
+export function nameOf(path: string): string {
+  const before = `${state.workspace.folder}/`;
+  return path.startsWith(before) ? path.slice(before.length) : path;
+}
+
+/** The axis file of the folder, unless a log has its own. */
+export const AXIS = "axis.toml";
+
+/** The name of a log without its ending. */
+export function stem(log: string): string {
+  return log.replace(/\.[^./]*$/, "");
+}
+
+/** The axis file that corrections of the chosen log go to: that which it is read with, else one that is begun. */
+export function axisToWrite(): string {
+  const { log, axis } = state.chosen;
+  return axis ?? (exists(AXIS) && log ? `${stem(log)}.axis.toml` : AXIS);
+}
+
+let asked = 0;
+
+/** Chooses a log with the axis file that it is read with. */
+export async function chooseLog(log: string, what: Partial<Chosen> = {}): Promise<void> {
+  asked += 1;
+  const mine = asked;
+  const found = await attempt(() => get<Which>("/api/axis", { log }));
+  if (mine !== asked) return;
+  choose({ log, axis: found?.axis ?? null, ...what });
+  if (found?.not) say(`${found.not} names columns that ${log} does not have, so the log is read as it is found. What you correct goes to ${axisToWrite()}.`);
+}
+
 /** Reads what is in the folder. */
 export async function refresh(): Promise<void> {
-  const had = exists("axis.toml");
+  const had = exists(AXIS);
   state.workspace = await get<Workspace>("/api/workspace");
   // The axis file of the usual name is used once it is there.
-  if (!had && exists("axis.toml")) state.chosen.axis ??= "axis.toml";
+  if (!had && exists(AXIS)) state.chosen.axis ??= AXIS;
   settle();
   changed("files");
 }

@@ -146,7 +146,7 @@ export class Trace {
         scales: { x: { time: false, auto: false, range: () => this.view }, y: {} },
         axes: [
           { ...axis, show: true, size: last ? 40 : 8, ...(last ? { label: "time [s]", labelSize: 18, labelFont: "12px system-ui" } : { values: () => [] }), space: 80 },
-          { ...axis, label, labelSize: 18, labelFont: "12px system-ui", size: 64, values: (_: uPlot, values: number[]) => values.map((value) => axisNumber(value, values)) },
+          { ...axis, label, labelSize: 18, labelFont: "12px system-ui", size: 64, space: 15, values: (_: uPlot, values: number[]) => values.map((value) => axisNumber(value, values)) },
         ],
         series: [
           {},
@@ -155,7 +155,6 @@ export class Trace {
             stroke: color(line(k)),
             width: 1.25,
             points: { show: false },
-            spanGaps: true,
           })),
         ],
         hooks: {
@@ -214,11 +213,12 @@ export class Trace {
     const [count = 0, , single = 0] = new Uint32Array(buffer, 0, 4);
     const column = (at: number) => new Float64Array(buffer, 16 + 8 * count * at, count);
     const time = column(0);
+    const breaks = gaps(time);
     let at = 1;
     for (const [k, panel] of panels.entries()) {
-      const data: (Float64Array | number[])[] = [single ? time : twice(time, time)];
+      const data: Drawn[] = [broken(single ? time : twice(time, time), breaks, single ? 1 : 2, (after) => (time[after - 1]! + time[after]!) / 2)];
       for (const _ of panel.channels) {
-        data.push(single ? column(at) : twice(column(at), column(at + 1)));
+        data.push(broken(single ? column(at) : twice(column(at), column(at + 1)), breaks, single ? 1 : 2, () => null));
         at += single ? 1 : 2;
       }
       const plot = this.plots[k];
@@ -301,6 +301,31 @@ function twice(a: Float64Array, b: Float64Array): Float64Array {
     out[2 * k] = a[k]!;
     out[2 * k + 1] = b[k]!;
   }
+  return out;
+}
+
+type Drawn = Float64Array | (number | null)[];
+
+/** Steps that are so many times the usual one are gaps, over which no line is drawn. */
+const GAP = 10;
+
+/** The places after a gap. */
+function gaps(time: Float64Array): number[] {
+  const steps = Float64Array.from({ length: Math.max(time.length - 1, 0) }, (_, k) => time[k + 1]! - time[k]!);
+  const usual = steps.slice().sort()[steps.length >> 1] ?? 0;
+  return [...steps.keys()].filter((k) => steps[k]! > GAP * usual).map((k) => k + 1);
+}
+
+/** Values with something put in at each gap; of each place there are `each`. */
+function broken(values: Float64Array, breaks: number[], each: number, between: (after: number) => number | null): Drawn {
+  if (!breaks.length) return values;
+  const out: (number | null)[] = [];
+  let from = 0;
+  for (const after of breaks) {
+    out.push(...values.subarray(each * from, each * after), between(after));
+    from = after;
+  }
+  out.push(...values.subarray(each * from));
   return out;
 }
 

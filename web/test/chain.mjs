@@ -174,6 +174,33 @@ try {
   typed(identify);
   passed(`identified: ${compare(join(space, "result"), join(twin, "result"), "identify")} files as the command line writes them`);
 
+  // A log of another machine, which has no time column, has an axis file of its own.
+  const first = readFileSync(join(space, "axis.toml"), "utf8");
+  writeFileSync(join(folder, "slide.csv"), `x [mm],F [N]\n${Array.from({ length: 4000 }, (_, k) => `${(20 * Math.sin(0.01 * k)).toFixed(4)},${(30 * Math.sign(Math.cos(0.01 * k)) - 5 * Math.sin(0.01 * k)).toFixed(4)}`).join("\n")}\n`);
+  await page.locator("input[type=file]").setInputFiles(join(folder, "slide.csv"));
+  await page.getByText("Say which column is what").waitFor();
+  await page.getByText(/so the log is read as it is found/).waitFor();
+  await page.getByText(/it is written to slide.axis.toml/).waitFor();
+  await page.getByLabel("Sample rate").fill("1 kHz");
+  await page.getByLabel("Sample rate").press("Enter");
+  await page.locator(".map canvas").nth(1).waitFor();
+  equal(readFileSync(join(space, "slide.axis.toml"), "utf8").includes('rate = "1 kHz"'), true, "the rate in the axis file of that log");
+  equal(readFileSync(join(space, "axis.toml"), "utf8"), first, "the axis file of the first log");
+  await look("rate");
+  // What is typed into the text of an axis file stays there while something else is looked at.
+  await page.getByText("Text of slide.axis.toml", { exact: true }).first().click();
+  await page.locator("textarea").fill(`${readFileSync(join(space, "slide.axis.toml"), "utf8")}# a draft\n`);
+  await page.getByRole("button", { name: "Identify", exact: true }).first().click();
+  await page.getByText("Not of slide.csv").waitFor();
+  equal(await page.getByLabel("Folder for the result").inputValue(), "result-slide", "a folder of its own");
+  await page.getByRole("button", { name: "slide.csv" }).click();
+  await page.locator("textarea").waitFor();
+  equal((await page.locator("textarea").inputValue()).endsWith("# a draft\n"), true, "the draft is kept");
+  await page.getByRole("button", { name: "Take back" }).click();
+  await page.getByRole("button", { name: "run.csv" }).click();
+  await page.getByRole("button", { name: /Position.*position · mm/ }).waitFor();
+  passed("a log of another machine");
+
   // It is simulated with and without compensation.
   await page.getByRole("button", { name: "Study" }).click();
   await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction simulate"));
@@ -257,12 +284,13 @@ try {
   // A plan takes long on a busy machine: it is stopped where it has not ended, and either way its motion is there.
   const stop = page.getByRole("button", { name: "Stop and keep what was found" });
   const drawn = page.locator(".runs canvas").first();
-  const first = await Promise.race([stop.waitFor({ timeout: 120_000 }).then(() => "runs"), drawn.waitFor({ timeout: 120_000 }).then(() => "done")]);
+  const became = await Promise.race([stop.waitFor({ timeout: 120_000 }).then(() => "runs"), drawn.waitFor({ timeout: 120_000 }).then(() => "done")]);
   // Pressed as long as a person presses; it may end by itself meanwhile.
   const fails = async (error) => {
     if (await stop.isVisible()) throw error;
   };
-  if (first === "runs") await stop.click({ delay: 150, timeout: 5_000 }).catch(fails);
+  if (became === "runs") await stop.click({ delay: 150, timeout: 5_000 }).catch(fails);
+  if (await stop.isVisible()) equal(await page.locator(".working").innerText().then((text) => text.includes("plan axis.toml")), true, "the work is seen beside the files");
   await page.getByText("Set points as CSV").or(page.getByText("Stopped: what was found until then")).first().waitFor({ timeout: 240_000 });
   await look("plan");
   passed(`planned: ${plan}`);

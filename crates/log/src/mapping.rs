@@ -191,6 +191,14 @@ impl Mapping {
         wanted::by_mapping(self, heads)
     }
 
+    /// Whether a table has every column that this mapping gives a role.
+    pub fn is_of(&self, table: &Table) -> bool {
+        let mut named = Role::ALL
+            .into_iter()
+            .filter_map(|role| Some((role, self.channel(role)?)));
+        named.all(|(role, channel)| select::select(table, &channel.column, role).is_ok())
+    }
+
     /// This mapping with everything it leaves open filled in from the table: every channel then has
     /// a unit, and the kind of motion is known.
     ///

@@ -1,5 +1,6 @@
 //! What the page may ask for, each a small function over the workspace, the logs and the work.
 
+mod axis;
 mod contour;
 mod events;
 mod files;
@@ -38,6 +39,7 @@ pub fn router() -> Router<Arc<Shared>> {
         .route("/api/session", post(session))
         .route("/api/workspace", get(workspace))
         .route("/api/log", get(log))
+        .route("/api/axis", get(axis::which).post(axis::begin))
         .route("/api/tiles", get(tiles))
         .route("/api/map", get(map))
         .route("/api/table", get(table))
@@ -186,7 +188,7 @@ async fn table(State(shared): App, Query(asked): Query<Table>) -> Answer<serde_j
 
 async fn correct(State(shared): App, Json(asked): Json<Correction>) -> Answer<Vec<String>> {
     let changes = read(shared, move |shared| {
-        logs::correct(&shared.workspace, &asked)
+        logs::correct(&shared.logs, &shared.workspace, &asked)
     });
     changes.await.map(Json)
 }

@@ -109,6 +109,8 @@ pub struct Column {
     pub reason: String,
     /// Whether nothing gave the unit.
     pub assumed: bool,
+    /// Lowest and highest number of a column that is not understood, in the unit of the file.
+    pub range: Option<(f64, f64)>,
 }
 
 /// Parts of a log, s from its first sample.

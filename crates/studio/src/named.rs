@@ -1,7 +1,7 @@
 //! Files of the folder that name others, which are in the folder as well.
 
 use crate::refused::Refused;
-use crate::workspace::Workspace;
+use crate::workspace::{UNFINISHED, Workspace};
 use std::path::Path;
 use stiction::{Axis, Study};
 
@@ -22,6 +22,21 @@ pub fn read_axis(workspace: &Workspace, name: &str, logs: &[&Path]) -> Result<Ax
         }
     }
     Ok(axis)
+}
+
+/// Reads a text as the file that it is to become, in the folder of which it may name others; a refusal names that file.
+pub fn read_as<T, E: Into<Refused>>(
+    file: &Path,
+    text: &str,
+    read: impl FnOnce(&Path) -> Result<T, E>,
+) -> Result<T, Refused> {
+    let folder = file.parent().filter(|dir| dir.is_dir());
+    let beside = tempfile::Builder::new()
+        .prefix(UNFINISHED)
+        .tempfile_in(folder.unwrap_or(Path::new(".")))?;
+    std::fs::write(beside.path(), text)?;
+    let own = beside.path().display().to_string();
+    read(beside.path()).map_err(|e| e.into().calling(&own, &file.display().to_string()))
 }
 
 /// A study of the workspace, which reads what it names, its model first of all.

@@ -55,6 +55,14 @@ impl Refused {
         }
     }
 
+    /// The same with another word for what it is about.
+    pub fn calling(self, name: &str, instead: &str) -> Self {
+        Self {
+            message: self.message.replace(name, instead),
+            ..self
+        }
+    }
+
     /// What is said.
     pub fn message(&self) -> &str {
         &self.message

@@ -283,6 +283,7 @@ pub fn kind_of_file(name: &str) -> &'static str {
     }
     let (stem, ending) = lower.rsplit_once('.').unwrap_or((&lower, ""));
     match ending {
+        "toml" if stem.ends_with(".axis") => "axis",
         "toml" if stem.contains("model") => "model",
         "toml" if stem.contains("study") => "study",
         "toml" if stem.contains("plan") => "plan",

@@ -6,7 +6,7 @@ import { attempt, choice, field, h, put } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { PointMap, type Points } from "../map";
 import { short, unit } from "../numbers";
-import { choose, files, onChange, state } from "../state";
+import { choose, exists, files, nameOf, onChange, state, stem } from "../state";
 import { Trace } from "../trace";
 
 const LAWS: [string, string][] = [
@@ -27,7 +27,7 @@ const METHODS: [string, string][] = [
 interface Parameter { name: string; symbol: string; value: number; unit: string; std: number | null; ci95: [number | null, number | null] | null; identifiable: boolean; origin: string; reason: string; advice: string }
 interface Fit { signal: string; unit: string; rmse: number; relative_error_percent: number; r2: number | null; samples: number }
 interface Result {
-  law: string; asymmetric: boolean; method: string; inputs: { path: string; samples: number; part?: string | null }[];
+  law: string; asymmetric: boolean; method: string; inputs: { path: string; samples: number; part?: string | null }[]; axis: { file?: string };
   parameters: Parameter[]; fit: Fit; validation: (Fit & { path: string })[];
   trust: { trustworthy: boolean; reasons: string[]; cause?: Cause | null; constants: string[]; next: string; compensation: { friction_left_percent: number; judged_on: string } | null };
   laws?: { law: string; asymmetric: boolean; held_out_percent?: number; relative_error_percent?: number }[];
@@ -54,10 +54,15 @@ export class IdentifyView {
   private method = "separable";
   private asymmetric = false;
   private validation = "";
-  private out = "";
+  private out = "result";
+  /** Whether the folder for the result was typed. */
+  private named = false;
   private beside = "";
   private drawn: { end(): void }[] = [];
   private shown = "";
+  private readonly whence = h("div", {});
+  /** The result that is shown, and when it was identified. */
+  private origin: { of: Result; at: number } | null = null;
   private ran = new Set<number>();
 
   constructor() {
@@ -95,10 +100,9 @@ export class IdentifyView {
 
   private drawForm(): void {
     const { log, axis } = state.chosen;
-    if (!this.out) this.out = "result";
     const again = () => this.command.of(this.asked());
     const others = files("log").filter((file) => file.name !== log);
-    const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); again(); } });
+    const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); this.named = true; again(); } });
     const asymmetric = h("input", { type: "checkbox", checked: this.asymmetric, onchange: () => { this.asymmetric = asymmetric.checked; again(); } });
     put(
       this.form,
@@ -110,6 +114,18 @@ export class IdentifyView {
       field("Folder for the result", out),
       h("button", { class: "primary wide", disabled: !log, onclick: () => void this.run() }, "Identify"),
     );
+    again();
+    void this.apart(out, again);
+  }
+
+  /** A folder of its own for a log where that of the usual name is of another one, which would be written over. */
+  private async apart(out: HTMLInputElement, again: () => void): Promise<void> {
+    const { log } = state.chosen;
+    if (this.named || !log || !exists("result/result.json")) return;
+    const there = await attempt(() => read("result"));
+    if (!there || this.named || log !== state.chosen.log) return;
+    this.out = isOf(there, log) ? "result" : `result-${stem(log.replaceAll("/", "-"))}`;
+    out.value = this.out;
     again();
   }
 
@@ -143,14 +159,17 @@ export class IdentifyView {
     const { result } = state.chosen;
     const file = state.workspace.files.find((own) => own.name === `${result}/result.json`);
     const now = JSON.stringify([result, file?.modified, this.beside]);
-    if (now === this.shown) return;
+    if (now === this.shown) {
+      this.drawOrigin();
+      return;
+    }
     this.shown = now;
+    this.origin = null;
     this.clear();
     if (!result) {
       put(this.found, h("p", { class: "muted" }, "No result yet. Choose a log and press Identify; the defaults are meant to be right."));
       return;
     }
-    const read = async (name: string) => JSON.parse((await get<{ text: string }>("/api/text", { name: `${name}/result.json` })).text) as Result;
     const own = await attempt(() => read(result));
     const other = this.beside && this.beside !== result ? await attempt(() => read(this.beside)) : undefined;
     if (!own || this.shown !== now) return;
@@ -159,6 +178,7 @@ export class IdentifyView {
     put(
       this.found,
       h("div", { class: "row spread" }, h("h3", {}, result), others.length ? h("label", { class: "row" }, "beside ", compare) : null),
+      this.whence,
       banner(own),
       h("div", { class: "row" }, ...next(own, result), h("button", { onclick: () => void attempt(() => open(`${result}/report.html`, "show")) }, "Full report"), h("button", { class: "quiet", onclick: () => void attempt(() => open(result, "zip")) }, "Download as zip")),
       parameters(own, other, this.beside),
@@ -167,12 +187,19 @@ export class IdentifyView {
       other ? h("div", { class: "residual" }) : null,
       warnings(own),
     );
+    this.origin = { of: own, at: file?.modified ?? 0 };
+    this.drawOrigin();
     const places = [...this.found.querySelectorAll(".residual")];
     const both = [[result, own], [this.beside, other]] as const;
     for (const [k, [name, one]] of both.entries()) {
       const place = places[k];
       if (one && place) await attempt(() => this.residual(place, name, one, Boolean(other)));
     }
+  }
+
+  /** What the result is of, which may change after it. */
+  private drawOrigin(): void {
+    if (this.origin) put(this.whence, ...whence(this.origin.of, this.origin.at));
   }
 
   /** Measured, model and what is left over the time, and what is left in a stretch that is brushed. */
@@ -228,6 +255,27 @@ export class IdentifyView {
     put(place, h("h3", {}, several ? `Measured, model and what is left: ${result}` : "Measured, model and what is left"), trace.element, said, h("div", { class: "maps" }, ...maps.map(([map]) => map.element)));
     await brushed(null);
   }
+}
+
+async function read(name: string): Promise<Result> {
+  return JSON.parse((await get<{ text: string }>("/api/text", { name: `${name}/result.json` })).text) as Result;
+}
+
+function isOf(own: Result, log: string): boolean {
+  return own.inputs.some((input) => nameOf(input.path) === log);
+}
+
+/** What a result is of, and what of that was changed after it. */
+function whence(own: Result, identified: number): (HTMLElement | null)[] {
+  const { log } = state.chosen;
+  const inputs = [...new Set(own.inputs.map((input) => nameOf(input.path)))];
+  const axis = own.axis.file ? nameOf(own.axis.file) : null;
+  const later = [...inputs, axis].filter((name) => state.workspace.files.some((file) => file.name === name && file.modified > identified));
+  return [
+    h("p", { class: "muted" }, `Of ${inputs.join(", ")}${axis ? `, read as ${axis} says` : ", read as found"}.`),
+    later.length ? h("div", { class: "banner warn" }, h("strong", {}, "Older than what it is of"), h("p", {}, `${later.join(", ")} changed after this was identified. Identify again to see what that makes of it.`)) : null,
+    log && !isOf(own, log) ? h("div", { class: "banner warn" }, h("strong", {}, `Not of ${log}`), h("p", {}, "This is the result of another log than the one that is chosen.")) : null,
+  ];
 }
 
 function banner(own: Result): HTMLElement {

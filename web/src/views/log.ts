@@ -6,11 +6,11 @@ import { attempt, choice, field, h, put, say } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { PointMap } from "../map";
 import { short, unit } from "../numbers";
-import { choose, onChange, refresh, state } from "../state";
+import { editor } from "../editor";
+import { AXIS, axisToWrite, choose, files, onChange, refresh, state } from "../state";
 import { Trace, type Band, type Panel, type Tick } from "../trace";
 
 const ROLES: [string, string][] = ["time", "position", "velocity", "acceleration", "force", "reference", "external", "temperature", "load"].map((role) => [role, role]);
-const AXIS = "axis.toml";
 
 export class LogView {
   readonly element = h("div", { class: "view log" });
@@ -91,7 +91,7 @@ export class LogView {
     this.clear();
     const facts = about.refused ? "columns to decide" : `${about.samples.toLocaleString("en").replaceAll(",", " ")} samples · ${short(about.rate_hz)} Hz · ${short(about.seconds)} s · ${about.motion}`;
     put(this.head, h("h2", {}, log), h("span", { class: "muted" }, facts), h("button", { class: "primary next", disabled: Boolean(about.refused), onclick: () => choose({ view: "identify" }) }, "Identify friction →"));
-    put(this.right, this.columns(about), this.findings(about), this.checked);
+    put(this.right, this.columns(about), this.findings(about));
     this.drawChecked();
     if (about.refused) {
       put(this.center, h("div", { class: "banner warn", role: "alert" }, h("strong", {}, "Say which column is what"), h("p", {}, about.refused), h("p", {}, "Click a column on the right.")));
@@ -124,6 +124,7 @@ export class LogView {
       this.brushBar(),
       h("p", { class: "muted small" }, "Drag to brush, wheel to zoom, Shift-drag to move, double-click for all.", velocity?.derived ? " * of the position, over a short window" : ""),
       h("div", { class: "maps" }, ...this.maps.map((map) => map.element)),
+      this.checked,
     );
     this.marked(about.marks);
     const kept = this.kept?.log === log ? this.kept : null;
@@ -183,7 +184,7 @@ export class LogView {
       say("What stands in from and to is no stretch: two times in seconds, from before to.", "error");
       return;
     }
-    const axis = state.chosen.axis ?? AXIS;
+    const axis = axisToWrite();
     const [from, to] = stretch ?? [0, 0];
     const marks = await attempt(() => post<Marks>("/api/mark", { log, axis, as, from, to, seconds: this.about?.seconds ?? 0 }));
     if (!marks || !this.about) return;
@@ -217,13 +218,49 @@ export class LogView {
     put(list, ...about.columns.slice(0, 40).map((column) => this.column(column)));
     const kind = choice([["", about.motion || "kind?"], ["linear", "linear"], ["rotary", "rotary"]], "", (value) => { if (value) void this.correct({ role: "kind", unit: value }); });
     kind.setAttribute("aria-label", "Kind of motion");
-    return h("section", {}, h("h3", {}, "Columns"), h("p", { class: "muted small" }, `Click one to correct it; it is written to ${state.chosen.axis ?? AXIS}.`), list, h("div", { class: "row small" }, "The axis is ", kind));
+    return h(
+      "section",
+      {},
+      h("h3", {}, "Columns"),
+      h("p", { class: "muted small" }, `Click one to correct it; it is written to ${axisToWrite()}.`),
+      list,
+      h("div", { class: "row small" }, "The axis is ", kind),
+      about.columns.some((column) => column.role === "time") ? null : this.rate(about),
+      this.axisFile(),
+    );
+  }
+
+  /** How often a log without a column of time was sampled. */
+  private rate(about: About): HTMLElement {
+    const rate = h("input", { type: "text", "aria-label": "Sample rate", value: about.rate_hz > 0 ? `${about.rate_hz} Hz` : "", placeholder: "1 kHz", spellcheck: "false" });
+    const save = (event: Event) => {
+      event.preventDefault();
+      void this.correct({ role: "rate", unit: rate.value.trim() });
+    };
+    return h("form", { class: "rate small", onsubmit: save }, h("span", {}, "No column is the time. Samples come at"), h("div", { class: "row" }, rate, h("button", { type: "submit" }, "Write the rate")));
+  }
+
+  /** The axis file that the log is read with: its text, and how to part from one that is of another machine. */
+  private axisFile(): HTMLElement | null {
+    const { axis, log } = state.chosen;
+    if (!axis) return null;
+    const place = h("div", {});
+    void editor(axis, `Text of ${axis}`).then((own) => put(place, own));
+    const shared = axis === AXIS && files("log").length > 1;
+    const part = async () => {
+      const own = await attempt(() => post<string>("/api/axis", { log }));
+      if (!own) return;
+      await attempt(refresh);
+      choose({ axis: own });
+      say(`${own} is begun for ${log} alone`);
+    };
+    return h("div", { class: "small" }, shared ? h("p", { class: "muted" }, `Read as ${axis} says, as other logs of this folder with such columns are. `, h("button", { class: "quiet", onclick: () => void part() }, "This log is of another machine")) : null, place);
   }
 
   private column(column: Column): HTMLElement {
     const item = h("li", {});
     const name = column.name || `column ${column.number}`;
-    const closed = () => put(item, h("button", { class: `column ${column.role ? "used" : ""}`, title: column.reason, onclick: () => open() }, h("span", { class: "name" }, name), h("span", { class: `role ${column.assumed ? "assumed" : ""}` }, column.role ? `${column.role}${column.unit ? ` · ${column.unit}` : ""}${column.assumed ? " (assumed)" : ""}` : "not used")));
+    const closed = () => put(item, h("button", { class: `column ${column.role ? "used" : ""}`, title: column.reason, onclick: () => open() }, h("span", { class: "name" }, name), column.range ? h("span", { class: "range" }, `${short(column.range[0])} … ${short(column.range[1])}`) : null, h("span", { class: `role ${column.assumed ? "assumed" : ""}` }, column.role ? `${column.role}${column.unit ? ` · ${column.unit}` : ""}${column.assumed ? " (assumed)" : ""}` : "not used")));
     const open = () => {
       let role = column.role ?? "force";
       // `A, scale 96 N/A, sign inverted` as it was understood.
@@ -245,7 +282,7 @@ export class LogView {
   }
 
   private async correct(what: Record<string, unknown>): Promise<void> {
-    const axis = state.chosen.axis ?? AXIS;
+    const axis = axisToWrite();
     const changes = await attempt(() => post<string[]>("/api/correct", { log: state.chosen.log, axis, ...what }));
     if (!changes) return;
     say(`${axis}: ${changes.join("; ") || "as it was"}`);

@@ -16,7 +16,8 @@ interface Metric { name: string; unit: string; mean: number; reduction_percent: 
 interface Row { path: string; controller: string; compensator: string; parameters: string; coupled: boolean; metrics: Metric[] }
 interface OnContour { unit: string; plane: PlaneData; runs: { name: string; time: number[]; deviation: number[] }[] }
 interface Table { from: number | null; to: number | null; channels: Channel[]; runs: string[] }
-interface StudyFile { results: Row[]; warnings: { code: string; message: string }[] }
+interface Promised { path: string; controller: string; compensator: string; left90_percent: [number, number]; draws: number; gain: number }
+interface StudyFile { promise?: Promised[]; results: Row[]; warnings: { code: string; message: string }[] }
 
 export class StudyView {
   readonly element = h("div", { class: "view study" });
@@ -35,6 +36,8 @@ export class StudyView {
   private shown = "";
   private editing = "";
   private begins = false;
+  /** What a study is begun of, while it is chosen. */
+  private beginsOf: { model: string | null; second: string | null; name: string } | null = null;
 
   constructor() {
     put(this.element, h("div", { class: "head" }, h("h2", {}, "Study"), h("span", { class: "muted" }, "the axis with and without compensation, simulated")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.tried.element, this.work, this.found)), this.command.element);
@@ -109,14 +112,15 @@ export class StudyView {
   /** What a study is begun of: a model, or two along a circle. */
   private beginning(file: string): HTMLElement[] {
     const models = files("model").map((own) => own.name);
-    const asked = { model: models.find((name) => name === `${state.chosen.result}/model.toml`) ?? models[0] ?? null, second: null as string | null, name: file };
+    const usual = models.find((name) => name === `${state.chosen.result}/model.toml`) ?? models[0] ?? null;
+    const asked = (this.beginsOf ??= { model: usual, second: null, name: file });
     const show = () => this.command.of(asked, "/api/study/command");
     const of = (names: string[]) => names.map((name): [string, string] => [name, name]);
     const name = h("input", { type: "text", value: asked.name, spellcheck: "false", oninput: () => { asked.name = name.value.trim(); show(); } });
     show();
     return [
       field("Axis", choice([...of(models), ["", "a known one, a linear motor"]], asked.model ?? "", (value) => { asked.model = value || null; if (!value) asked.second = null; show(); })),
-      models.length ? field("Second axis, y", choice([["", "none: one axis by itself"], ...of(models)], "", (value) => { asked.second = value || null; show(); }), "It may be the same model. Both go along a circle; radius and feed are in the text of the study.") : null,
+      models.length ? field("Second axis, y", choice([["", "none: one axis by itself"], ...of(models)], asked.second ?? "", (value) => { asked.second = value || null; show(); }), "It may be the same model. Both go along a circle; radius and feed are in the text of the study.") : null,
       field("Study file", name),
       h("button", { class: "primary wide", onclick: () => void this.start(asked) }, "Begin"),
     ].filter((own) => own !== null);
@@ -126,7 +130,7 @@ export class StudyView {
     await attempt(async () => {
       await post("/api/study", asked);
       say(`${asked.name} is begun`);
-      this.begins = false;
+      [this.begins, this.beginsOf] = [false, null];
       await refresh();
       this.pick(asked.name);
     });
@@ -155,6 +159,7 @@ export class StudyView {
     put(
       this.found,
       h("div", { class: "row" }, h("button", { onclick: () => void attempt(() => open(`${this.out}/report.html`, "show")) }, "Full report"), h("button", { class: "quiet", onclick: () => void attempt(() => open(this.out, "zip")) }, "Download as zip")),
+      promised(read.promise ?? []),
       results(read),
       h("div", { class: "runs" }),
       job ? printed(job) : null,
@@ -204,6 +209,19 @@ export class StudyView {
     this.deviation.draw(drawn.runs.map((own) => ({ name: own.name, x: own.time, y: own.deviation })), drawn.unit);
     return h("div", { class: "maps" }, plane.element, this.deviation.element);
   }
+}
+
+/** What of the largest error may be left on the machine. */
+function promised(all: Promised[]): HTMLElement | null {
+  if (!all.length) return null;
+  const row = (own: Promised) => h("tr", {}, h("th", { scope: "row" }, own.path), h("td", {}, own.controller), h("td", {}, own.compensator), h("td", { class: "number strong" }, `${short(own.left90_percent[0])} … ${short(own.left90_percent[1])} %`));
+  return h(
+    "table",
+    {},
+    h("caption", {}, `What may be promised: how much of the largest error is left, 90 % interval of ${all[0]!.draws} draws of what the identification leaves open`),
+    h("thead", {}, h("tr", {}, ...["path", "controller", "compensation", "left"].map((text) => h("th", { scope: "col" }, text)))),
+    h("tbody", {}, ...all.map(row)),
+  );
 }
 
 function results(file: StudyFile): HTMLElement {

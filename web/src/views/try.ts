@@ -155,7 +155,7 @@ export class Try {
     });
     slider.value = String(Math.round((STEPS * (now - knob.low)) / (knob.high - knob.low)));
     const together = knob.elements > 1 ? h("span", { class: "muted", title: "It moves all elements of the law together; each keeps its share." }, ` of ${knob.elements} elements`) : null;
-    const item = h("div", { class: knob.name in this.values[axis] ? "knob moved" : "knob" }, h("span", {}, label, " ", h("span", { class: "symbol" }, knob.symbol), together, " ", RANGES[knob.range] ? h("span", { class: "tag warn", title: WHY[knob.range] }, RANGES[knob.range]) : null), output, slider);
+    const item = h("div", { class: knob.name in this.values[axis] ? "knob moved" : "knob" }, h("span", {}, label, " ", h("span", { class: "symbol" }, knob.symbol), together, " ", RANGES[knob.range] ? h("span", { class: "tag warn", title: WHY[knob.range] }, RANGES[knob.range]) : null), output, slider, h("span", { class: "end" }, short(knob.low)), h("span", { class: "end" }, short(knob.high)));
     slider.addEventListener("input", () => {
       const value = knob.low + ((knob.high - knob.low) * slider.valueAsNumber) / STEPS;
       this.values[axis][knob.name] = value;

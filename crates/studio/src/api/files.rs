@@ -2,6 +2,7 @@
 
 use super::{Answer, App, blocking};
 use crate::asked::Words;
+use crate::named::read_as;
 use crate::refused::Refused;
 use crate::workspace::kind_of_file;
 use axum::Json;
@@ -77,30 +78,18 @@ pub async fn write(State(shared): App, Json(asked): Json<Written>) -> Answer<()>
 
 /// Refuses a text that the engine could not read, with its words.
 fn readable(path: &Path, text: &str) -> Result<(), Refused> {
-    let name = path
-        .file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .to_lowercase();
-    if name.contains("model") {
-        ModelFile::parse(text)?;
-    } else if name.contains("study") {
-        // It names files beside it, so it is read where it will be.
-        let beside = tempfile::Builder::new()
-            .prefix(crate::workspace::UNFINISHED)
-            .tempfile_in(
-                path.parent()
-                    .filter(|dir| dir.is_dir())
-                    .unwrap_or(Path::new(".")),
-            )?;
-        std::fs::write(beside.path(), text)?;
-        Study::read(beside.path()).map_err(|e| {
-            let said = e.to_string();
-            let own = beside.path().display().to_string();
-            Refused::bad(said.replace(&own, &path.display().to_string()))
-        })?;
-    } else if !name.contains("plan") {
-        Axis::parse(text)?;
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    match kind_of_file(&name) {
+        "model" => {
+            ModelFile::parse(text)?;
+        }
+        "study" => {
+            read_as(path, text, |beside| Study::read(beside))?;
+        }
+        "axis" => {
+            Axis::parse(text)?;
+        }
+        _ => {}
     }
     Ok(())
 }

@@ -1,13 +1,14 @@
 //! Columns of a log, and what a user corrects of them: written into the axis file, as he would type it.
 
-use super::Column;
+use super::{Column, Logs};
+use crate::named::read_as;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
 use serde::Deserialize;
 use std::path::Path;
 use stiction::Axis;
 use stiction::commands::axis::{Addition, extend};
-use stiction::commands::{check, recording, table, visible, write_atomic};
+use stiction::commands::{check, load, recording, table, visible, write_atomic};
 
 /// Columns that are told of.
 const MOST: usize = 256;
@@ -18,12 +19,13 @@ const MOST: usize = 256;
 pub struct Correction {
     pub log: String,
     pub axis: String,
-    /// `time`, `position`, `force`; `kind` for the kind of motion.
+    /// `time`, `position`, `force`; `kind` for the kind of motion, `rate` for that of a log without time.
     pub role: String,
     /// Number of the column, from 1.
     pub column: Option<usize>,
     /// The name of the column where no other column has it.
     pub name: Option<String>,
+    /// The unit of the column; the kind or the rate itself.
     pub unit: Option<String>,
     pub scale: Option<String>,
     #[serde(default)]
@@ -43,6 +45,7 @@ pub fn understood(column: &recording::Understood) -> Column {
         unit: column.unit.clone(),
         reason: column.reason.clone(),
         assumed: column.assumed.is_some(),
+        range: None,
     }
 }
 
@@ -69,9 +72,39 @@ pub fn unread(path: &Path, axis: &Axis) -> Result<Vec<Column>, Refused> {
                 None => "not clear".into(),
             },
             assumed: false,
+            range: range(&column.values),
         }
     };
     Ok(columns.map(one).collect())
+}
+
+/// Refuses a number that makes a force of a current or voltage without saying of which unit.
+fn has_unit(scale: &str, unit: &str) -> Result<(), Refused> {
+    let electric = ["A", "mA", "V", "mV"].contains(&unit);
+    match electric && scale.parse::<f64>().is_ok() {
+        true => Err(Refused::bad(format!(
+            "times {scale}: of which unit? Write it too, such as {scale} N/{unit} or {scale} N*m/{unit}"
+        ))),
+        false => Ok(()),
+    }
+}
+
+/// Lowest and highest of the numbers.
+fn range(values: &[f64]) -> Option<(f64, f64)> {
+    let finite = values.iter().filter(|value| value.is_finite());
+    finite.fold(None, |range, value| {
+        let (low, high) = range.unwrap_or((*value, *value));
+        Some((low.min(*value), high.max(*value)))
+    })
+}
+
+/// What a role that is no column is called in an axis file.
+fn key(role: &str) -> Option<&'static [&'static str]> {
+    match role {
+        "kind" => Some(&["kind"]),
+        "rate" => Some(&["rate"]),
+        _ => None,
+    }
 }
 
 /// Names under which a role stands in an axis file.
@@ -91,7 +124,12 @@ fn names(role: &str) -> Option<&'static [&'static str]> {
 }
 
 /// Writes a correction into the axis file, which is begun as `stiction check --init` begins it where there is none; what changed.
-pub fn correct(workspace: &Workspace, asked: &Correction) -> Result<Vec<String>, Refused> {
+/// One with which the log would not be understood any more is not written.
+pub fn correct(
+    logs: &Logs,
+    workspace: &Workspace,
+    asked: &Correction,
+) -> Result<Vec<String>, Refused> {
     let log = workspace.file(&asked.log)?;
     let file = workspace.place(&asked.axis)?;
     let text = match file.is_file() {
@@ -99,10 +137,10 @@ pub fn correct(workspace: &Workspace, asked: &Correction) -> Result<Vec<String>,
         false => check::init(&log, None)?.text,
     };
     let quoted = |text: &str| serde_json::Value::from(text).to_string();
-    let addition = if asked.role == "kind" {
+    let addition = if let Some(names) = key(&asked.role) {
         Addition {
             table: "",
-            names: &["kind"],
+            names,
             value: quoted(asked.unit.as_deref().unwrap_or_default()),
             why: "chosen on the page".into(),
             replaces: true,
@@ -116,6 +154,9 @@ pub fn correct(workspace: &Workspace, asked: &Correction) -> Result<Vec<String>,
             _ => return Err(Refused::bad("which column?")),
         };
         let mut value = format!("{{ column = {selector}");
+        if let (Some(unit), Some(scale)) = (&asked.unit, &asked.scale) {
+            has_unit(scale.trim(), unit.trim())?;
+        }
         for (key, given) in [("unit", &asked.unit), ("scale", &asked.scale)] {
             if let Some(given) = given.as_ref().filter(|given| !given.trim().is_empty()) {
                 value.push_str(&format!(", {key} = {}", quoted(given.trim())));
@@ -140,9 +181,10 @@ pub fn correct(workspace: &Workspace, asked: &Correction) -> Result<Vec<String>,
         .any(|change| change.starts_with("to write by hand"))
     {
         // What is wrong with it is said best by the reader of the file.
-        let alone = match asked.role.as_str() {
-            "kind" => format!("kind = {value}\n"),
-            role => format!("[columns]\n{role} = {value}\n"),
+        let role = &asked.role;
+        let alone = match key(role) {
+            Some(_) => format!("{role} = {value}\n"),
+            None => format!("[columns]\n{role} = {value}\n"),
         };
         Axis::parse(&alone)?;
         return Err(Refused::conflict(format!(
@@ -150,6 +192,13 @@ pub fn correct(workspace: &Workspace, asked: &Correction) -> Result<Vec<String>,
             asked.axis,
             changes.join("; ")
         )));
+    }
+    let axis = file.is_file().then_some(asked.axis.as_str());
+    let before = logs.log(workspace, &asked.log, axis);
+    if before.is_ok_and(|found| found.about.refused.is_none()) {
+        read_as(&file, &next, |beside| -> Result<_, stiction::Error> {
+            load(&log, &Axis::read(beside)?.of_whole(&log))
+        })?;
     }
     write_atomic(&file, visible::toml(next).as_bytes())?;
     Ok(changes)

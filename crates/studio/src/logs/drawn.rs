@@ -57,14 +57,18 @@ pub const MAPPED: [&str; 3] = ["velocity", "force", "position"];
 /// Most channels of a map.
 const MOST_MAPPED: usize = 16;
 
-/// Channels of a stretch, every n-th sample of it; what the log lacks is not a number.
+/// A step of the time that is so many times the usual one is a gap.
+const GAP: f64 = 10.0;
+
+/// Channels of a stretch, every n-th sample of it; what the log lacks, and a point at each gap of the time, is not a number.
 ///
 /// Two 32-bit numbers: how many points there are, and how many samples apart they are. Then the columns as 64-bit floats.
 pub fn map(series: &Series, names: &[&str], (from, to): (f64, f64)) -> Vec<u8> {
     let start = series.time.partition_point(|t| *t < from);
     let end = series.time.partition_point(|t| *t <= to).max(start);
     let step = (end - start).div_ceil(MOST_POINTS).max(1);
-    let count = (end - start).div_ceil(step);
+    let points = points(series.time.get(start..end).unwrap_or(&[]), step);
+    let count = points.len();
     let names = &names[..names.len().min(MOST_MAPPED)];
     let mut out = Vec::with_capacity(8 + 8 * names.len() * count);
     for number in [count, step] {
@@ -72,10 +76,31 @@ pub fn map(series: &Series, names: &[&str], (from, to): (f64, f64)) -> Vec<u8> {
     }
     for name in names {
         let channel = series.channel(name);
-        for at in (start..end).step_by(step) {
-            let value = channel.and_then(|own| own.values.get(at));
+        for point in &points {
+            let at = point.map(|point| start + point);
+            let value = channel.and_then(|own| own.values.get(at?));
             out.extend(value.copied().unwrap_or(f64::NAN).to_le_bytes());
         }
+    }
+    out
+}
+
+/// Every n-th of some samples, with nothing between two that have a gap between them.
+fn points(time: &[f64], step: usize) -> Vec<Option<usize>> {
+    let all: Vec<usize> = (0..time.len()).step_by(step).collect();
+    let far = |pair: &[usize]| time[pair[1]] - time[pair[0]];
+    let mut steps: Vec<f64> = all.windows(2).map(far).collect();
+    let middle = steps.len() / 2;
+    let usual = match steps.is_empty() {
+        true => f64::INFINITY,
+        false => *steps.select_nth_unstable_by(middle, f64::total_cmp).1,
+    };
+    let mut out = Vec::with_capacity(all.len());
+    for (k, at) in all.iter().enumerate() {
+        if k > 0 && time[*at] - time[all[k - 1]] > GAP * usual {
+            out.push(None);
+        }
+        out.push(Some(*at));
     }
     out
 }
@@ -99,6 +124,18 @@ mod tests {
             time: (0..samples).map(|k| 1e-3 * k as f64).collect(),
             channels: vec![channel("position"), channel("force")],
         }
+    }
+
+    #[test]
+    fn a_gap_of_the_time_breaks_a_map() {
+        let mut series = series(1000);
+        series.time[500..].iter_mut().for_each(|t| *t += 0.5);
+        let points = map(&series, &["position"], (0.0, 2.0));
+        let count = u32::from_le_bytes(points[..4].try_into().unwrap()) as usize;
+        let missing: Vec<usize> = (0..count)
+            .filter(|k| number(&points, 8 + 8 * k).is_nan())
+            .collect();
+        assert_eq!((count, missing), (1001, vec![500]));
     }
 
     fn number(bytes: &[u8], at: usize) -> f64 {

@@ -122,6 +122,119 @@ fn columns_that_are_not_clear_are_decided_by_a_click() {
 }
 
 #[test]
+fn a_log_of_another_machine_has_an_axis_file_of_its_own() {
+    let served = open();
+    let of = |log: &str| {
+        served
+            .ask("GET", &format!("/api/axis?log={log}"), "")
+            .json()
+    };
+    let which =
+        |axis: Option<&str>, not: Option<&str>| serde_json::json!({ "axis": axis, "not": not });
+    log(&served, "run.csv");
+    log(&served, "again.csv");
+    let rows: String = (0..3000)
+        .map(|k| {
+            let t = 1e-3 * f64::from(k);
+            format!("{t},{},{}\n", 50.0 * (9.0 * t).sin(), (9.0 * t).cos())
+        })
+        .collect();
+    let other = format!("t [s],phi [deg],torque [N*m]\n{rows}");
+    std::fs::write(served.path().join("other.csv"), other).unwrap();
+    assert_eq!(of("run.csv"), which(None, None));
+    let correct = |log: &str, axis: &str, rest: &str| {
+        let asked = format!("{{\"log\":\"{log}\",\"axis\":\"{axis}\",{rest}}}");
+        served.ask("POST", "/api/correct", &asked)
+    };
+    let mm = "\"role\":\"position\",\"column\":2,\"name\":\"x [mm]\",\"unit\":\"cm\"";
+    assert_eq!(correct("run.csv", "axis.toml", mm).status, 200);
+    // A log with the same columns is taken for one of the same machine, one without them is not.
+    assert_eq!(of("run.csv"), which(Some("axis.toml"), None));
+    assert_eq!(of("again.csv"), which(Some("axis.toml"), None));
+    assert_eq!(of("other.csv"), which(None, Some("axis.toml")));
+    let first = std::fs::read_to_string(served.path().join("axis.toml")).unwrap();
+    let rad = "\"role\":\"position\",\"column\":2,\"name\":\"phi [deg]\",\"unit\":\"rad\"";
+    assert_eq!(correct("other.csv", "other.axis.toml", rad).status, 200);
+    assert_eq!(of("other.csv"), which(Some("other.axis.toml"), None));
+    // One with the same columns is parted from the others by hand.
+    let begun = served.ask("POST", "/api/axis", "{\"log\":\"again.csv\"}");
+    assert_eq!(begun.json(), "again.axis.toml");
+    assert_eq!(of("again.csv"), which(Some("again.axis.toml"), None));
+    let twice = served.ask("POST", "/api/axis", "{\"log\":\"again.csv\"}");
+    assert_eq!(twice.status, 409, "{}", twice.text());
+    let after = std::fs::read_to_string(served.path().join("axis.toml")).unwrap();
+    assert_eq!(after, first);
+    // Marks list a log, whatever the axis file is called.
+    let asked = "{\"log\":\"run.csv\",\"axis\":\"a slide.toml\",\"as\":\"crop\",\"from\":1.0,\"to\":6.0,\"seconds\":7.999}";
+    assert_eq!(served.ask("POST", "/api/mark", asked).status, 200);
+    assert_eq!(of("run.csv"), which(Some("a slide.toml"), None));
+}
+
+#[test]
+fn a_log_without_time_takes_a_rate() {
+    let served = open();
+    let rows: String = (0..3000)
+        .map(|k| {
+            let t = 1e-3 * f64::from(k);
+            format!("{},{}\n", 50.0 * (9.0 * t).sin(), 3.0 * (9.0 * t).cos())
+        })
+        .collect();
+    let text = format!("x [mm],F [N]\n{rows}");
+    std::fs::write(served.path().join("run.csv"), text).unwrap();
+    let about = served.ask("GET", "/api/log?name=run.csv", "").json();
+    assert!(about["refused"].is_string(), "{about}");
+    // What the columns hold tells them apart.
+    let range = &about["columns"][1]["range"];
+    assert_eq!(range[0].as_f64().unwrap().round(), -3.0, "{about}");
+    let rate = |rate: &str| {
+        let asked = format!(
+            "{{\"log\":\"run.csv\",\"axis\":\"axis.toml\",\"role\":\"rate\",\"unit\":\"{rate}\"}}"
+        );
+        served.ask("POST", "/api/correct", &asked)
+    };
+    let refused = rate("often");
+    assert_eq!(refused.status, 422, "{}", refused.text());
+    assert!(refused.text().contains("often"), "{}", refused.text());
+    assert_eq!(rate("1 kHz").status, 200);
+    let about = served
+        .ask("GET", "/api/log?name=run.csv&axis=axis.toml", "")
+        .json();
+    assert_eq!(about["rate_hz"], 1000.0, "{about}");
+    assert_eq!(rate("500 Hz").status, 200);
+    let axis = std::fs::read_to_string(served.path().join("axis.toml")).unwrap();
+    assert!(axis.contains("rate = \"500 Hz\""), "{axis}");
+}
+
+#[test]
+fn a_correction_that_spoils_a_log_is_not_written() {
+    let served = open();
+    log(&served, "run.csv");
+    let correct = |role: &str, column: usize, rest: &str| {
+        let asked = format!(
+            "{{\"log\":\"run.csv\",\"axis\":\"axis.toml\",\"role\":\"{role}\",\"column\":{column},{rest}}}"
+        );
+        served.ask("POST", "/api/correct", &asked)
+    };
+    assert_eq!(correct("position", 2, "\"unit\":\"cm\"").status, 200);
+    let before = std::fs::read_to_string(served.path().join("axis.toml")).unwrap();
+    for (role, column, rest, said) in [
+        ("position", 2, "\"unit\":\"V\"", "axis.toml"),
+        ("force", 3, "\"unit\":\"A\",\"scale\":\"96\"", "96 N/A"),
+        ("velocity", 9, "\"unit\":\"m/s\"", "column 9"),
+    ] {
+        let refused = correct(role, column, rest);
+        assert!(refused.status >= 400, "{role}: {}", refused.text());
+        assert!(refused.text().contains(said), "{role}: {}", refused.text());
+        let now = std::fs::read_to_string(served.path().join("axis.toml")).unwrap();
+        assert_eq!(now, before);
+    }
+    assert_eq!(
+        correct("force", 3, "\"unit\":\"A\",\"scale\":\"96 N/A\"").status,
+        200
+    );
+}
+
+#[test]
 fn work_is_seen_stopped_and_found_again() {
     let served = open();
     log(&served, "run.csv");
