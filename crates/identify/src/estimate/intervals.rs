@@ -12,6 +12,7 @@ use crate::estimate::curve::{
 use crate::estimate::delayed::flag_what_an_unknown_delay_takes_along;
 use crate::estimate::filtered::flag_what_a_filter_hides;
 use crate::estimate::fitted::FittedLaw;
+use crate::estimate::least::no_surer_than_any_log;
 use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::sliding::flag_what_the_motion_hides;
 use crate::estimate::{Estimate, advice, levels, optimal, pressed};
@@ -70,6 +71,7 @@ pub fn intervals(
         _ => {}
     }
     let fitted = &mut estimate.fitted;
+    no_surer_than_any_log(fitted);
     if let Some(swing) = fitted.misfit.as_ref().and_then(Misfit::swing) {
         reach_as_far_as(swing, &mut fitted.parameters);
     }
