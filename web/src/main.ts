@@ -41,7 +41,7 @@ async function take(dropped: File[]): Promise<void> {
       await refresh();
       put(document.getElementById("said")!);
       if (files("log").some((own) => own.name === file.name)) await chooseLog(file.name, { view: "log" });
-      else say(`${file.name} is in the folder`);
+      else say(`${file.name} is in the folder. It is not listed as a log: ${/\.(csv|json)$/i.test(file.name) ? "stiction writes files of that name, so give a log another one" : "its ending is not one of a log"}.`);
     });
   }
   picker.value = "";
@@ -71,6 +71,11 @@ function drawSide(): void {
       ? h("ul", { class: "files" }, ...files("result").map((file) => h("li", {}, h("button", { "aria-current": file.name === chosen.result ? "true" : null, title: file.name, onclick: () => choose({ result: file.name, view: "identify" }) }, h("span", { class: "name" }, file.name)))))
       : h("p", { class: "muted" }, "None yet."),
   );
+}
+
+/** The view in which work of a kind is begun. */
+function viewOf(kind: string): View {
+  return ({ check: "log", simulate: "study" } as Record<string, View>)[kind] ?? (kind as View);
 }
 
 let shown: Shown | null = null;
@@ -112,7 +117,8 @@ async function start(): Promise<void> {
     document.body.classList.remove("dragging");
     void take([...(event.dataTransfer?.files ?? [])]);
   });
-  addEventListener("hashchange", () => { readAddress(); choose({}); });
+  // Back and forth, or an address that was typed.
+  addEventListener("popstate", () => { readAddress(); choose({}); });
   // Files may be written by other programs meanwhile.
   addEventListener("focus", () => void attempt(refresh));
   readAddress();
@@ -131,6 +137,7 @@ async function start(): Promise<void> {
       state.jobs.set(job.id, job);
       if (["done", "failed"].includes(job.state) && before && before.state !== job.state && !ended.has(job.id)) {
         ended.add(job.id);
+        if (state.chosen.view !== viewOf(job.kind)) say(`${job.kind} ${job.about}: ${job.state === "failed" ? `not done. ${job.text}` : "done"}`, job.state === "failed" ? "error" : "note");
         void attempt(refresh);
       }
       onJobs();

@@ -40,10 +40,7 @@ export function readAddress(): void {
   const given = new URLSearchParams(location.hash.slice(1));
   const view = given.get("view") as View | null;
   state.chosen.view = VIEWS.some(([own]) => own === view) ? view! : "log";
-  for (const key of ["log", "axis", "result"] as const) {
-    const name = given.get(key);
-    if (name !== null) state.chosen[key] = name || null;
-  }
+  for (const key of ["log", "axis", "result"] as const) state.chosen[key] = given.get(key) || null;
   settle();
 }
 
@@ -56,13 +53,15 @@ function settle(): void {
   chosen.result ??= files("result").sort((a, b) => b.modified - a.modified)[0]?.name ?? null;
 }
 
-/** Chooses something, and shows it in the address. */
+/** Chooses something, and shows it in the address; another view or file can be gone back from. */
 export function choose(what: Partial<Chosen>): void {
+  const before = { ...state.chosen };
   Object.assign(state.chosen, what);
   settle();
   const out = new URLSearchParams();
   for (const [key, value] of Object.entries(state.chosen)) if (value) out.set(key, value);
-  history.replaceState(null, "", `#${out}`);
+  const moved = (["view", "log", "result"] as const).some((key) => what[key] !== undefined && state.chosen[key] !== before[key]);
+  history[moved ? "pushState" : "replaceState"](null, "", `#${out}`);
   changed("chosen");
 }
 
@@ -98,9 +97,14 @@ export async function chooseLog(log: string, what: Partial<Chosen> = {}): Promis
   if (found?.not) say(`${found.not} names columns that ${log} does not have, so the log is read as it is found. What you correct goes to ${axisToWrite()}.`);
 }
 
+/** When a file was changed last, ms; 0 where there is none. */
+export function changedAt(name: string): number {
+  return state.workspace.files.find((file) => file.name === name)?.modified ?? 0;
+}
+
 /** Reads what is in the folder. */
 export async function refresh(): Promise<void> {
-  const had = exists(AXIS);
+  const had = !state.workspace.version || exists(AXIS);
   state.workspace = await get<Workspace>("/api/workspace");
   // The axis file of the usual name is used once it is there.
   if (!had && exists(AXIS)) state.chosen.axis ??= AXIS;

@@ -178,7 +178,7 @@ try {
   const first = readFileSync(join(space, "axis.toml"), "utf8");
   writeFileSync(join(folder, "slide.csv"), `x [mm],F [N]\n${Array.from({ length: 4000 }, (_, k) => `${(20 * Math.sin(0.01 * k)).toFixed(4)},${(30 * Math.sign(Math.cos(0.01 * k)) - 5 * Math.sin(0.01 * k)).toFixed(4)}`).join("\n")}\n`);
   await page.locator("input[type=file]").setInputFiles(join(folder, "slide.csv"));
-  await page.getByText("Say which column is what").waitFor();
+  await page.getByText("Something has to be said of this log").waitFor();
   await page.getByText(/so the log is read as it is found/).waitFor();
   await page.getByText(/it is written to slide.axis.toml/).waitFor();
   await page.getByLabel("Sample rate").fill("1 kHz");
@@ -291,7 +291,7 @@ try {
   };
   if (became === "runs") await stop.click({ delay: 150, timeout: 5_000 }).catch(fails);
   if (await stop.isVisible()) equal(await page.locator(".working").innerText().then((text) => text.includes("plan axis.toml")), true, "the work is seen beside the files");
-  await page.getByText("Set points as CSV").or(page.getByText("Stopped: what was found until then")).first().waitFor({ timeout: 240_000 });
+  await page.getByText("Set points as CSV").or(page.getByText("Stopped: what was found until then")).or(page.getByText("Stopped before anything was found")).first().waitFor({ timeout: 240_000 });
   await look("plan");
   passed(`planned: ${plan}`);
 

@@ -188,7 +188,7 @@ async fn table(State(shared): App, Query(asked): Query<Table>) -> Answer<serde_j
 
 async fn correct(State(shared): App, Json(asked): Json<Correction>) -> Answer<Vec<String>> {
     let changes = read(shared, move |shared| {
-        logs::correct(&shared.logs, &shared.workspace, &asked)
+        shared.alone(|| logs::correct(&shared.logs, &shared.workspace, &asked))
     });
     changes.await.map(Json)
 }

@@ -5,12 +5,13 @@ use crate::guard::{self, Keys};
 use crate::jobs::Jobs;
 use crate::listen;
 use crate::logs::Logs;
+use crate::refused::Refused;
 use crate::tickets::Tickets;
 use crate::workspace::Workspace;
 use axum::middleware;
 use std::net::{Ipv4Addr, SocketAddr};
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
@@ -33,6 +34,17 @@ pub struct Shared {
     pub requests: Semaphore,
     pub uploads: Semaphore,
     pub readers: Semaphore,
+    /// Held while a text file is read and written again, so that of two changes at once none is lost.
+    pub writing: Mutex<()>,
+}
+
+impl Shared {
+    /// Reads a text file and writes it again while nobody else does.
+    pub fn alone<T>(&self, work: impl FnOnce() -> Result<T, Refused>) -> Result<T, Refused> {
+        // Who panicked has written the whole file or nothing of it.
+        let _one = self.writing.lock().unwrap_or_else(PoisonError::into_inner);
+        work()
+    }
 }
 
 /// A folder that is going to be served.
@@ -109,6 +121,7 @@ impl Studio {
             requests: Semaphore::new(REQUESTS),
             uploads: Semaphore::new(UPLOADS),
             readers: Semaphore::new(READERS),
+            writing: Mutex::default(),
         };
         Ok(Served {
             listener,

@@ -6,6 +6,7 @@ use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
+use stiction::Axis;
 
 /// Most folders below each other.
 const DEEPEST: usize = 6;
@@ -106,6 +107,23 @@ impl Workspace {
             Ok(about) if about.is_dir() => Ok(path),
             _ => Err(Refused::missing(format!("{name}: no such folder"))),
         }
+    }
+
+    /// The path of an axis file, which need not be there yet, and its text, if it is.
+    pub fn axis(&self, name: &str) -> Result<(PathBuf, Option<String>), Refused> {
+        if kind_of_file(name) != "axis" {
+            return Err(Refused::bad(format!(
+                "{name}: an axis file ends in .toml, without model, study or plan in its name"
+            )));
+        }
+        let path = self.place(name)?;
+        if fs::symlink_metadata(&path).is_err() {
+            return Ok((path, None));
+        }
+        // What the engine cannot read is not written over, and its words say what is wrong.
+        Axis::read(self.file(name)?)?;
+        let text = fs::read_to_string(&path)?;
+        Ok((path, Some(text)))
     }
 
     /// Refuses a path that a file of the workspace names and that lies outside of it.

@@ -4,7 +4,8 @@ import { get, open } from "../api";
 import { commandLine } from "../command";
 import { attempt, choice, field, h, put } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
-import { exists, files, onChange, state } from "../state";
+import { older, readResult, whence } from "../origin";
+import { changedAt, exists, files, onChange, state } from "../state";
 
 const WORDS: Record<string, string> = {
   c: "C99", cpp: "C++ for Arduino and others", ros2: "C++ as a ROS 2 node's class", st: "Structured Text (IEC 61131-3)", tcpou: "TwinCAT 3 objects", plcopen: "PLCopen XML",
@@ -19,6 +20,7 @@ export class ExportView {
   private readonly command = commandLine();
   private readonly form = h("section", { class: "form", "aria-label": "What is exported" });
   private readonly found = h("section", { class: "found", "aria-label": "The files", "aria-live": "polite" });
+  private readonly whence = h("div", {});
   private readonly stop: () => void;
   private targets: { name: string; simulated: boolean }[] = [];
   private model = "";
@@ -32,7 +34,7 @@ export class ExportView {
   private out = "";
 
   constructor() {
-    put(this.element, h("div", { class: "head" }, h("h2", {}, "Export"), h("span", { class: "muted" }, "the compensator as code or numbers for a controller")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.found)), this.command.element);
+    put(this.element, h("div", { class: "head" }, h("h2", {}, "Export"), h("span", { class: "muted" }, "the compensator as code or numbers for a controller")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.whence, this.found)), this.command.element);
     const own = `${state.chosen.result}/model.toml`;
     this.model = exists(own) ? own : (files("model")[0]?.name ?? "");
     this.stop = onChange((reason) => {
@@ -61,6 +63,7 @@ export class ExportView {
       return;
     }
     if (!this.model) this.model = models[0]!.name;
+    void this.drawOrigin();
     const folder = this.model.includes("/") ? this.model.slice(0, this.model.lastIndexOf("/") + 1) : "";
     this.out = `${folder}${this.target}`;
     const again = () => this.command.of(this.asked());
@@ -88,6 +91,14 @@ export class ExportView {
     again();
   }
 
+  /** What the model is of, where it is that of a result. */
+  private async drawOrigin(): Promise<void> {
+    const { model } = this;
+    const folder = model.replace(/\/?[^/]*$/, "");
+    const own = exists(`${folder}/result.json`) ? await attempt(() => readResult(folder)) : undefined;
+    if (model === this.model) put(this.whence, ...(own ? whence(own, folder) : []));
+  }
+
   private drawFound(): void {
     const job = latest("export");
     if (!job) {
@@ -107,7 +118,8 @@ export class ExportView {
     put(
       this.found,
       h("div", { class: "row spread" }, h("h3", {}, folder), h("button", { class: "primary", onclick: () => void attempt(() => open(folder, "zip")) }, "Download as zip")),
-      exported.trustworthy ? h("div", { class: "banner good" }, h("strong", {}, "Every number may be relied on")) : h("div", { class: "banner warn" }, h("strong", {}, "The identification does not trust every number of this law")),
+      changedAt(job.about) > changedAt(`${folder}/${exported.written[0]}`) ? older("Older than its model", `${job.about} changed after these files were written. Export again.`) : null,
+      exported.trustworthy ? h("div", { class: `banner ${exported.warnings.length ? "warn" : "good"}` }, h("strong", {}, exported.warnings.length ? "May be used within what the warnings say" : "Every number may be relied on")) : h("div", { class: "banner warn" }, h("strong", {}, "The identification does not trust every number of this law")),
       exported.warnings.length ? h("ul", { class: "findings" }, ...exported.warnings.map((one) => h("li", { class: "warning" }, h("code", {}, one.code), h("span", {}, one.message)))) : h("p", { class: "muted" }, "No warnings."),
       h("ul", { class: "files" }, ...exported.written.map((name) => h("li", {}, h("button", { title: `Save ${name}`, onclick: () => void attempt(() => open(`${folder}/${name}`, "save")) }, h("span", { class: "name" }, name))))),
       printed(job),

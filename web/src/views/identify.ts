@@ -6,6 +6,7 @@ import { attempt, choice, field, h, put } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { PointMap, type Points } from "../map";
 import { short, unit } from "../numbers";
+import { isOf, ofAnother, readResult, whence, type Origin } from "../origin";
 import { choose, exists, files, nameOf, onChange, state, stem } from "../state";
 import { Trace } from "../trace";
 
@@ -26,8 +27,8 @@ const METHODS: [string, string][] = [
 
 interface Parameter { name: string; symbol: string; value: number; unit: string; std: number | null; ci95: [number | null, number | null] | null; identifiable: boolean; origin: string; reason: string; advice: string }
 interface Fit { signal: string; unit: string; rmse: number; relative_error_percent: number; r2: number | null; samples: number }
-interface Result {
-  law: string; asymmetric: boolean; method: string; inputs: { path: string; samples: number; part?: string | null }[]; axis: { file?: string };
+interface Result extends Origin {
+  law: string; asymmetric: boolean; method: string; inputs: { path: string; samples: number; part?: string | null }[];
   parameters: Parameter[]; fit: Fit; validation: (Fit & { path: string })[];
   trust: { trustworthy: boolean; reasons: string[]; cause?: Cause | null; constants: string[]; next: string; compensation: { friction_left_percent: number; judged_on: string } | null };
   laws?: { law: string; asymmetric: boolean; held_out_percent?: number; relative_error_percent?: number }[];
@@ -42,6 +43,9 @@ interface Drawable { from: number | null; to: number | null; channels: Channel[]
 /** Names of channels, or none where the model is drawn over what was measured. */
 interface Pairs { measured: [x: string, y: string]; model: [x: string, y: string] }
 interface Left { samples: number; rms: number; percent: number }
+
+/** Work that this page began, whose result is shown once it is there. */
+const ran = new Set<number>();
 
 export class IdentifyView {
   readonly element = h("div", { class: "view identify" });
@@ -61,9 +65,8 @@ export class IdentifyView {
   private drawn: { end(): void }[] = [];
   private shown = "";
   private readonly whence = h("div", {});
-  /** The result that is shown, and when it was identified. */
-  private origin: { of: Result; at: number } | null = null;
-  private ran = new Set<number>();
+  /** The result that is shown. */
+  private origin: { of: Result; folder: string } | null = null;
 
   constructor() {
     put(this.element, h("div", { class: "head" }, h("h2", {}, "Identify")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.work, this.found)), this.command.element);
@@ -122,7 +125,7 @@ export class IdentifyView {
   private async apart(out: HTMLInputElement, again: () => void): Promise<void> {
     const { log } = state.chosen;
     if (this.named || !log || !exists("result/result.json")) return;
-    const there = await attempt(() => read("result"));
+    const there = await attempt(() => readResult<Result>("result"));
     if (!there || this.named || log !== state.chosen.log) return;
     this.out = isOf(there, log) ? "result" : `result-${stem(log.replaceAll("/", "-"))}`;
     out.value = this.out;
@@ -131,7 +134,7 @@ export class IdentifyView {
 
   private async run(): Promise<void> {
     const id = await begin(this.asked());
-    if (id !== undefined) this.ran.add(id);
+    if (id !== undefined) ran.add(id);
   }
 
   private drawWork(): void {
@@ -145,7 +148,7 @@ export class IdentifyView {
       return;
     }
     put(this.work, job.state === "failed" ? printed(job) : null);
-    if (job.state === "done" && this.ran.delete(job.id) && job.folder) {
+    if (job.state === "done" && ran.delete(job.id) && job.folder) {
       const folder = job.folder;
       // The list of files may not have it yet.
       if (state.workspace.files.some((file) => file.name === folder)) choose({ result: folder });
@@ -170,8 +173,8 @@ export class IdentifyView {
       put(this.found, h("p", { class: "muted" }, "No result yet. Choose a log and press Identify; the defaults are meant to be right."));
       return;
     }
-    const own = await attempt(() => read(result));
-    const other = this.beside && this.beside !== result ? await attempt(() => read(this.beside)) : undefined;
+    const own = await attempt(() => readResult<Result>(result));
+    const other = this.beside && this.beside !== result ? await attempt(() => readResult<Result>(this.beside)) : undefined;
     if (!own || this.shown !== now) return;
     const others = files("result").filter((entry) => entry.name !== result);
     const compare = choice([["", "nothing"], ...others.map((entry): [string, string] => [entry.name, entry.name])], this.beside, (value) => { this.beside = value; void this.drawResult(); });
@@ -187,7 +190,7 @@ export class IdentifyView {
       other ? h("div", { class: "residual" }) : null,
       warnings(own),
     );
-    this.origin = { of: own, at: file?.modified ?? 0 };
+    this.origin = { of: own, folder: result };
     this.drawOrigin();
     const places = [...this.found.querySelectorAll(".residual")];
     const both = [[result, own], [this.beside, other]] as const;
@@ -199,7 +202,7 @@ export class IdentifyView {
 
   /** What the result is of, which may change after it. */
   private drawOrigin(): void {
-    if (this.origin) put(this.whence, ...whence(this.origin.of, this.origin.at));
+    if (this.origin) put(this.whence, ...whence(this.origin.of, this.origin.folder), ofAnother(this.origin.of));
   }
 
   /** Measured, model and what is left over the time, and what is left in a stretch that is brushed. */
@@ -255,27 +258,6 @@ export class IdentifyView {
     put(place, h("h3", {}, several ? `Measured, model and what is left: ${result}` : "Measured, model and what is left"), trace.element, said, h("div", { class: "maps" }, ...maps.map(([map]) => map.element)));
     await brushed(null);
   }
-}
-
-async function read(name: string): Promise<Result> {
-  return JSON.parse((await get<{ text: string }>("/api/text", { name: `${name}/result.json` })).text) as Result;
-}
-
-function isOf(own: Result, log: string): boolean {
-  return own.inputs.some((input) => nameOf(input.path) === log);
-}
-
-/** What a result is of, and what of that was changed after it. */
-function whence(own: Result, identified: number): (HTMLElement | null)[] {
-  const { log } = state.chosen;
-  const inputs = [...new Set(own.inputs.map((input) => nameOf(input.path)))];
-  const axis = own.axis.file ? nameOf(own.axis.file) : null;
-  const later = [...inputs, axis].filter((name) => state.workspace.files.some((file) => file.name === name && file.modified > identified));
-  return [
-    h("p", { class: "muted" }, `Of ${inputs.join(", ")}${axis ? `, read as ${axis} says` : ", read as found"}.`),
-    later.length ? h("div", { class: "banner warn" }, h("strong", {}, "Older than what it is of"), h("p", {}, `${later.join(", ")} changed after this was identified. Identify again to see what that makes of it.`)) : null,
-    log && !isOf(own, log) ? h("div", { class: "banner warn" }, h("strong", {}, `Not of ${log}`), h("p", {}, "This is the result of another log than the one that is chosen.")) : null,
-  ];
 }
 
 function banner(own: Result): HTMLElement {
@@ -334,15 +316,15 @@ function parameters(own: Result, other: Result | undefined, beside: string): HTM
       h("td", {}, unit(p.unit)),
       h("td", { class: "number" }, interval(p)),
       h("td", {}, open ? h("span", { class: "tag warn", title: `${p.reason} ${p.advice}`.trim() }, "open") : p.origin === "given" ? "" : own.trust.constants.includes(p.name) ? h("span", { class: "tag good" }, "constant") : ""),
-      other ? h("td", { class: "number" }, q ? short(q.value) : "–") : null,
+      other ? h("td", { class: "number" }, q ? `${short(q.value)}${q.unit === p.unit ? "" : ` ${unit(q.unit)}`}` : "–") : null,
       other ? h("td", { class: "number" }, q ? interval(q) : "–") : null,
     );
   };
   return h(
     "table",
-    {},
+    { class: other ? "beside" : null },
     h("caption", {}, `${own.law}${own.asymmetric ? ", asymmetric" : ""}: parameters with 95 % intervals`),
-    h("thead", {}, h("tr", {}, ...["parameter", "value", "unit", "interval", "of the machine"].map((text) => h("th", { scope: "col" }, text)), other ? h("th", { scope: "col", colspan: "2" }, `${beside} (${other.law})`) : null)),
+    h("thead", {}, h("tr", {}, ...["parameter", "value", "unit", "interval", "of the machine"].map((text) => h("th", { scope: "col" }, text)), other ? h("th", { scope: "col", colspan: "2" }, `${beside}: ${other.law}${other.inputs.some((input) => isOf(own, nameOf(input.path))) ? "" : `, of ${nameOf(other.inputs[0]?.path ?? "")}`}`) : null)),
     h("tbody", {}, ...own.parameters.map(row)),
   );
 }

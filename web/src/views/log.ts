@@ -7,10 +7,13 @@ import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { PointMap } from "../map";
 import { short, unit } from "../numbers";
 import { editor } from "../editor";
-import { AXIS, axisToWrite, choose, files, onChange, refresh, state } from "../state";
+import { AXIS, axisToWrite, changedAt, choose, files, onChange, refresh, state } from "../state";
 import { Trace, type Band, type Panel, type Tick } from "../trace";
 
 const ROLES: [string, string][] = ["time", "position", "velocity", "acceleration", "force", "reference", "external", "temperature", "load"].map((role) => [role, role]);
+
+/** As what a log was read when it was checked, by the number of the work. */
+const checkedAs = new Map<number, string>();
 
 export class LogView {
   readonly element = h("div", { class: "view log" });
@@ -30,6 +33,8 @@ export class LogView {
   private mapDue = 0;
   private marking = false;
   private drawn = "";
+  /** Closes the column that is being corrected. */
+  private closeOpen: () => void = () => {};
   /** What was brushed and seen of a log that is drawn again. */
   private kept: { log: string; brush: Stretch | null; view: Stretch } | null = null;
 
@@ -90,11 +95,11 @@ export class LogView {
   private draw(log: string, about: About): void {
     this.clear();
     const facts = about.refused ? "columns to decide" : `${about.samples.toLocaleString("en").replaceAll(",", " ")} samples · ${short(about.rate_hz)} Hz · ${short(about.seconds)} s · ${about.motion}`;
-    put(this.head, h("h2", {}, log), h("span", { class: "muted" }, facts), h("button", { class: "primary next", disabled: Boolean(about.refused), onclick: () => choose({ view: "identify" }) }, "Identify friction →"));
+    put(this.head, h("h2", {}, log), h("span", { class: "muted" }, facts), h("button", { class: "primary next", disabled: Boolean(about.refused) || !about.channels.some((own) => own.name === "force"), title: about.refused || about.channels.some((own) => own.name === "force") ? null : "No column is the force: click the one that holds force, torque or current.", onclick: () => choose({ view: "identify" }) }, "Identify friction →"));
     put(this.right, this.columns(about), this.findings(about));
     this.drawChecked();
     if (about.refused) {
-      put(this.center, h("div", { class: "banner warn", role: "alert" }, h("strong", {}, "Say which column is what"), h("p", {}, about.refused), h("p", {}, "Click a column on the right.")));
+      put(this.center, h("div", { class: "banner warn", role: "alert" }, h("strong", {}, "Something has to be said of this log before it can be read"), h("p", {}, about.refused), h("p", {}, `On the right: click a column to say what it is and its unit; the kind of axis and, without a column of time, the sample rate stand below. It goes into ${axisToWrite()}.`)));
       return;
     }
     const channel = (name: string) => about.channels.find((own) => own.name === name);
@@ -262,16 +267,18 @@ export class LogView {
     const name = column.name || `column ${column.number}`;
     const closed = () => put(item, h("button", { class: `column ${column.role ? "used" : ""}`, title: column.reason, onclick: () => open() }, h("span", { class: "name" }, name), column.range ? h("span", { class: "range" }, `${short(column.range[0])} … ${short(column.range[1])}`) : null, h("span", { class: `role ${column.assumed ? "assumed" : ""}` }, column.role ? `${column.role}${column.unit ? ` · ${column.unit}` : ""}${column.assumed ? " (assumed)" : ""}` : "not used")));
     const open = () => {
+      this.closeOpen();
+      this.closeOpen = closed;
       let role = column.role ?? "force";
       // `A, scale 96 N/A, sign inverted` as it was understood.
       const [own = "", ...more] = column.unit.split(", ");
       const unitField = h("input", { type: "text", value: own, placeholder: "mm, N, A, 1/min", spellcheck: "false" });
       const scaleField = h("input", { type: "text", value: more.find((part) => part.startsWith("scale "))?.slice(6) ?? "", placeholder: "96 N/A", spellcheck: "false" });
       const invert = h("input", { type: "checkbox", checked: more.includes("sign inverted") });
-      const names = this.about?.columns.filter((other) => other.name === column.name).length ?? 2;
+      const named = this.about?.columns.filter((other) => other.name === column.name).length ?? 2;
       const save = (event: Event) => {
         event.preventDefault();
-        void this.correct({ role, column: column.number, name: names === 1 ? column.name : null, unit: unitField.value, scale: scaleField.value, invert: invert.checked });
+        void this.correct({ role, column: column.number, name: named === 1 ? column.name : null, unit: unitField.value, scale: scaleField.value, invert: invert.checked });
       };
       const roleField = choice(ROLES, role, (value) => { role = value; });
       put(item, h("form", { class: "correct", onsubmit: save, onkeydown: (event: KeyboardEvent) => { if (event.key === "Escape") closed(); } }, h("strong", {}, name), h("small", { class: "muted" }, column.reason), field("is the", roleField), field("in the unit", unitField), field("times (where the force is a current or voltage)", scaleField), h("label", { class: "check" }, invert, " sign inverted"), h("div", { class: "row" }, h("button", { class: "primary", type: "submit" }, "Write"), h("button", { type: "button", class: "quiet", onclick: closed }, "Cancel"))));
@@ -285,7 +292,8 @@ export class LogView {
     const axis = axisToWrite();
     const changes = await attempt(() => post<string[]>("/api/correct", { log: state.chosen.log, axis, ...what }));
     if (!changes) return;
-    say(`${axis}: ${changes.join("; ") || "as it was"}`);
+    const others = axis === AXIS && files("log").length > 1 ? ". Other logs that are read with it change too" : "";
+    say(`${axis}: ${changes.join("; ") || "as it was"}${others}`);
     await refresh();
     choose({ axis });
   }
@@ -298,7 +306,13 @@ export class LogView {
   private drawChecked(): void {
     const { log, axis } = state.chosen;
     const job = latest("check", (own) => own.about === log);
-    const ask = h("button", { disabled: isRunning(job) || !log, onclick: () => void begin({ kind: "check", log, axis }) }, "What can it determine?");
-    put(this.checked, this.heading, isRunning(job) ? progress(job!) : ask, job && !isRunning(job) ? h("div", {}, job.state === "failed" ? printed(job) : h("pre", { tabindex: "0", class: "small" }, job.text.trimEnd())) : null);
+    const now = JSON.stringify([axis, changedAt(axis ?? ""), changedAt(log ?? "")]);
+    const check = async () => {
+      const id = await begin({ kind: "check", log, axis });
+      if (id !== undefined) checkedAs.set(id, now);
+    };
+    const ask = h("button", { disabled: isRunning(job) || !log, onclick: () => void check() }, "What can it determine?");
+    const stale = job && !isRunning(job) && checkedAs.get(job.id) !== now;
+    put(this.checked, this.heading, isRunning(job) ? progress(job!) : ask, stale ? h("p", { class: "muted" }, "What follows was found before the log or its axis file changed; ask again.") : null, job && !isRunning(job) ? h("div", {}, job.state === "failed" ? printed(job) : h("pre", { tabindex: "0", class: "small" }, job.text.trimEnd())) : null);
   }
 }

@@ -6,7 +6,8 @@ import { attempt, choice, field, h, put, say } from "../dom";
 import { editor } from "../editor";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { length, short } from "../numbers";
-import { exists, files, onChange, refresh, state } from "../state";
+import { older, readResult, whence } from "../origin";
+import { changedAt, exists, files, onChange, refresh, state } from "../state";
 import { Lines } from "../lines";
 import { Plane, type PlaneData } from "../plane";
 import { Trace } from "../trace";
@@ -25,6 +26,7 @@ export class StudyView {
   private readonly form = h("section", { class: "form", "aria-label": "What is simulated" });
   private readonly work = h("section", { "aria-label": "Work", "aria-live": "polite" });
   private readonly found = h("section", { class: "found", "aria-label": "What came of it" });
+  private readonly whence = h("div", {});
   private readonly stop: () => void;
   private readonly tried = new Try();
   private study = "";
@@ -35,15 +37,18 @@ export class StudyView {
   private deviation: Lines | null = null;
   private shown = "";
   private editing = "";
+  /** A result that has no study. */
+  private lacks = "";
   private begins = false;
   /** What a study is begun of, while it is chosen. */
   private beginsOf: { model: string | null; second: string | null; name: string } | null = null;
 
   constructor() {
-    put(this.element, h("div", { class: "head" }, h("h2", {}, "Study"), h("span", { class: "muted" }, "the axis with and without compensation, simulated")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.tried.element, this.work, this.found)), this.command.element);
+    put(this.element, h("div", { class: "head" }, h("h2", {}, "Study"), h("span", { class: "muted" }, "the axis with and without compensation, simulated")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.whence, this.tried.element, this.work, this.found)), this.command.element);
     const { result } = state.chosen;
     const own = `${result}/study.toml`;
-    this.pick(result && exists(own) ? own : (files("study")[0]?.name ?? ""));
+    this.lacks = result && !exists(own) && exists(`${result}/model.toml`) ? result : "";
+    this.pick(result && exists(own) ? own : this.lacks ? "" : (files("study")[0]?.name ?? ""));
     this.stop = onChange((reason) => {
       if (reason === "files") this.drawForm();
       this.drawWork();
@@ -77,8 +82,18 @@ export class StudyView {
 
   private drawForm(): void {
     const all = files("study");
-    this.tried.of(this.study || (all[0]?.name ?? ""));
-    if (!this.study && all[0]) this.pick(all[0].name);
+    if (!this.study && !this.lacks && all[0]) this.pick(all[0].name);
+    this.tried.of(this.study);
+    void this.drawOrigin();
+    if (this.lacks && !this.study) {
+      put(
+        this.form,
+        older(`${this.lacks} has no study`, "An identification begins one where it may be relied on and its force is in N or N·m. Of a current or a voltage, say in the log view what one of it is worth, such as 96 N/A, and identify again."),
+        all.length ? field("Another study", choice([["", "choose"], ...all.map((file): [string, string] => [file.name, file.name])], "", (value) => { if (value) { this.pick(value); this.drawForm(); this.drawWork(); void this.drawStudied(); } })) : null,
+      );
+      this.command.show("stiction simulate STUDY.toml --out FOLDER");
+      return;
+    }
     if (!all.length) {
       put(this.form, h("p", {}, "A study needs a model. An identification that may be used writes one with it."), ...this.beginning("study.toml"));
       return;
@@ -138,6 +153,14 @@ export class StudyView {
     void this.drawStudied();
   }
 
+  /** What the model of the study is of, where it is that of a result. */
+  private async drawOrigin(): Promise<void> {
+    const { study } = this;
+    const folder = study.replace(/\/?[^/]*$/, "");
+    const own = exists(`${folder}/result.json`) ? await attempt(() => readResult(folder)) : undefined;
+    if (study === this.study) put(this.whence, ...(own ? whence(own, folder) : []));
+  }
+
   private drawWork(): void {
     const job = latest("simulate", (own) => own.about === this.study);
     put(this.work, job && isRunning(job) ? progress(job) : job && job.state === "failed" ? printed(job) : null);
@@ -145,12 +168,13 @@ export class StudyView {
 
   private async drawStudied(): Promise<void> {
     const file = state.workspace.files.find((own) => own.name === `${this.out}/study.json`);
-    const now = JSON.stringify([this.out, file?.modified, this.course]);
+    const model = changedAt(this.study.replace(/[^/]*$/, "model.toml"));
+    const now = JSON.stringify([this.out, file?.modified, changedAt(this.study), model, this.course]);
     if (now === this.shown) return;
     this.shown = now;
     this.clear();
     if (!file) {
-      put(this.found, h("p", { class: "muted" }, "Not simulated as a whole yet. A study of a few paths takes seconds."));
+      put(this.found, this.lacks && !this.study ? null : h("p", { class: "muted" }, "Not simulated as a whole yet. A study of a few paths takes seconds."));
       return;
     }
     const read = await attempt(async () => JSON.parse((await get<{ text: string }>("/api/text", { name: file.name })).text) as StudyFile);
@@ -159,6 +183,7 @@ export class StudyView {
     put(
       this.found,
       h("div", { class: "row" }, h("button", { onclick: () => void attempt(() => open(`${this.out}/report.html`, "show")) }, "Full report"), h("button", { class: "quiet", onclick: () => void attempt(() => open(this.out, "zip")) }, "Download as zip")),
+      [this.study, this.study.replace(/[^/]*$/, "model.toml")].some((name) => changedAt(name) > file.modified) ? older("Older than its study or model", "One of them changed after this was simulated. Simulate again.") : null,
       promised(read.promise ?? []),
       results(read),
       h("div", { class: "runs" }),

@@ -64,13 +64,17 @@ pub async fn begin(State(shared): App, Json(asked): Json<Named>) -> Answer<Strin
     let done = blocking(shared, move |shared| {
         let log = shared.workspace.file(&asked.log)?;
         let own = own_of(&asked.log);
-        let file = shared.workspace.place(&own)?;
-        if file.symlink_metadata().is_ok() {
-            return Err(Refused::conflict(format!("{own}: is there already")));
-        }
-        let text = check::init(&log, None)?.text;
-        write_atomic(&file, visible::toml(text).as_bytes())?;
-        Ok(own)
+        shared.alone(|| {
+            let (file, text) = shared.workspace.axis(&own)?;
+            if text.is_some() {
+                return Err(Refused::conflict(format!(
+                    "{own}: is there already; choose it beside the logs"
+                )));
+            }
+            let text = check::init(&log, None)?.text;
+            write_atomic(&file, visible::toml(text).as_bytes())?;
+            Ok(own)
+        })
     });
     done.await.map(Json)
 }

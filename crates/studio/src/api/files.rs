@@ -4,7 +4,7 @@ use super::{Answer, App, blocking};
 use crate::asked::Words;
 use crate::named::read_as;
 use crate::refused::Refused;
-use crate::workspace::kind_of_file;
+use crate::workspace::{Workspace, kind_of_file};
 use axum::Json;
 use axum::extract::{Query, State};
 use serde::{Deserialize, Serialize};
@@ -48,32 +48,36 @@ pub struct Written {
 /// Writes a TOML file: one that the engine can read, over what the page has seen.
 pub async fn write(State(shared): App, Json(asked): Json<Written>) -> Answer<()> {
     let done = blocking(shared, move |shared| {
-        let Written {
-            name,
-            text: new,
-            before,
-        } = &asked;
-        if !name.ends_with(".toml") {
-            return Err(Refused::forbidden(format!(
-                "{name}: only TOML files are edited here"
-            )));
-        }
-        let path = shared.workspace.place(name)?;
-        let now = match path.is_file() {
-            true => text(&path)?,
-            false => String::new(),
-        };
-        if now != *before {
-            return Err(Refused::conflict(format!(
-                "{name} was changed by another program meanwhile; read it again"
-            )));
-        }
-        shared.workspace.holds_named(new, &path)?;
-        readable(&path, new)?;
-        write_atomic(&path, visible::toml(new.clone()).as_bytes())?;
-        Ok(())
+        shared.alone(|| written(&shared.workspace, &asked))
     });
     done.await.map(Json)
+}
+
+fn written(workspace: &Workspace, asked: &Written) -> Result<(), Refused> {
+    let Written {
+        name,
+        text: new,
+        before,
+    } = asked;
+    if !name.ends_with(".toml") {
+        return Err(Refused::forbidden(format!(
+            "{name}: only TOML files are edited here"
+        )));
+    }
+    let path = workspace.place(name)?;
+    let now = match path.is_file() {
+        true => text(&path)?,
+        false => String::new(),
+    };
+    if now != *before {
+        return Err(Refused::conflict(format!(
+            "{name} was changed by another program meanwhile; read it again"
+        )));
+    }
+    workspace.holds_named(new, &path)?;
+    readable(&path, new)?;
+    write_atomic(&path, visible::toml(new.clone()).as_bytes())?;
+    Ok(())
 }
 
 /// Refuses a text that the engine could not read, with its words.

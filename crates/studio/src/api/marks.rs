@@ -3,6 +3,7 @@
 use super::{Answer, App, blocking};
 use crate::logs::Stretches;
 use crate::refused::Refused;
+use crate::workspace::Workspace;
 use axum::Json;
 use axum::extract::State;
 use serde::Deserialize;
@@ -46,41 +47,43 @@ type Stretch = (f64, f64);
 /// Marks a stretch, and says what is marked then.
 pub async fn mark(State(shared): App, Json(asked): Json<Asked>) -> Answer<Stretches> {
     let done = blocking(shared, move |shared| {
-        let log = shared.workspace.file(&asked.log)?;
-        let file = shared.workspace.place(&asked.axis)?;
-        let text = match file.is_file() {
-            true => std::fs::read_to_string(&file)?,
-            false => check::init(&log, None)?.text,
-        };
-        // The file names the log from its own folder.
-        let name = match asked.axis.rsplit_once('/') {
-            None => asked.log.clone(),
-            Some((folder, _)) => {
-                let own = asked
-                    .log
-                    .strip_prefix(folder)
-                    .and_then(|rest| rest.strip_prefix('/'));
-                let own = own.map(String::from);
-                own.ok_or_else(|| Refused::bad("the axis file is in another folder than the log"))?
-            }
-        };
-        let before = Axis::parse(&text)?.marks(Path::new(&name));
-        let whole = (0.0, rounded(asked.seconds) + 1e-3);
-        let stretch = (rounded(asked.from).max(0.0), rounded(asked.to).min(whole.1));
-        if asked.what != As::Nothing && (stretch.1 <= stretch.0 || stretch.0.is_nan()) {
-            return Err(Refused::bad("brush a stretch first"));
+        shared.alone(|| marked_in(&shared.workspace, &asked))
+    });
+    done.await.map(Json)
+}
+
+/// Marks a stretch in the axis file, which is begun where there is none.
+fn marked_in(workspace: &Workspace, asked: &Asked) -> Result<Stretches, Refused> {
+    let log = workspace.file(&asked.log)?;
+    let (file, text) = workspace.axis(&asked.axis)?;
+    let text = text.map_or_else(|| Ok(check::init(&log, None)?.text), Ok::<_, Refused>)?;
+    // The file names the log from its own folder.
+    let name = match asked.axis.rsplit_once('/') {
+        None => asked.log.clone(),
+        Some((folder, _)) => {
+            let own = asked
+                .log
+                .strip_prefix(folder)
+                .and_then(|rest| rest.strip_prefix('/'));
+            let own = own.map(String::from);
+            own.ok_or_else(|| Refused::bad("the axis file is in another folder than the log"))?
         }
-        let marks = marked(before, asked.what, stretch, whole);
-        let text = written(&text, &name, &marks).ok_or_else(|| {
+    };
+    let before = Axis::parse(&text)?.marks(Path::new(&name));
+    let whole = (0.0, rounded(asked.seconds) + 1e-3);
+    let stretch = (rounded(asked.from).max(0.0), rounded(asked.to).min(whole.1));
+    if asked.what != As::Nothing && (stretch.1 <= stretch.0 || stretch.0.is_nan()) {
+        return Err(Refused::bad("brush a stretch first"));
+    }
+    let marks = marked(before, asked.what, stretch, whole);
+    let text = written(&text, &name, &marks).ok_or_else(|| {
             Refused::conflict(format!(
                 "{}: the lines of [[log]] cannot be placed, or nothing would be left to fit; write them by hand",
                 asked.axis
             ))
         })?;
-        write_atomic(&file, visible::toml(text).as_bytes())?;
-        Ok(marks.into())
-    });
-    done.await.map(Json)
+    write_atomic(&file, visible::toml(text).as_bytes())?;
+    Ok(marks.into())
 }
 
 /// A time to the microsecond, which no log is finer than by hand.

@@ -107,6 +107,26 @@ fn key(role: &str) -> Option<&'static [&'static str]> {
     }
 }
 
+/// Lines with the units that were assumed of other columns than this one.
+fn assumed(columns: &[Column], but: &str) -> Vec<Addition> {
+    let others = columns.iter().filter(|column| column.assumed);
+    let line = |column: &Column| {
+        let role = column.role.as_deref().filter(|role| *role != but)?;
+        Some(Addition {
+            table: "columns",
+            names: names(role)?,
+            value: format!(
+                "{{ column = {}, unit = {} }}",
+                column.number,
+                serde_json::Value::from(column.unit.as_str())
+            ),
+            why: String::new(),
+            replaces: true,
+        })
+    };
+    others.filter_map(line).collect()
+}
+
 /// Names under which a role stands in an axis file.
 fn names(role: &str) -> Option<&'static [&'static str]> {
     Some(match role {
@@ -131,11 +151,9 @@ pub fn correct(
     asked: &Correction,
 ) -> Result<Vec<String>, Refused> {
     let log = workspace.file(&asked.log)?;
-    let file = workspace.place(&asked.axis)?;
-    let text = match file.is_file() {
-        true => std::fs::read_to_string(&file)?,
-        false => check::init(&log, None)?.text,
-    };
+    let (file, text) = workspace.axis(&asked.axis)?;
+    let axis = text.is_some().then_some(asked.axis.as_str());
+    let text = text.map_or_else(|| Ok(check::init(&log, None)?.text), Ok::<_, Refused>)?;
     let quoted = |text: &str| serde_json::Value::from(text).to_string();
     let addition = if let Some(names) = key(&asked.role) {
         Addition {
@@ -193,10 +211,13 @@ pub fn correct(
             changes.join("; ")
         )));
     }
-    let axis = file.is_file().then_some(asked.axis.as_str());
     let before = logs.log(workspace, &asked.log, axis);
-    if before.is_ok_and(|found| found.about.refused.is_none()) {
-        read_as(&file, &next, |beside| -> Result<_, stiction::Error> {
+    if let Ok(before) = before
+        && before.about.refused.is_none()
+    {
+        // Units that the file does not give are asked for one after the other: the others are taken as they were.
+        let (whole, _) = extend(&next, &assumed(&before.about.columns, &asked.role));
+        read_as(&file, &whole, |beside| -> Result<_, stiction::Error> {
             load(&log, &Axis::read(beside)?.of_whole(&log))
         })?;
     }

@@ -235,6 +235,108 @@ fn a_correction_that_spoils_a_log_is_not_written() {
 }
 
 #[test]
+fn units_that_a_file_lacks_are_said_one_after_the_other() {
+    let served = open();
+    let rows: String = (0..3000)
+        .map(|k| {
+            let t = 1e-3 * f64::from(k);
+            format!("{t},{},{}\n", 50.0 * (9.0 * t).sin(), 3.0 * (9.0 * t).cos())
+        })
+        .collect();
+    let text = format!("time,pos,current\n{rows}");
+    std::fs::write(served.path().join("run.csv"), text).unwrap();
+    let correct = |role: &str, rest: &str| {
+        let asked =
+            format!("{{\"log\":\"run.csv\",\"axis\":\"axis.toml\",\"role\":\"{role}\",{rest}}}");
+        served.ask("POST", "/api/correct", &asked)
+    };
+    // In any order, the kind first as the page asks for it.
+    for (role, rest) in [
+        ("kind", "\"unit\":\"linear\""),
+        ("position", "\"column\":2,\"unit\":\"mm\""),
+        ("force", "\"column\":3,\"unit\":\"A\""),
+        ("time", "\"column\":1,\"unit\":\"s\""),
+    ] {
+        let done = correct(role, rest);
+        assert_eq!(done.status, 200, "{role}: {}", done.text());
+    }
+    let about = served
+        .ask("GET", "/api/log?name=run.csv&axis=axis.toml", "")
+        .json();
+    assert!(about["refused"].is_null(), "{about}");
+    assert_eq!(about["force_unit"], "A");
+}
+
+#[test]
+fn of_changes_at_once_none_is_lost() {
+    let served = open();
+    log(&served, "run.csv");
+    let first = "{\"log\":\"run.csv\",\"axis\":\"axis.toml\",\"role\":\"position\",\"column\":2,\"unit\":\"cm\"}";
+    assert_eq!(served.ask("POST", "/api/correct", first).status, 200);
+    for k in 0..10 {
+        let unit = ["N", "kN"][k % 2];
+        let to = 5.0 + 0.1 * k as f64;
+        let unit = format!(
+            "{{\"log\":\"run.csv\",\"axis\":\"axis.toml\",\"role\":\"force\",\"column\":3,\"unit\":\"{unit}\"}}"
+        );
+        let crop = format!(
+            "{{\"log\":\"run.csv\",\"axis\":\"axis.toml\",\"as\":\"crop\",\"from\":1.0,\"to\":{to},\"seconds\":7.999}}"
+        );
+        std::thread::scope(|scope| {
+            let ask = |path: &'static str, body: String| {
+                let served = &served;
+                scope.spawn(move || served.ask("POST", path, &body).status)
+            };
+            let both = [ask("/api/correct", unit), ask("/api/mark", crop)];
+            assert_eq!(both.map(|one| one.join().unwrap()), [200, 200]);
+        });
+        let axis = std::fs::read_to_string(served.path().join("axis.toml")).unwrap();
+        let force = format!("unit = \"{}\"", ["N", "kN"][k % 2]);
+        assert!(
+            axis.contains(&force) && axis.contains(&format!("{to} s")),
+            "{axis}"
+        );
+    }
+}
+
+#[test]
+fn only_an_axis_file_is_written_as_one() {
+    let served = open();
+    log(&served, "run.csv");
+    std::fs::write(served.path().join("broken.toml"), b"kind = \"li\xffnear\"").unwrap();
+    std::fs::write(served.path().join("notes.md"), "").unwrap();
+    for axis in [
+        "notes.md",
+        "new.csv",
+        "study.toml",
+        "result.json",
+        "broken.toml",
+    ] {
+        let before = std::fs::read(served.path().join(axis)).ok();
+        for (path, rest) in [
+            (
+                "/api/correct",
+                "\"role\":\"position\",\"column\":2,\"unit\":\"cm\"",
+            ),
+            (
+                "/api/mark",
+                "\"as\":\"crop\",\"from\":1.0,\"to\":6.0,\"seconds\":7.999",
+            ),
+        ] {
+            let asked = format!("{{\"log\":\"run.csv\",\"axis\":\"{axis}\",{rest}}}");
+            let refused = served.ask("POST", path, &asked);
+            assert!(
+                [400, 422].contains(&refused.status),
+                "{axis}: {}",
+                refused.text()
+            );
+            assert!(refused.text().contains(axis), "{}", refused.text());
+        }
+        assert_eq!(std::fs::read(served.path().join(axis)).ok(), before);
+    }
+}
+
+#[test]
 fn work_is_seen_stopped_and_found_again() {
     let served = open();
     log(&served, "run.csv");
