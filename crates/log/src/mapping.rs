@@ -48,6 +48,7 @@ mod motion;
 mod names;
 pub(crate) mod parts;
 mod select;
+mod rate;
 mod understood;
 mod wanted;
 

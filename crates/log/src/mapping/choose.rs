@@ -6,15 +6,13 @@ use super::enable::{self, Enable};
 use super::flags::is_flag;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
-use super::{Detected, Mapping, bases, describe, endings, motion};
-use crate::findings::{Finding, Severity, median, short};
+use super::{Detected, Mapping, bases, describe, endings, motion, rate};
+use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
 
 /// Sample times, s, that a file may give: those of the rates that an axis file may give.
 const PLAUSIBLE_SAMPLE_TIME: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
-/// How much a given rate and that of the time stamps may differ, as a fraction.
-const MAX_RATE_DEVIATION: f64 = 0.01;
 
 /// What must be of one axis: a motion and the force that drives it.
 const MOVED_AND_MOVING: [Role; 3] = [Role::Position, Role::Velocity, Role::Force];
@@ -95,8 +93,10 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     let none_named = Role::ALL
         .iter()
         .all(|r| *r == Role::Time || given.channel(*r).is_none());
-    if let Some(rate) = given.rate_hz {
-        scan.refuse_other_rate(rate)?;
+    if let Some(hertz) = given.rate_hz {
+        let stamps = scan.pick(Role::Time).ok().flatten();
+        let stamps = stamps.map(|column| (column, scan.units[column].as_ref()));
+        out.findings.extend(rate::compare(table, stamps, hertz)?);
     }
     if given.time.is_none() && given.rate_hz.is_none() {
         match scan.pick(Role::Time)? {
@@ -454,45 +454,6 @@ impl<'a> Scan<'a> {
         self.units[column]
             .as_ref()
             .is_none_or(|unit| allows(role, of_role(unit, role).dimension()))
-    }
-
-    /// Refuses a rate that time stamps in a written unit contradict. Their mean step counts as much
-    /// as the median: a clock coarser than the sampling repeats its stamps, and a rate is the cure.
-    fn refuse_other_rate(&self, rate: f64) -> Result<(), Error> {
-        let Ok(Some(column)) = self.pick(Role::Time) else {
-            return Ok(());
-        };
-        let Some(unit) = &self.units[column] else {
-            return Ok(());
-        };
-        let stamps: Vec<(usize, f64)> = self.table.columns[column]
-            .values
-            .iter()
-            .map(|t| unit.to_si(*t))
-            .enumerate()
-            .filter(|(_, t)| t.is_finite())
-            .collect();
-        let (Some(first), Some(last)) = (stamps.first(), stamps.last()) else {
-            return Ok(());
-        };
-        let mean = (last.1 - first.1) / (last.0 - first.0).max(1) as f64;
-        let steps = stamps.windows(2).map(|w| w[1].1 - w[0].1);
-        let Some(usual) = median(&mut steps.filter(|d| *d > 0.0).collect::<Vec<_>>()) else {
-            return Ok(());
-        };
-        let agrees = |step: f64| (rate * step - 1.0).abs() <= MAX_RATE_DEVIATION;
-        if agrees(mean) || agrees(usual) {
-            return Ok(());
-        }
-        let found = format!(
-            "rate is {} Hz, but the time stamps run at {} Hz",
-            short(rate),
-            short(1.0 / usual)
-        );
-        let allowed = "rate is for logs without time; take it out of axis.toml, or correct it";
-        let place = describe::place(self.table, column);
-        let error = Error::new(Kind::Ambiguous, found, allowed);
-        Err(error.in_column(place).of_setting("rate"))
     }
 
     fn no_motion(&self) -> Error {

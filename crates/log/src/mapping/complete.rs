@@ -10,7 +10,7 @@ use stiction_codes::Code;
 use stiction_number::full;
 
 /// Median spacings, s, with which a time column without a unit is taken as seconds: 5 Hz to 1 MHz.
-const PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2;
+pub(super) const PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2;
 
 /// One role with its column found and, where anything tells it, its unit.
 pub(super) struct Part {

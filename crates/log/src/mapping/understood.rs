@@ -159,6 +159,9 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
         _ if names::says_mode(name) => format!(
             "a mode or a state by its name; to leave out rows where it is another than 8: enable = {{ column = {}, equals = 8 \
              }} under [columns]",
+        (Some(hint), None) if hint.role == Role::Time && given.rate_hz.is_some() => {
+            "could be the time, which the rate of the axis file is taken for".into()
+        }
             describe::line(table, column, "").trim_start_matches(" = ")
         ),
         _ if names::passed_over(name) => "an error, a limit or a state by its name".into(),

@@ -599,6 +599,52 @@ fn the_rate_stands_in_for_time() {
 }
 
 #[test]
+fn a_rate_that_beats_time_stamps_without_a_unit_is_said() {
+    let read = |step: f64, hertz: f64| {
+        let mut table = axis(2000).table();
+        let time = (0..2000).map(|i| i as f64 * step).collect();
+        table.columns[0] = column("time", time);
+        let mapping = Mapping {
+            rate_hz: Some(hertz),
+            ..Mapping::default()
+        };
+        Log::from_table(&table, &mapping).unwrap()
+    };
+    insta::assert_snapshot!(message(&read(0.002, 1000.0), "rate-override"), @r#"the rows are counted at rate = "1000 Hz" of axis.toml, and column 1 "time" is not read: in s it runs at 500 Hz; if that is right, delete the line rate and write under [columns]: time = { column = "time", unit = "s" }"#);
+    insta::assert_snapshot!(message(&read(5.0, 1000.0), "rate-override"), @r#"the rows are counted at rate = "1000 Hz" of axis.toml, and column 1 "time" is not read: in ms it runs at 200 Hz; if that is right, delete the line rate and write under [columns]: time = { column = "time", unit = "ms" }"#);
+    insta::assert_snapshot!(read(0.002, 1000.0).columns[0].reason, @"could be the time, which the rate of the axis file is taken for");
+    // Seconds, milliseconds, microseconds, and row numbers.
+    for (step, hertz) in [
+        (0.001, 1000.0),
+        (0.001, 1005.0),
+        (2.0, 500.0),
+        (500.0, 2000.0),
+        (1.0, 4000.0),
+    ] {
+        assert!(
+            !codes(&read(step, hertz)).contains(&"rate-override"),
+            "{step} {hertz}"
+        );
+    }
+}
+
+#[test]
+fn a_rate_that_beats_the_sample_time_of_the_file_is_said() {
+    let read = |hertz: f64| {
+        let mut table = axis(2000).table();
+        table.columns.remove(0);
+        table.sample_time = Some(0.002);
+        let mapping = Mapping {
+            rate_hz: Some(hertz),
+            ..Mapping::default()
+        };
+        Log::from_table(&table, &mapping).unwrap()
+    };
+    insta::assert_snapshot!(message(&read(1000.0), "rate-override"), @r#"the rows are counted at rate = "1000 Hz" of axis.toml, and the file states a sample time of 0.002 s, 500 Hz; if the file is right, delete the line rate"#);
+    assert!(!codes(&read(500.0)).contains(&"rate-override"));
+}
+
+#[test]
 fn a_rate_that_contradicts_the_time_stamps_is_refused() {
     let stamped = |unit: &str, step: f64| {
         let axis = axis(2000);
