@@ -46,9 +46,8 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
             assumed: false,
         });
     }
-    let written =
-        |(place, column): (usize, &Column)| column.unit.is_some() && !table.is_stamped(place);
-    let labelled = table.columns.iter().enumerate().any(written)
+    let written = |column: &Column| column.unit.is_some() && !column.stamps;
+    let labelled = table.columns.iter().any(written)
         || parts
             .iter()
             .any(|p| p.channel.unit.is_some() || p.channel.scale.is_some());

@@ -743,3 +743,24 @@ fn every_column_is_accounted_for() {
     ];
     insta::assert_snapshot!(found.join("\n\n"));
 }
+
+/// Seconds that a reader has made of time stamps do not label a file; those that somebody wrote do.
+#[test]
+fn stamps_say_nothing_of_the_units_of_others() {
+    let of = |stamps: bool| {
+        let mut table = headed(&["when [s]", "position", "force"]);
+        table.columns[0].stamps = stamps;
+        let mapping = Mapping {
+            time: Some(Channel::named("when")),
+            motion: Some(Motion::Linear),
+            ..Mapping::default()
+        };
+        Log::from_table(&table, &mapping)
+    };
+    assert_eq!(codes(&of(true).unwrap())[0], "unit-assumed");
+    let refused = of(false).unwrap_err().to_string();
+    assert!(
+        refused.contains("position has no unit while other columns have one"),
+        "{refused}"
+    );
+}
