@@ -47,6 +47,10 @@ pub struct Passed {
     pub ones: bool,
     /// Whether one of them is neither.
     pub others: bool,
+    /// Whether they are not all the same.
+    pub changes: bool,
+    /// The bits of one of them.
+    any: Option<u64>,
 }
 
 impl Passed {
@@ -56,6 +60,11 @@ impl Passed {
         self.zeros |= value == 0.0;
         self.ones |= value == 1.0;
         self.others |= value != 0.0 && value != 1.0 && !value.is_nan();
+        if !value.is_nan() {
+            // Zero has two signs.
+            let bits = (value + 0.0).to_bits();
+            self.changes |= *self.any.get_or_insert(bits) != bits;
+        }
     }
 
     /// Takes note of what was seen elsewhere.
@@ -63,6 +72,13 @@ impl Passed {
         self.zeros |= other.zeros;
         self.ones |= other.ones;
         self.others |= other.others;
+        self.changes |= other.changes || self.any.zip(other.any).is_some_and(|(a, b)| a != b);
+        self.any = self.any.or(other.any);
+    }
+
+    /// Whether it has numbers, all of them the same.
+    pub(crate) fn never_changes(&self) -> bool {
+        self.any.is_some() && !self.changes
     }
 }
 
@@ -110,6 +126,7 @@ impl Table {
             .map(|(column, wanted)| Column {
                 name: column.name.clone(),
                 unit: column.unit.clone(),
+                stamps: column.stamps,
                 values: match wanted {
                     true => column.values.clone(),
                     false => Vec::new(),
@@ -126,7 +143,6 @@ impl Table {
     pub fn number(&self, index: usize) -> usize {
         let ascending = self.left_out.iter();
         ascending.fold(index + 1, |number, &gone| {
-                stamps: column.stamps,
             number + usize::from(gone <= number)
         })
     }

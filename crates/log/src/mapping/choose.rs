@@ -6,6 +6,7 @@ use super::enable::{self, Enable};
 use super::flags::is_flag;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
+use super::still::{has_to_change, never_changes};
 use super::{Detected, Mapping, bases, describe, endings, motion, rate};
 use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
@@ -24,6 +25,8 @@ struct Scan<'a> {
     units: Vec<Option<Unit>>,
     /// Columns of 0 and 1.
     flags: Vec<bool>,
+    /// Columns that never change.
+    still: Vec<bool>,
     used: Vec<bool>,
     /// Letter of the axis whose columns are named so far.
     axis: Option<char>,
@@ -242,6 +245,9 @@ impl<'a> Scan<'a> {
             flags: (0..table.columns.len())
                 .map(|c| is_flag(table, c))
                 .collect(),
+            still: (0..table.columns.len())
+                .map(|c| never_changes(table, c))
+                .collect(),
             used: vec![false; table.columns.len()],
             axis: None,
             group: None,
@@ -324,7 +330,11 @@ impl<'a> Scan<'a> {
         if is_motion && fits.iter().all(|(_, h)| h.commanded) {
             return Ok(None);
         }
-        let mut fits = fits.into_iter().map(|(column, _)| column).collect();
+        let mut fits: Vec<usize> = fits.into_iter().map(|(column, _)| column).collect();
+        // A measured position that never changes is a fault to be seen, whatever else is commanded; of equals it is none.
+        if has_to_change(role) && fits.iter().any(|c| !self.still[*c]) {
+            fits.retain(|c| !self.still[*c]);
+        }
         if role == Role::Time
             && let Some(motion) = self.motion()
         {
@@ -351,6 +361,7 @@ impl<'a> Scan<'a> {
         let fits: Vec<usize> = (0..self.table.columns.len())
             .filter(|&c| !self.used[c] && !self.flags[c] && self.hints[c].is_none())
             .filter(|&c| !names::passed_over(&self.table.columns[c].name))
+            .filter(|&c| !(self.still[c] && has_to_change(role)))
             .filter(|&c| self.units[c].as_ref().is_some_and(telling))
             .collect();
         self.only(distinct(self.table, fits), role)
@@ -483,7 +494,8 @@ impl<'a> Scan<'a> {
         // A column that may be a position: none that is something else by its name or its unit.
         let open = |c: &usize| {
             let named = self.hints[*c].is_some_and(|hint| hint.role != Role::Position);
-            !self.used[*c] && !self.flags[*c] && !named && self.unit_allows(*c, Role::Position)
+            let free = !self.used[*c] && !self.flags[*c] && !self.still[*c];
+            free && !named && self.unit_allows(*c, Role::Position)
         };
         let example = match (0..self.units.len()).find(open) {
             Some(column) => {
@@ -502,7 +514,8 @@ impl<'a> Scan<'a> {
         let open = |c: &usize| {
             let named =
                 self.hints[*c].is_some() || names::passed_over(&self.table.columns[*c].name);
-            !self.used[*c] && !self.flags[*c] && !named && self.unit_allows(*c, Role::Force)
+            let free = !self.used[*c] && !self.flags[*c] && !self.still[*c];
+            free && !named && self.unit_allows(*c, Role::Force)
         };
         let how = match (0..self.units.len()).rev().find(open) {
             Some(column) => {

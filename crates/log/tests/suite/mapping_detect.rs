@@ -744,6 +744,49 @@ fn every_column_is_accounted_for() {
     insta::assert_snapshot!(found.join("\n\n"));
 }
 
+#[test]
+fn a_column_that_never_changes_is_no_candidate() {
+    let n = 2000;
+    let with = |more: Vec<(&str, f64)>| {
+        let mut table = axis(n).table();
+        table.columns.remove(2);
+        let more = more
+            .into_iter()
+            .map(|(name, value)| column(name, vec![value; n]));
+        table.columns.extend(more);
+        table
+    };
+    let read = |table: &Table| Log::from_table(table, &Mapping::default()).unwrap();
+    let taken = |log: &Log, role: Role| {
+        let column = log.columns.iter().find(|c| c.role == Some(role));
+        column.map(|c| c.column.clone())
+    };
+    // Of equals it is none.
+    let log = read(&with(vec![("position 2 [m]", 0.3), ("force 2 [N]", 5.0)]));
+    assert_eq!(taken(&log, Role::Position).unwrap(), "2 \"position [m]\"");
+    assert_eq!(taken(&log, Role::Force).unwrap(), "3 \"force [N]\"");
+    insta::assert_snapshot!(log.columns[4].reason, @"could be the force, but never changes");
+    // By its unit alone it is nothing; by its name it may be one at rest.
+    let mut table = with(vec![("supply [V]", 24.0)]);
+    table.columns.remove(2);
+    let log = read(&table);
+    assert!(log.force.is_none());
+    insta::assert_snapshot!(log.columns[2].reason, @"its name says nothing known, and it never changes");
+    table.columns[2].name = "force".into();
+    assert_eq!(
+        taken(&read(&table), Role::Force).unwrap(),
+        "3 \"force [V]\""
+    );
+    // An encoder that is dead does not make a position of what is commanded.
+    let mut table = with(vec![("actual position [m]", 0.3)]);
+    table.columns[1].name = "commanded position".into();
+    let log = read(&table);
+    assert_eq!(
+        taken(&log, Role::Position).unwrap(),
+        "4 \"actual position [m]\""
+    );
+}
+
 /// Seconds that a reader has made of time stamps do not label a file; those that somebody wrote do.
 #[test]
 fn stamps_say_nothing_of_the_units_of_others() {
