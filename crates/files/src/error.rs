@@ -1,5 +1,6 @@
 //! What goes wrong with a file, with a stable code; and what a user should know although the work goes on.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_number::short;
@@ -77,7 +78,7 @@ pub enum Error {
         /// The folder or file.
         path: PathBuf,
         /// What is there.
-        found: &'static str,
+        found: Cow<'static, str>,
         /// What to do.
         remedy: Remedy,
     },
@@ -131,10 +132,10 @@ impl Error {
         }
     }
 
-    pub(crate) fn taken(path: &Path, found: &'static str, remedy: Remedy) -> Self {
+    pub(crate) fn taken(path: &Path, found: impl Into<Cow<'static, str>>, remedy: Remedy) -> Self {
         Error::Taken {
             path: path.to_path_buf(),
-            found,
+            found: found.into(),
             remedy,
         }
     }

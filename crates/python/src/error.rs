@@ -137,7 +137,7 @@ fn of_file(error: &FileError) -> (String, String, String) {
         }
         FileError::Taken { path, found, .. } => (
             path.display().to_string(),
-            (*found).into(),
+            found.clone().into_owned(),
             "another folder, or force=True to write into it all the same".into(),
         ),
         error => {
