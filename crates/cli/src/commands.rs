@@ -82,7 +82,10 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     if let Error::File(FileError::TooLarge { needed, .. }) = error {
         return Some(large::with_more_samples(*needed));
     }
-    if let Some(next) = crate::next::missing(error).or_else(|| crate::next::no_room(error)) {
+    if let Some(next) = crate::next::missing(error)
+        .or_else(|| crate::next::other_form(error))
+        .or_else(|| crate::next::no_room(error))
+    {
         return Some(next);
     }
     if let Error::File(FileError::Runs { .. }) = error {

@@ -24,6 +24,18 @@ pub enum Error {
         /// What is allowed.
         allowed: String,
     },
+    /// A file that is something else than what is read here.
+    #[error("{}: is {found}; {wanted} is wanted{}", .file.display(), here(.instead.as_deref()))]
+    OtherForm {
+        /// The file.
+        file: PathBuf,
+        /// What it is.
+        found: String,
+        /// What is wanted.
+        wanted: &'static str,
+        /// A file of that form beside it.
+        instead: Option<PathBuf>,
+    },
     /// Everything that is wrong with one file: two things or more, a line each.
     #[error("{}", lines(.0))]
     Several(Vec<Error>),
@@ -103,7 +115,7 @@ impl Error {
     pub fn code(&self) -> Code {
         match self {
             Error::Log(e) => e.kind.code(),
-            Error::Config { .. } | Error::Several(_) => Code::BadConfig,
+            Error::Config { .. } | Error::OtherForm { .. } | Error::Several(_) => Code::BadConfig,
             Error::Misfit { code, .. } => *code,
             Error::Runs { .. } => Code::BadCheckpoint,
             Error::TooLarge { .. } => Code::TooLarge,
@@ -139,6 +151,10 @@ impl Error {
             remedy,
         }
     }
+}
+
+fn here(instead: Option<&Path>) -> String {
+    instead.map_or(String::new(), |path| format!(": {}", path.display()))
 }
 
 fn lines(all: &[Error]) -> String {

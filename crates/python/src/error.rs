@@ -122,6 +122,19 @@ fn of_file(error: &FileError) -> (String, String, String) {
             found.clone(),
             allowed.clone(),
         ),
+        FileError::OtherForm {
+            file,
+            found,
+            wanted,
+            instead,
+        } => {
+            let instead = instead.as_ref().map(|path| format!(": {}", path.display()));
+            (
+                file.display().to_string(),
+                format!("is {found}"),
+                format!("{wanted} is wanted{}", instead.unwrap_or_default()),
+            )
+        }
         FileError::TooLarge {
             what,
             found,

@@ -229,3 +229,52 @@ fn without_times(value: &mut serde_json::Value) {
         _ => {}
     }
 }
+
+#[test]
+fn another_kind_of_file_leads_on() {
+    let bench = Bench::new();
+    let (code, _, err) = bench.run(&["identify", "log.csv", "--law=lugre", "--out", "fit"]);
+    assert!(code < 2, "{err}");
+    bench.write("axis.toml", "kind = \"linear\"\nrate = \"1 kHz\"\n");
+    let mut said = String::new();
+    for given in [
+        "fit/result.json",
+        "fit",
+        "fit/report.html",
+        "fit/fit.csv",
+        "log.csv",
+        "axis.toml",
+    ] {
+        said += &bench.refused(&["export", given, "--target", "c", "--out", "c"]);
+    }
+    said += "\n";
+    for (option, given) in [
+        (&["export"][..], "fit/result.json"),
+        (&["export", "--target", "hal"], "fit"),
+        (&["export"], "log.csv"),
+        (
+            &["identify", "log.csv", "--out", "other", "--axis"],
+            "fit/result.json",
+        ),
+        (
+            &["identify", "log.csv", "--out", "other", "--axis"],
+            "fit/model.toml",
+        ),
+        (&["simulate", "--out", "sim"], "fit/model.toml"),
+        (&["simulate", "--out", "sim"], "fit/result.json"),
+    ] {
+        said += &bench.refused(&[option, &[given]].concat());
+    }
+    insta::assert_snapshot!(said);
+    // The command that is named works.
+    let works = [
+        "export",
+        "fit/model.toml",
+        "--target",
+        "c",
+        "--out",
+        "fit/c",
+    ];
+    let (code, _, err) = bench.run(&works);
+    assert!(code < 2, "{err}");
+}
