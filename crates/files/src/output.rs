@@ -33,8 +33,7 @@ fn describe(e: &std::io::Error) -> String {
         std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => FULL.into(),
         std::io::ErrorKind::NotFound => "no such folder".into(),
         std::io::ErrorKind::InvalidFilename => {
-            "a name in it is longer than its disk takes, mostly 255 bytes, or all of it than 4096"
-                .into()
+            "is longer than a disk takes: a name mostly 255 bytes, the whole path 4096".into()
         }
         _ => e.to_string(),
     }

@@ -278,3 +278,34 @@ fn another_kind_of_file_leads_on() {
     let (code, _, err) = bench.run(&works);
     assert!(code < 2, "{err}");
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_folder_that_cannot_be_made_is_refused_first() {
+    let bench = Bench::new();
+    bench.write("file", "");
+    std::fs::create_dir(bench.path("newer")).unwrap();
+    bench.write(
+        "newer/result.json",
+        "{\n  \"schema\": \"stiction.result/2\"\n}\n",
+    );
+    let long = "a".repeat(300);
+    let mut said = String::new();
+    for out in [&long, "file/out", "/proc/out", "/proc", "newer"] {
+        // Of a log that is not there nothing is said.
+        said += &bench.refused(&["identify", "nowhere.csv", "--out", out]);
+    }
+    insta::assert_snapshot!(said.replace(&long, "aaa..."));
+    let kept = std::fs::read_to_string(bench.path("newer/result.json")).unwrap();
+    assert!(kept.contains("result/2"));
+    let forced = [
+        "identify",
+        "log.csv",
+        "--law=stribeck",
+        "--out",
+        "newer",
+        "--force",
+    ];
+    let (code, _, err) = bench.run(&forced);
+    assert!(code < 2, "{err}");
+}
