@@ -309,3 +309,31 @@ fn a_folder_that_cannot_be_made_is_refused_first() {
     let (code, _, err) = bench.run(&forced);
     assert!(code < 2, "{err}");
 }
+
+#[test]
+fn the_sign_of_a_log_that_is_not_fitted_is_told() {
+    let bench = Bench::new();
+    let turned = log().lines().skip(1).fold(
+        String::from("Time [s],Position [mm],Force [N]\n"),
+        |mut text, line| {
+            let (motion, force) = line.rsplit_once(',').unwrap();
+            let force: f64 = force.parse().unwrap();
+            let _ = writeln!(text, "{motion},{:.4}", -force + 0.01);
+            text
+        },
+    );
+    bench.write("turned.csv", &turned);
+    let fit = [
+        "identify",
+        "log.csv",
+        "--law=stribeck",
+        "--out",
+        "out",
+        "--validate",
+        "turned.csv",
+    ];
+    let (code, out, err) = bench.run(&fit);
+    assert_eq!(code, 1, "{err}");
+    let told = out.lines().filter(|line| line.contains("turned.csv"));
+    insta::assert_snapshot!(told.collect::<Vec<_>>().join("\n"));
+}
