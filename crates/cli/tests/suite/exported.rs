@@ -281,11 +281,11 @@ fn c_that_starts_another_program_is_ended() {
 fn runs_with_exported_c_are_taken_again() {
     let folder = desk(&lugre(), &[]);
     let at = folder.path();
-    let second = STUDY.replace("[[controller]]", "[[path]]\nname = \"fast\"\nkind = \"sine\"\namplitude = \"1 mm\"\nfrequency = \"2 Hz\"\ncycles = 3\n\n[[controller]]");
+    let second = STUDY.replace("[[controller]]", "[[path]]\nname = \"fast\"\nkind = \"sine\"\namplitude = \"1 mm\"\nfrequency = \"3 Hz\"\ncycles = 3\n\n[[controller]]");
     std::fs::write(at.join("study.toml"), second).unwrap();
     let file = at.join("c/x_axis_friction.c");
     let whole = std::fs::read_to_string(&file).unwrap();
-    // C that notes each run, and gives no compensation to the second path: the first path has 6000 calls, and what comes before.
+    // C that notes each run, and gives no number on the second path, which alone is faster than 15 mm/s.
     let notes = at.join("notes");
     let own = "_step_in(params, state, params->cycle_time, input);";
     let end = whole.rfind(own).unwrap() + own.len();
@@ -296,7 +296,7 @@ fn runs_with_exported_c_are_taken_again() {
             notes.display()
         );
         let fault = match fails {
-            true => "if (input->reference_velocity > 0.0124) { return 0.0 / 0.0; }",
+            true => "if (input->reference_velocity > 0.015) { return 0.0 / 0.0; }",
             false => "",
         };
         let text = format!("{}{count} {fault} {}", &whole[..start], &whole[start..]);

@@ -104,7 +104,7 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     if given.time.is_none() && given.rate_hz.is_none() {
         match scan.pick(Role::Time)? {
             Some(column) => out.mapping.time = Some(scan.take(column)),
-            None => out.mapping.rate_hz = Some(stated_rate(table)?),
+            None => out.mapping.rate_hz = Some(scan.stated_rate()?),
         }
     }
     if let Some(rate) = out.mapping.rate_hz {
@@ -179,22 +179,6 @@ pub(crate) fn clear(table: &Table) -> Mapping {
     });
     out.motion = motion::from_units(&known.collect::<Vec<_>>()).map(|(motion, _)| motion);
     out
-}
-
-fn stated_rate(table: &Table) -> Result<f64, Error> {
-    if let Some(step) = table
-        .sample_time
-        .filter(|dt| PLAUSIBLE_SAMPLE_TIME.contains(dt))
-    {
-        return Ok(1.0 / step);
-    }
-    let found = format!(
-        "no time column was recognised, and no rate is given; {}",
-        describe::columns(table)
-    );
-    let allowed = "give one of them in axis.toml: rate = \"1 kHz\", or under [columns]: time = \"t\" (or the \
-                   number of the column, counted from 1)";
-    Err(Error::new(Kind::Missing, found, allowed))
 }
 
 fn nameless(table: &Table) -> Error {
@@ -465,6 +449,29 @@ impl<'a> Scan<'a> {
         self.units[column]
             .as_ref()
             .is_none_or(|unit| allows(role, of_role(unit, role).dimension()))
+    }
+
+    /// The rate that the file states, where it has no time.
+    fn stated_rate(&self) -> Result<f64, Error> {
+        let table = self.table;
+        let step = table
+            .sample_time
+            .filter(|dt| PLAUSIBLE_SAMPLE_TIME.contains(dt));
+        if let Some(step) = step {
+            return Ok(1.0 / step);
+        }
+        let found = format!(
+            "no time column was recognised, and no rate is given; {}",
+            describe::columns(table)
+        );
+        let open = |c: &usize| !self.used[*c] && !self.flags[*c] && self.hints[*c].is_none();
+        let mut runs_on = (0..self.units.len()).filter(open);
+        let line = runs_on.find_map(|c| rate::time_line(table, c));
+        let line = line
+            .unwrap_or_else(|| "time = \"t\" (or the number of the column, counted from 1)".into());
+        let allowed =
+            format!("give one of them in axis.toml: rate = \"1 kHz\", or under [columns]: {line}");
+        Err(Error::new(Kind::Missing, found, allowed))
     }
 
     fn no_motion(&self) -> Error {

@@ -101,7 +101,15 @@ fn written_unit(
         return Ok(Some(unit.clone()));
     }
     if let Some(text) = in_file {
-        let place = |e: Error| e.in_column(describe::place(table, column));
+        let unit = format!("unit = \"{}\"", usual(role));
+        let place = |mut e: Error| {
+            let line = describe::line_with(table, column, role, &unit);
+            e.allowed = format!(
+                "{}; or say what it is in axis.toml under [columns], as in: {line}",
+                e.allowed
+            );
+            e.in_column(describe::place(table, column))
+        };
         return Unit::parse(text).map(Some).map_err(place);
     }
     if let Some(unit) = endings::of_channel(table, column, channel, role) {
@@ -115,6 +123,18 @@ fn written_unit(
         })
     });
     Ok(counts.then(|| Unit::si(Dimension::COUNTS)))
+}
+
+/// A unit that a column of a role is often in, as an example.
+fn usual(role: Role) -> &'static str {
+    match role {
+        Role::Time => "ms",
+        Role::Position | Role::Reference => "mm",
+        Role::Velocity => "mm/s",
+        Role::Acceleration => "mm/s^2",
+        Role::Force | Role::External | Role::Load => "N",
+        Role::Temperature => "degC",
+    }
 }
 
 /// Refuses a motion or force column without a unit in a file where others have one.

@@ -34,6 +34,17 @@ pub(super) fn compare(
     }
 }
 
+/// The line of the axis file that makes a column the time, where its numbers run on as time stamps do in some unit.
+pub(super) fn time_line(table: &Table, column: usize) -> Option<String> {
+    let values = &table.columns[column].values;
+    let steps = Steps::of(table, column).filter(|_| values.is_sorted())?;
+    let fits = |unit: &Unit| PLAUSIBLE_SPACING.contains(&(unit.factor() * steps.usual));
+    let mut units = UNITS.iter().filter_map(|unit| Unit::parse(unit).ok());
+    let unit = units.find(fits).filter(|_| steps.usual != 1.0)?;
+    let named = format!("unit = \"{unit}\"");
+    Some(describe::line_with(table, column, Role::Time, &named))
+}
+
 /// Steps of time stamps, in their own unit.
 struct Steps {
     /// The median of those that go forward.

@@ -141,6 +141,11 @@ fn units_at_the_end_of_names_are_read() {
         &["t", "pos_m", "pos_l", "tau"],
         &["t", "q_m", "tau_m"],
         &["t", "x_A", "F_A"],
+        // Marked as units, whatever they are.
+        &["time, s", "position, mm", "force, N"],
+        &["Zeit / ms", "Weg / mm", "Strom / mA"],
+        &["t in s", "x in mm", "speed in mm/s", "F in kN"],
+        &["t", "pos, left", "force / axis"],
     ]));
     let line = |headers: &[&str], column: &str, role: &str| {
         let mapping = Mapping {
@@ -806,4 +811,44 @@ fn stamps_say_nothing_of_the_units_of_others() {
         refused.contains("position has no unit while other columns have one"),
         "{refused}"
     );
+}
+
+/// A column that runs on is named as the time that it may be, in a unit that fits.
+#[test]
+fn what_may_be_the_time_is_named() {
+    let said = |name: &str, step: f64| {
+        let mut table = axis(2000).table();
+        table.columns[0] = column(name, (0..2000).map(|i| 1e6 + i as f64 * step).collect());
+        Log::from_table(&table, &Mapping::default())
+            .unwrap_err()
+            .allowed
+    };
+    insta::assert_snapshot!(said("clock", 1e6), @"");
+    insta::assert_snapshot!(said("clock", 0.002), @"");
+    // Row numbers.
+    insta::assert_snapshot!(said("nr", 1.0), @"");
+}
+
+#[test]
+fn time_that_goes_back_or_stands_leads_on() {
+    let said = |stamp: &dyn Fn(usize) -> f64| {
+        let mut table = axis(2000).table();
+        table.columns[0].values = (0..2000).map(stamp).collect();
+        Log::from_table(&table, &Mapping::default())
+            .unwrap_err()
+            .allowed
+    };
+    // Two recordings in one file, all in the wrong order, a clock of 10 ms, and none.
+    insta::assert_snapshot!(said(&|i| 0.001 * (i % 1200) as f64), @"");
+    insta::assert_snapshot!(said(&|i| -0.001 * i as f64), @"");
+    insta::assert_snapshot!(said(&|i| 0.01 * (i / 10) as f64), @"");
+    insta::assert_snapshot!(said(&|_| 5.0), @"");
+    // The line that is named reads the first recording.
+    let mut table = axis(2000).table();
+    table.columns[0].values = (0..2000).map(|i| 0.001 * (i % 1200) as f64).collect();
+    let mapping = Mapping {
+        crop: Some((0.0, 1.199)),
+        ..Mapping::default()
+    };
+    assert_eq!(Log::from_table(&table, &mapping).unwrap().time.len(), 1200);
 }
