@@ -230,6 +230,39 @@ fn without_times(value: &mut serde_json::Value) {
     }
 }
 
+/// A folder that cannot be made, or that holds a result of a newer version, is refused before a log is read.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_folder_that_cannot_be_made_is_refused_first() {
+    let bench = Bench::new();
+    bench.write("file", "");
+    std::fs::create_dir(bench.path("newer")).unwrap();
+    bench.write(
+        "newer/result.json",
+        "{\n  \"schema\": \"stiction.result/2\"\n}\n",
+    );
+    let long = "a".repeat(300);
+    let mut said = String::new();
+    for out in [&long, "file/out", "/proc/out", "/proc", "newer"] {
+        // Of a log that is not there nothing is said.
+        said += &bench.refused(&["identify", "nowhere.csv", "--out", out]);
+    }
+    insta::assert_snapshot!(said.replace(&long, "aaa..."));
+    let kept = std::fs::read_to_string(bench.path("newer/result.json")).unwrap();
+    assert!(kept.contains("result/2"));
+    let forced = [
+        "identify",
+        "log.csv",
+        "--law=stribeck",
+        "--out",
+        "newer",
+        "--force",
+    ];
+    let (code, _, err) = bench.run(&forced);
+    assert!(code < 2, "{err}");
+}
+
+/// A file that is something else than what a command reads is named as what it is, with the one that is meant.
 #[test]
 fn another_kind_of_file_leads_on() {
     let bench = Bench::new();
@@ -279,37 +312,7 @@ fn another_kind_of_file_leads_on() {
     assert!(code < 2, "{err}");
 }
 
-#[test]
-#[cfg(target_os = "linux")]
-fn a_folder_that_cannot_be_made_is_refused_first() {
-    let bench = Bench::new();
-    bench.write("file", "");
-    std::fs::create_dir(bench.path("newer")).unwrap();
-    bench.write(
-        "newer/result.json",
-        "{\n  \"schema\": \"stiction.result/2\"\n}\n",
-    );
-    let long = "a".repeat(300);
-    let mut said = String::new();
-    for out in [&long, "file/out", "/proc/out", "/proc", "newer"] {
-        // Of a log that is not there nothing is said.
-        said += &bench.refused(&["identify", "nowhere.csv", "--out", out]);
-    }
-    insta::assert_snapshot!(said.replace(&long, "aaa..."));
-    let kept = std::fs::read_to_string(bench.path("newer/result.json")).unwrap();
-    assert!(kept.contains("result/2"));
-    let forced = [
-        "identify",
-        "log.csv",
-        "--law=stribeck",
-        "--out",
-        "newer",
-        "--force",
-    ];
-    let (code, _, err) = bench.run(&forced);
-    assert!(code < 2, "{err}");
-}
-
+/// A log that is validated on and has the wrong sign of force is told so.
 #[test]
 fn the_sign_of_a_log_that_is_not_fitted_is_told() {
     let bench = Bench::new();
@@ -336,4 +339,40 @@ fn the_sign_of_a_log_that_is_not_fitted_is_told() {
     assert_eq!(code, 1, "{err}");
     let told = out.lines().filter(|line| line.contains("turned.csv"));
     insta::assert_snapshot!(told.collect::<Vec<_>>().join("\n"));
+}
+
+/// Of two joints the one that moves is taken; where another one moves in another log, the two are not mixed.
+#[test]
+fn logs_in_which_other_joints_move_are_not_mixed() {
+    let bench = Bench::new();
+    let still = ["0.001", "0.2"];
+    for (file, first) in [("first.csv", true), ("second.csv", false)] {
+        let head = "Time [s],A position [mm],A force [N],B position [mm],B force [N]\n";
+        let text =
+            log()
+                .lines()
+                .skip(1)
+                .enumerate()
+                .fold(head.to_string(), |mut text, (k, line)| {
+                    let (time, moved) = line.split_once(',').unwrap();
+                    let still = still.join(",");
+                    let _ = match first {
+                        true => writeln!(text, "{time},{moved}{},{still}", k % 10),
+                        false => writeln!(text, "{time},{still},{moved}"),
+                    };
+                    text
+                });
+        bench.write(file, &text);
+    }
+    let fit = [
+        "identify",
+        "first.csv",
+        "second.csv",
+        "--law=stribeck",
+        "--out",
+        "out",
+    ];
+    insta::assert_snapshot!(bench.refused(&fit));
+    let (code, _, err) = bench.run(&["identify", "first.csv", "--law=stribeck", "--out", "out"]);
+    assert!(code < 2, "{err}");
 }
