@@ -82,7 +82,10 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     if let Error::File(FileError::TooLarge { needed, .. }) = error {
         return Some(large::with_more_samples(*needed));
     }
-    if let Some(next) = crate::next::missing(error).or_else(|| crate::next::no_room(error)) {
+    if let Some(next) = crate::next::missing(error)
+        .or_else(|| crate::next::other_form(error))
+        .or_else(|| crate::next::no_room(error))
+    {
         return Some(next);
     }
     if let Error::File(FileError::Runs { .. }) = error {
@@ -705,13 +708,14 @@ fn simulate(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Err
     let exported = exported.transpose()?;
     large::announce(stiction::commands::text::announced(&study), common);
     let runs = large::keeping(dir, simulate.resume, |dir, resume| {
-        Ok(stiction::commands::keep(&study, dir, resume)?)
+        let exported = exported.as_ref();
+        Ok(stiction::commands::keep(&study, exported, dir, resume)?)
     })?;
     let mut bar = Bar::new(common.json || common.quiet);
     let mut outcome = stiction::commands::simulate_keeping(&study, &runs, &mut bar);
     bar.finish();
     if let Some(exported) = exported.filter(|_| !interrupt::stops()) {
-        compare_exported(&mut outcome, &study, &exported)?;
+        compare_exported(&mut outcome, &study, &exported, &runs)?;
     }
     let schema = stiction::commands::study::result::SCHEMA;
     let (dir, written) = put(&bundle::study(&outcome), dir, schema)?;

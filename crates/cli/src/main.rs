@@ -19,13 +19,29 @@ mod wording;
 
 use arguments::Arguments;
 use clap::Parser;
+use clap::error::ErrorKind;
 use exit::Exit;
+use std::fmt::Write as _;
 use std::io::Write;
 use std::process::ExitCode;
 
 /// Keeps the memory that one search gives back for the next, where the system's would be asked for anew.
 #[global_allocator]
 static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
+/// What leads on from arguments that are missing.
+fn led_on(error: &clap::Error) -> String {
+    let is_missing = error.kind() == ErrorKind::MissingRequiredArgument;
+    let Some((refused, next)) = is_missing.then(next::incomplete_export).flatten() else {
+        return String::new();
+    };
+    let mut text = String::from("\n");
+    for line in refused.iter().flat_map(wording::lines) {
+        let _ = writeln!(text, "stiction: {}", output::line(&line));
+    }
+    let _ = writeln!(text, "stiction: {}", output::line(&next));
+    text
+}
 
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
@@ -34,7 +50,7 @@ fn main() -> ExitCode {
             let printed = match e.use_stderr() {
                 // What was typed stands in it, such as the name of a file for an option.
                 true => {
-                    let text = e.render().to_string();
+                    let text = format!("{}{}", e.render(), led_on(&e));
                     std::io::stderr().write_all(output::plain(&text).as_bytes())
                 }
                 false => e.print().and_then(|()| std::io::stdout().flush()),

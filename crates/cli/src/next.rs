@@ -1,9 +1,11 @@
-//! What to type next where a file is not there, or cannot be written.
+//! What to type next where a file is not there, is another one, or cannot be written.
 
+use crate::arguments::{Arguments, Target};
+use clap::{CommandFactory, ValueEnum};
 use std::path::{Path, PathBuf};
 use stiction::commands::shell::{quoted_path, text as path_text};
 use stiction::commands::{FileError, has_runs};
-use stiction::{Code, Error};
+use stiction::{Code, Error, ModelFile};
 
 /// What leads on from an input that is not there: the same command with the file that was probably meant, or a look at the folder.
 pub fn missing(error: &Error) -> Option<String> {
@@ -17,12 +19,12 @@ pub fn missing(error: &Error) -> Option<String> {
     }
     let folder = folder(path);
     if let Some(meant) = meant(path, folder) {
-        let arguments = std::env::args_os().skip(1);
-        let arguments = arguments.map(|a| match Path::new(&a) == path {
-            true => path_text(&meant),
-            false => path_text(Path::new(&a)),
-        });
-        let command = stiction::commands::text::command(arguments);
+        if !std::env::args_os().any(|argument| Path::new(&argument) == path) {
+            let meant = quoted_path(&meant);
+            return Some(format!("next: was another file meant? {meant}"));
+        }
+        let arguments = with(path, &meant);
+        let command = stiction::commands::text::command(arguments.into_iter());
         return Some(format!("next: was another file meant? {command}"));
     }
     let there = folder.ancestors().map(or_here).find(|dir| dir.is_dir())?;
@@ -30,6 +32,61 @@ pub fn missing(error: &Error) -> Option<String> {
         "next: ls {} shows which files there are",
         quoted_path(there)
     ))
+}
+
+/// What leads on from a file that is something else than what is read: the same command with the one that is wanted.
+pub fn other_form(error: &Error) -> Option<String> {
+    let Error::File(FileError::OtherForm {
+        file,
+        instead: Some(instead),
+        ..
+    }) = error
+    else {
+        return None;
+    };
+    let arguments = with(file, instead);
+    Some(format!(
+        "next: {}",
+        stiction::commands::text::command(arguments.into_iter())
+    ))
+}
+
+/// What was typed, with another path in place of one.
+fn with(file: &Path, instead: &Path) -> Vec<String> {
+    let arguments = std::env::args_os().skip(1);
+    let arguments = arguments.map(|a| match Path::new(&a) == file {
+        true => path_text(instead),
+        false => path_text(Path::new(&a)),
+    });
+    arguments.collect()
+}
+
+/// What leads on from an export without its target or its folder: the whole command, and before it what is wrong with the file that
+/// it names.
+pub fn incomplete_export() -> Option<(Option<Error>, String)> {
+    let optional = |export: clap::Command| export.mut_args(|argument| argument.required(false));
+    let command = Arguments::command().mut_subcommand("export", optional);
+    let typed = command.try_get_matches().ok()?;
+    let export = typed.subcommand_matches("export")?;
+    let file: &PathBuf = export.get_one("model")?;
+    let refused = ModelFile::read(file).err();
+    let model = match &refused {
+        None => file,
+        Some(FileError::OtherForm { instead, .. }) => instead.as_ref()?,
+        Some(_) => return None,
+    };
+    let mut arguments = with(file, model);
+    let target: Option<&Target> = export.get_one("target");
+    if target.is_none() {
+        arguments.extend(["--target".to_string(), "c".to_string()]);
+    }
+    if !export.contains_id("out") {
+        let named = target.and_then(ValueEnum::to_possible_value);
+        let dir = model.with_file_name(named.as_ref().map_or("c", |value| value.get_name()));
+        arguments.extend(["--out".to_string(), path_text(&dir)]);
+    }
+    let next = stiction::commands::text::command(arguments.into_iter());
+    Some((refused.map(Error::from), format!("next: {next}")))
 }
 
 /// What leads on where the disk is full.

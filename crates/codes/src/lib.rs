@@ -58,6 +58,7 @@ codes! {
     UnlikelySize = "unlikely-size": "a rate, travel, speed or force is one that no machine has: a unit is probably wrong",
     UnitOverride = "unit-override": "the axis file gives another unit than the recording",
     UnitConvention = "unit-convention": "the unit is in use with more than one meaning",
+    RateOverride = "rate-override": "the axis file gives another rate than the time stamps of the recording",
     UnsignedCounts = "unsigned-counts": "numbers below zero were written without their sign",
     ForceUnit = "force-unit": "the unit of the force does not fit a linear or rotary axis as stated",
     ForceNotCalibrated = "force-not-calibrated": "the force is a current, a voltage or a fraction of a rated value, not in N or N·m",

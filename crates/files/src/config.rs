@@ -5,6 +5,7 @@
 //! names file, line, column and key, what was found and what is allowed, also where a value turns out to be wrong only
 //! when others are known.
 
+mod form;
 mod given;
 pub(crate) mod machine;
 mod name;
@@ -15,6 +16,7 @@ mod syntax;
 mod table;
 mod typed;
 
+pub(crate) use form::Form;
 pub(crate) use given::{ANY_COUNT, Given, LARGEST_SI};
 pub(crate) use places::Places;
 pub(crate) use source::Source;

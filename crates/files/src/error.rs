@@ -1,5 +1,6 @@
 //! What goes wrong with a file, with a stable code; and what a user should know although the work goes on.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_number::short;
@@ -22,6 +23,18 @@ pub enum Error {
         found: String,
         /// What is allowed.
         allowed: String,
+    },
+    /// A file that is something else than what is read here.
+    #[error("{}: is {found}; {wanted} is wanted{}", .file.display(), here(.instead.as_deref()))]
+    OtherForm {
+        /// The file.
+        file: PathBuf,
+        /// What it is.
+        found: String,
+        /// What is wanted.
+        wanted: &'static str,
+        /// A file of that form beside it.
+        instead: Option<PathBuf>,
     },
     /// Everything that is wrong with one file: two things or more, a line each.
     #[error("{}", lines(.0))]
@@ -77,7 +90,7 @@ pub enum Error {
         /// The folder or file.
         path: PathBuf,
         /// What is there.
-        found: &'static str,
+        found: Cow<'static, str>,
         /// What to do.
         remedy: Remedy,
     },
@@ -102,7 +115,7 @@ impl Error {
     pub fn code(&self) -> Code {
         match self {
             Error::Log(e) => e.kind.code(),
-            Error::Config { .. } | Error::Several(_) => Code::BadConfig,
+            Error::Config { .. } | Error::OtherForm { .. } | Error::Several(_) => Code::BadConfig,
             Error::Misfit { code, .. } => *code,
             Error::Runs { .. } => Code::BadCheckpoint,
             Error::TooLarge { .. } => Code::TooLarge,
@@ -131,13 +144,17 @@ impl Error {
         }
     }
 
-    pub(crate) fn taken(path: &Path, found: &'static str, remedy: Remedy) -> Self {
+    pub(crate) fn taken(path: &Path, found: impl Into<Cow<'static, str>>, remedy: Remedy) -> Self {
         Error::Taken {
             path: path.to_path_buf(),
-            found,
+            found: found.into(),
             remedy,
         }
     }
+}
+
+fn here(instead: Option<&Path>) -> String {
+    instead.map_or(String::new(), |path| format!(": {}", path.display()))
 }
 
 fn lines(all: &[Error]) -> String {

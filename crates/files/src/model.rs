@@ -10,6 +10,6 @@ mod supported;
 
 pub use dependences::Dependences;
 pub use form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
+pub(crate) use read::BY_HAND;
 pub use read::ReadModel;
-pub(crate) use read::{BY_HAND, MODEL};
 pub use supported::Lowered;

@@ -32,6 +32,9 @@ fn describe(e: &std::io::Error) -> String {
         std::io::ErrorKind::PermissionDenied => "permission denied".into(),
         std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => FULL.into(),
         std::io::ErrorKind::NotFound => "no such folder".into(),
+        std::io::ErrorKind::InvalidFilename => {
+            "is longer than a disk takes: a name mostly 255 bytes, the whole path 4096".into()
+        }
         _ => e.to_string(),
     }
 }

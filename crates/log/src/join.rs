@@ -161,6 +161,7 @@ impl Joined {
         self.table.columns.push(Column {
             name: other.columns[index].name.clone(),
             unit: other.columns[index].unit.clone(),
+            stamps: other.columns[index].stamps,
             values,
         });
         let number = self.table.number(self.table.columns.len() - 1);

@@ -8,7 +8,8 @@
 //! force stands in only where no measured one exists. Columns about errors, limits and states are
 //! passed over, and so are columns without a unit that hold 0 and 1 alone: flags. Where names say nothing,
 //! the only column in a unit of length (angle, velocity, force, torque) is taken. Two columns that fit equally well are refused, unless they are equal
-//! sample by sample. Motion and force are of one axis: beside `X act` and `X current`, `Y act` is a position
+//! sample by sample, or all but one of them never change. A column that never changes is taken where its name says so as no other's
+//! does, and never for its unit alone. Motion and force are of one axis: beside `X act` and `X current`, `Y act` is a position
 //! too, and the one is taken whose force is named. Columns that a mapping names are taken as named; only what it leaves
 //! open is filled in: time where neither time nor rate is given, force where none is given, and
 //! position and velocity only where neither is given.
@@ -47,7 +48,9 @@ mod limits;
 mod motion;
 mod names;
 pub(crate) mod parts;
+mod rate;
 mod select;
+mod still;
 mod understood;
 mod wanted;
 

@@ -31,6 +31,7 @@ pub(crate) fn join(table: &mut Table) {
         table.columns[seconds] = Column {
             name,
             unit: Some("s".to_string()),
+            stamps: true,
             values,
         };
         table.columns.remove(nanoseconds);

@@ -9,6 +9,9 @@ pub struct Column {
     pub name: String,
     /// Unit as written in the file (`Position [mm]` gives `mm`); `None` where the file has none.
     pub unit: Option<String>,
+    /// Whether these are seconds that the reader has made of time stamps or durations: the unit is not one that somebody wrote, and
+    /// says nothing of those of other columns.
+    pub stamps: bool,
     /// Samples in file order; a cell that is empty or marked as missing is NaN.
     pub values: Vec<f64>,
 }
@@ -17,12 +20,14 @@ impl Column {
     /// A column under a header as files have it: `Position [mm]` is the position in mm, `Position` has no unit.
     pub fn headed(header: &str, values: Vec<f64>) -> Self {
         let (name, unit) = crate::text::unit::split(header);
-        Self { name, unit, values }
+        Self {
+            name,
+            unit,
+            stamps: false,
+            values,
+        }
     }
 }
-
-/// What every reader says in [`Table::detected`] of stamps that it has made seconds of.
-const CONVERTED: &str = ", converted to seconds";
 
 /// A single number that a file carries beside its columns (a force constant, a sample time).
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +47,10 @@ pub struct Passed {
     pub ones: bool,
     /// Whether one of them is neither.
     pub others: bool,
+    /// Whether they are not all the same.
+    pub changes: bool,
+    /// The bits of one of them.
+    any: Option<u64>,
 }
 
 impl Passed {
@@ -51,6 +60,11 @@ impl Passed {
         self.zeros |= value == 0.0;
         self.ones |= value == 1.0;
         self.others |= value != 0.0 && value != 1.0 && !value.is_nan();
+        if !value.is_nan() {
+            // Zero has two signs.
+            let bits = (value + 0.0).to_bits();
+            self.changes |= *self.any.get_or_insert(bits) != bits;
+        }
     }
 
     /// Takes note of what was seen elsewhere.
@@ -58,6 +72,13 @@ impl Passed {
         self.zeros |= other.zeros;
         self.ones |= other.ones;
         self.others |= other.others;
+        self.changes |= other.changes || self.any.zip(other.any).is_some_and(|(a, b)| a != b);
+        self.any = self.any.or(other.any);
+    }
+
+    /// Whether it has numbers, all of them the same.
+    pub(crate) fn never_changes(&self) -> bool {
+        self.any.is_some() && !self.changes
     }
 }
 
@@ -96,17 +117,6 @@ impl Table {
             .unwrap_or(0)
     }
 
-    /// Whether a column holds time stamps that the reader has made seconds of: its unit is not one that somebody wrote, and says
-    /// nothing of the others.
-    pub(crate) fn is_stamped(&self, column: usize) -> bool {
-        let name = &self.columns[column].name;
-        let begins = [format!("{name}: "), format!("time stamps {name} of ")];
-        let says = |line: &String| {
-            begins.iter().any(|begin| line.starts_with(begin)) && line.contains(CONVERTED)
-        };
-        self.detected.iter().any(says)
-    }
-
     /// The same columns, those alone with their samples that are wanted.
     pub fn only(&self, wanted: &[bool]) -> Self {
         let columns = self
@@ -116,6 +126,7 @@ impl Table {
             .map(|(column, wanted)| Column {
                 name: column.name.clone(),
                 unit: column.unit.clone(),
+                stamps: column.stamps,
                 values: match wanted {
                     true => column.values.clone(),
                     false => Vec::new(),

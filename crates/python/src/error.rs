@@ -122,6 +122,19 @@ fn of_file(error: &FileError) -> (String, String, String) {
             found.clone(),
             allowed.clone(),
         ),
+        FileError::OtherForm {
+            file,
+            found,
+            wanted,
+            instead,
+        } => {
+            let instead = instead.as_ref().map(|path| format!(": {}", path.display()));
+            (
+                file.display().to_string(),
+                format!("is {found}"),
+                format!("{wanted} is wanted{}", instead.unwrap_or_default()),
+            )
+        }
         FileError::TooLarge {
             what,
             found,
@@ -137,7 +150,7 @@ fn of_file(error: &FileError) -> (String, String, String) {
         }
         FileError::Taken { path, found, .. } => (
             path.display().to_string(),
-            (*found).into(),
+            found.clone().into_owned(),
             "another folder, or force=True to write into it all the same".into(),
         ),
         error => {

@@ -51,6 +51,7 @@ impl Log {
                         name: header,
                         unit,
                         values,
+                        ..Column::default()
                     },
                 }
             })

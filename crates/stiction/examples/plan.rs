@@ -243,6 +243,7 @@ fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed:
         name: name.into(),
         unit: Some(unit.into()),
         values,
+        ..Column::default()
     };
     let columns = vec![
         column("time", "s", time),

@@ -66,6 +66,7 @@
 //!         name: name.into(),
 //!         unit: Some(unit.into()),
 //!         values,
+//!         ..Column::default()
 //!     };
 //!     let position = time.iter().map(|&t| 1e3 * motion(t).0).collect();
 //!     let force = time.iter().map(|&t| force(t)).collect();

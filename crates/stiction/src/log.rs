@@ -43,6 +43,7 @@ impl Log {
     ///     name: name.into(),
     ///     unit: Some(unit.into()),
     ///     values: (0..1000).map(|i| f(1e-3 * f64::from(i))).collect(),
+    ///     ..Column::default()
     /// };
     /// let columns = vec![
     ///     column("time", "s", |t| t),

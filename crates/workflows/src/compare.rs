@@ -154,6 +154,7 @@ impl<'a> Comparison<'a> {
             version: env!("CARGO_PKG_VERSION").into(),
             of: self.depends_on(),
             runs: usize::try_from(self.size().runs).unwrap_or(usize::MAX),
+            beside: 0,
         };
         Ok(match resume {
             true => Runs::resume(dir, &work)?,

@@ -23,6 +23,7 @@
 //!     name: name.into(),
 //!     unit: Some(unit.into()),
 //!     values,
+//!     ..Column::default()
 //! };
 //! let time: Vec<f64> = (0..100).map(|k| 1e-3 * f64::from(k)).collect();
 //! let position = time.iter().map(|t| 5.0 * (6.0 * t).sin()).collect();

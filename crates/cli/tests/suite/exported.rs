@@ -275,3 +275,54 @@ fn c_that_starts_another_program_is_ended() {
         "{err}"
     );
 }
+
+/// A study with exported C that ends on the way takes what was done with the same C, and nothing of what was done with another.
+#[test]
+fn runs_with_exported_c_are_taken_again() {
+    let folder = desk(&lugre(), &[]);
+    let at = folder.path();
+    let second = STUDY.replace("[[controller]]", "[[path]]\nname = \"fast\"\nkind = \"sine\"\namplitude = \"1 mm\"\nfrequency = \"3 Hz\"\ncycles = 3\n\n[[controller]]");
+    std::fs::write(at.join("study.toml"), second).unwrap();
+    let file = at.join("c/x_axis_friction.c");
+    let whole = std::fs::read_to_string(&file).unwrap();
+    // C that notes each run, and gives no number on the second path, which alone is faster than 15 mm/s.
+    let notes = at.join("notes");
+    let own = "_step_in(params, state, params->cycle_time, input);";
+    let end = whole.rfind(own).unwrap() + own.len();
+    let start = whole[..end].rfind("return ").unwrap();
+    let note = |fails: bool| {
+        let count = format!(
+            "static int calls = 0; if (calls++ == 0) {{ FILE *notes = fopen(\"{}\", \"a\"); fputs(\"run\\n\", notes); fclose(notes); }}",
+            notes.display()
+        );
+        let fault = match fails {
+            true => "if (input->reference_velocity > 0.015) { return 0.0 / 0.0; }",
+            false => "",
+        };
+        let text = format!("{}{count} {fault} {}", &whole[..start], &whole[start..]);
+        std::fs::write(&file, format!("#include <stdio.h>\n{text}")).unwrap();
+    };
+    let runs = || std::fs::read_to_string(&notes).map_or(0, |text| text.lines().count());
+    let resumed = [&SIMULATE[..], &["--resume"]].concat();
+
+    note(true);
+    let (code, _, err) = run(at, &SIMULATE);
+    assert_eq!((code, runs()), (2, 2), "{err}");
+    let (code, _, err) = run(at, &resumed);
+    assert_eq!((code, runs()), (2, 3), "{err}");
+    assert!(err.contains("runs are taken"), "{err}");
+    // Without the fault it is other C: its runs are made, and those of the study are taken.
+    note(false);
+    let (code, _, err) = run(at, &resumed);
+    assert_eq!((code, runs()), (0, 5), "{err}");
+    let taken = study(at);
+    let report = std::fs::read(at.join("out/trajectories.csv")).unwrap();
+    std::fs::remove_dir_all(at.join("out")).unwrap();
+    let (code, _, err) = run(at, &SIMULATE);
+    assert_eq!((code, runs()), (0, 7), "{err}");
+    assert_eq!(study(at)["exported_c"], taken["exported_c"]);
+    assert_eq!(
+        std::fs::read(at.join("out/trajectories.csv")).unwrap(),
+        report
+    );
+}

@@ -229,3 +229,150 @@ fn without_times(value: &mut serde_json::Value) {
         _ => {}
     }
 }
+
+/// A folder that cannot be made, or that holds a result of a newer version, is refused before a log is read.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_folder_that_cannot_be_made_is_refused_first() {
+    let bench = Bench::new();
+    bench.write("file", "");
+    std::fs::create_dir(bench.path("newer")).unwrap();
+    bench.write(
+        "newer/result.json",
+        "{\n  \"schema\": \"stiction.result/2\"\n}\n",
+    );
+    let long = "a".repeat(300);
+    let mut said = String::new();
+    for out in [&long, "file/out", "/proc/out", "/proc", "newer"] {
+        // Of a log that is not there nothing is said.
+        said += &bench.refused(&["identify", "nowhere.csv", "--out", out]);
+    }
+    insta::assert_snapshot!(said.replace(&long, "aaa..."));
+    let kept = std::fs::read_to_string(bench.path("newer/result.json")).unwrap();
+    assert!(kept.contains("result/2"));
+    let forced = [
+        "identify",
+        "log.csv",
+        "--law=stribeck",
+        "--out",
+        "newer",
+        "--force",
+    ];
+    let (code, _, err) = bench.run(&forced);
+    assert!(code < 2, "{err}");
+}
+
+/// A file that is something else than what a command reads is named as what it is, with the one that is meant.
+#[test]
+fn another_kind_of_file_leads_on() {
+    let bench = Bench::new();
+    let (code, _, err) = bench.run(&["identify", "log.csv", "--law=lugre", "--out", "fit"]);
+    assert!(code < 2, "{err}");
+    bench.write("axis.toml", "kind = \"linear\"\nrate = \"1 kHz\"\n");
+    let mut said = String::new();
+    for given in [
+        "fit/result.json",
+        "fit",
+        "fit/report.html",
+        "fit/fit.csv",
+        "log.csv",
+        "axis.toml",
+    ] {
+        said += &bench.refused(&["export", given, "--target", "c", "--out", "c"]);
+    }
+    said += "\n";
+    for (option, given) in [
+        (&["export"][..], "fit/result.json"),
+        (&["export", "--target", "hal"], "fit"),
+        (&["export"], "log.csv"),
+        (
+            &["identify", "log.csv", "--out", "other", "--axis"],
+            "fit/result.json",
+        ),
+        (
+            &["identify", "log.csv", "--out", "other", "--axis"],
+            "fit/model.toml",
+        ),
+        (&["simulate", "--out", "sim"], "fit/model.toml"),
+        (&["simulate", "--out", "sim"], "fit/result.json"),
+    ] {
+        said += &bench.refused(&[option, &[given]].concat());
+    }
+    insta::assert_snapshot!(said);
+    // The command that is named works.
+    let works = [
+        "export",
+        "fit/model.toml",
+        "--target",
+        "c",
+        "--out",
+        "fit/c",
+    ];
+    let (code, _, err) = bench.run(&works);
+    assert!(code < 2, "{err}");
+}
+
+/// A log that is validated on and has the wrong sign of force is told so.
+#[test]
+fn the_sign_of_a_log_that_is_not_fitted_is_told() {
+    let bench = Bench::new();
+    let turned = log().lines().skip(1).fold(
+        String::from("Time [s],Position [mm],Force [N]\n"),
+        |mut text, line| {
+            let (motion, force) = line.rsplit_once(',').unwrap();
+            let force: f64 = force.parse().unwrap();
+            let _ = writeln!(text, "{motion},{:.4}", -force + 0.01);
+            text
+        },
+    );
+    bench.write("turned.csv", &turned);
+    let fit = [
+        "identify",
+        "log.csv",
+        "--law=stribeck",
+        "--out",
+        "out",
+        "--validate",
+        "turned.csv",
+    ];
+    let (code, out, err) = bench.run(&fit);
+    assert_eq!(code, 1, "{err}");
+    let told = out.lines().filter(|line| line.contains("turned.csv"));
+    insta::assert_snapshot!(told.collect::<Vec<_>>().join("\n"));
+}
+
+/// Of two joints the one that moves is taken; where another one moves in another log, the two are not mixed.
+#[test]
+fn logs_in_which_other_joints_move_are_not_mixed() {
+    let bench = Bench::new();
+    let still = ["0.001", "0.2"];
+    for (file, first) in [("first.csv", true), ("second.csv", false)] {
+        let head = "Time [s],A position [mm],A force [N],B position [mm],B force [N]\n";
+        let text =
+            log()
+                .lines()
+                .skip(1)
+                .enumerate()
+                .fold(head.to_string(), |mut text, (k, line)| {
+                    let (time, moved) = line.split_once(',').unwrap();
+                    let still = still.join(",");
+                    let _ = match first {
+                        true => writeln!(text, "{time},{moved}{},{still}", k % 10),
+                        false => writeln!(text, "{time},{still},{moved}"),
+                    };
+                    text
+                });
+        bench.write(file, &text);
+    }
+    let fit = [
+        "identify",
+        "first.csv",
+        "second.csv",
+        "--law=stribeck",
+        "--out",
+        "out",
+    ];
+    insta::assert_snapshot!(bench.refused(&fit));
+    let (code, _, err) = bench.run(&["identify", "first.csv", "--law=stribeck", "--out", "out"]);
+    assert!(code < 2, "{err}");
+}

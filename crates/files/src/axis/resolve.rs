@@ -12,7 +12,7 @@ mod terms;
 pub use terms::MOST_PITCHES;
 
 use super::values::Axis;
-use crate::config::{Given, Places, Source, Table};
+use crate::config::{Form, Given, Places, Source, Table};
 use crate::error::Error;
 use resolver::{Resolver, SPEEDS};
 use std::path::Path;
@@ -34,7 +34,7 @@ impl Axis {
     /// With file, line, column and key, what was found and what is allowed.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
         let file = file.as_ref();
-        let text = crate::config::read(file, "an axis file")?;
+        let text = crate::config::read(file, Form::Axis)?;
         let mut axis = resolve(&text, file)?;
         axis.read_from = Some(file.into());
         axis.sha256 = Some(crate::hash::sha256_of(text.as_bytes()));
@@ -55,7 +55,7 @@ fn resolve(text: &str, file: &Path) -> Result<Axis, Error> {
     let source = Source {
         file,
         text,
-        page: "docs/axis.md",
+        form: Form::Axis,
         swept: None,
     };
     let entries = source.parse()?;

@@ -1,8 +1,9 @@
 //! One value of a configuration file, with its key and its place.
 
+use super::form::Form;
 use super::source::Source;
 use super::table::Table;
-use super::typed;
+use super::typed::{self, NotRead};
 use crate::error::Error;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
@@ -146,12 +147,13 @@ impl<'a> Given<'a> {
     }
 
     /// The file that this names, from a folder, with its text; `what` it is to be, such as "an axis file", is for messages.
-    pub fn file(&self, folder: &Path, what: &str) -> Result<(PathBuf, String), Error> {
-        let name = self.path(what)?;
+    pub fn file(&self, folder: &Path, form: Form) -> Result<(PathBuf, String), Error> {
+        let name = self.path(form.what())?;
         let file = folder.join(name);
-        match typed::text(&file, what) {
+        match typed::text(&file, form) {
             Ok(text) => Ok((file, text)),
-            Err((found, allowed)) => {
+            Err(NotRead::Other(error)) => Err(error),
+            Err(NotRead::Faulty(found, allowed)) => {
                 let found = format!("{}: {found}", file.display());
                 Err(self.refuse(found, &allowed))
             }

@@ -1,5 +1,6 @@
 //! Where every value of a file stands, for what is found wrong after the file was read.
 
+use super::form::Form;
 use super::source::Source;
 use crate::error::Error;
 use std::collections::BTreeMap;
@@ -10,15 +11,17 @@ use toml::de::{DeTable, DeValue};
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Places {
     file: PathBuf,
+    form: Form,
     /// The text and where in it each key stands; `None` for values that are in no file.
     text: Option<(String, BTreeMap<String, usize>)>,
 }
 
 impl Places {
     /// Values that are in no file: their keys are all that is known. `name` stands for the file in messages.
-    pub fn in_memory(name: &str) -> Self {
+    pub fn in_memory(name: &str, form: Form) -> Self {
         Places {
             file: name.into(),
+            form,
             text: None,
         }
     }
@@ -29,6 +32,7 @@ impl Places {
         table(entries, "", &mut bytes);
         Places {
             file: source.file.to_path_buf(),
+            form: source.form,
             text: Some((source.text.into(), bytes)),
         }
     }
@@ -71,7 +75,7 @@ impl Places {
         Source {
             file: &self.file,
             text: self.text.as_ref().map_or("", |(text, _)| text.as_str()),
-            page: "",
+            form: self.form,
             swept: None,
         }
     }

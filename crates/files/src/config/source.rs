@@ -1,5 +1,6 @@
 //! The text of a file that a user types, and the places in it.
 
+use super::form::{self, Form};
 use super::swept::Swept;
 use super::syntax;
 use crate::error::Error;
@@ -12,8 +13,8 @@ pub(crate) struct Source<'a> {
     /// For messages, and where paths in the file start from.
     pub file: &'a Path,
     pub text: &'a str,
-    /// The page that lists every key.
-    pub page: &'a str,
+    /// What it is to be.
+    pub form: Form,
     /// A value in place of one of the file.
     pub swept: Option<Swept<'a>>,
 }
@@ -22,8 +23,16 @@ impl<'a> Source<'a> {
     /// The tables of the text.
     pub fn parse(&self) -> Result<DeTable<'a>, Error> {
         match DeTable::parse(self.text) {
-            Ok(table) => Ok(table.into_inner()),
-            Err(error) => Err(syntax::refusal(self, &error)),
+            Ok(table) => match form::of_tables(table.get_ref()) {
+                Some(other) if other != self.form => {
+                    Err(self.form.instead_of(self.file, other.what().into()))
+                }
+                _ => Ok(table.into_inner()),
+            },
+            Err(error) => Err(match form::of_text(self.text) {
+                Some(found) => self.form.instead_of(self.file, found),
+                None => syntax::refusal(self, &error),
+            }),
         }
     }
 

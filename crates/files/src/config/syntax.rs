@@ -25,7 +25,7 @@ pub(super) fn refusal(source: &Source<'_>, error: &toml::de::Error) -> Error {
     // Only the word `expected` separates what was found from what is allowed.
     let (found, allowed) = match message.split_once(", expected ") {
         Some((found, expected)) => (found.to_string(), expected.to_string()),
-        None => (message, format!("see {} for every key", source.page)),
+        None => (message, format!("see {} for every key", source.form.page())),
     };
     source.error(format!("{at}: "), found, &allowed)
 }

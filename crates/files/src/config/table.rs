@@ -237,7 +237,11 @@ impl<'a> Table<'a> {
                 keys.push(key);
             }
         }
-        let allowed = format!("one of {} (see {})", keys.join(", "), self.source.page);
+        let allowed = format!(
+            "one of {} (see {})",
+            keys.join(", "),
+            self.source.form.page()
+        );
         let names = self.entries.keys();
         let strangers = names.filter(|name| !keys.contains(&name.get_ref().as_ref()));
         let errors = strangers.map(|name| {

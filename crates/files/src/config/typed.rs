@@ -1,5 +1,6 @@
 //! A file that a user types: read whole, within bounds.
 
+use super::form::{self, Form};
 use crate::error::Error;
 use crate::output::settle;
 use std::path::Path;
@@ -7,27 +8,40 @@ use std::path::Path;
 /// Largest file that is read, bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// The text of a file; `what` it is to be, such as "an axis file", is for messages.
-pub(crate) fn read(file: &Path, what: &str) -> Result<String, Error> {
-    text(file, what).map_err(|(found, allowed)| Error::Config {
-        file: file.to_path_buf(),
-        place: String::new(),
-        found,
-        allowed,
+/// Why a file has no text to be read.
+pub(super) enum NotRead {
+    /// What was found, and what is allowed.
+    Faulty(String, String),
+    /// It is something else than a file to type.
+    Other(Error),
+}
+
+/// The text of a file, with the form that it is to have.
+pub(crate) fn read(file: &Path, form: Form) -> Result<String, Error> {
+    text(file, form).map_err(|refused| match refused {
+        NotRead::Other(error) => error,
+        NotRead::Faulty(found, allowed) => Error::Config {
+            file: file.to_path_buf(),
+            place: String::new(),
+            found,
+            allowed,
+        },
     })
 }
 
-/// The same; `Err` has what was found, and what is allowed.
-pub(super) fn text(file: &Path, what: &str) -> Result<String, (String, String)> {
+/// The same, with what is wrong apart from the file.
+pub(super) fn text(file: &Path, form: Form) -> Result<String, NotRead> {
+    let what = form.what();
     let unreadable = |e: std::io::Error| {
         let found = format!("cannot be read ({e})");
-        (found, format!("give the path of {what}"))
+        NotRead::Faulty(found, format!("give the path of {what}"))
     };
     // It may be one of several files that were about to be replaced together.
     if let Some(dir) = file.parent() {
         let whole = format!("{what} in a folder that can be completed, or a copy of it elsewhere");
-        settle(dir).map_err(|e| (e.to_string(), whole))?;
+        settle(dir).map_err(|e| NotRead::Faulty(e.to_string(), whole))?;
     }
+    let other = || form::of_file(file).map(|found| NotRead::Other(form.instead_of(file, found)));
     let meta = std::fs::metadata(file).map_err(unreadable)?;
     if !meta.is_file() || meta.len() > MAX_BYTES {
         let found = if meta.is_file() {
@@ -36,8 +50,9 @@ pub(super) fn text(file: &Path, what: &str) -> Result<String, (String, String)> 
             "not a file".into()
         };
         let allowed = format!("{what} is a text file of at most 1 MiB");
-        return Err((found, allowed));
+        return Err(other().unwrap_or(NotRead::Faulty(found, allowed)));
     }
     let bytes = std::fs::read(file).map_err(unreadable)?;
-    String::from_utf8(bytes).map_err(|_| ("is not UTF-8 text".into(), "save it as UTF-8".into()))
+    String::from_utf8(bytes)
+        .map_err(|_| NotRead::Faulty("is not UTF-8 text".into(), "save it as UTF-8".into()))
 }

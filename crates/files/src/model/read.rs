@@ -2,7 +2,7 @@
 
 use super::fault;
 use super::form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
-use crate::config::{ANY_COUNT, Given, Places, Source, Table};
+use crate::config::{ANY_COUNT, Form, Given, Places, Source, Table};
 use crate::error::Error;
 use crate::hash::sha256_of;
 use crate::result::{CovarianceEntry, PitchEntry, RangeEntry, RemainingEntry, ShapeEntry};
@@ -10,9 +10,6 @@ use crate::symbols;
 use std::path::Path;
 use stiction_log::Motion;
 use stiction_parameters::Name;
-
-/// What a model file is, for messages.
-pub(crate) const MODEL: &str = "a model file as an identification writes it";
 
 /// The method of a model that was written by hand.
 pub(crate) const BY_HAND: &str = "by hand";
@@ -39,7 +36,7 @@ impl ReadModel {
     /// As [`ModelFile::read`].
     pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
         let file = file.as_ref();
-        let text = crate::config::read(file, MODEL)?;
+        let text = crate::config::read(file, Form::Model)?;
         Self::named(&text, file)
     }
 
@@ -60,7 +57,7 @@ impl ReadModel {
         Self::checked(
             model.clone(),
             model.to_toml().as_bytes(),
-            Places::in_memory(IN_MEMORY),
+            Places::in_memory(IN_MEMORY, Form::Model),
             Faults::default(),
         )
     }
@@ -69,7 +66,7 @@ impl ReadModel {
         let source = Source {
             file,
             text,
-            page: "docs/result.md",
+            form: Form::Model,
             swept: None,
         };
         let entries = source.parse()?;

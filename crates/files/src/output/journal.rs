@@ -176,6 +176,7 @@ fn work(kind: &str) -> Work {
         version: env!("CARGO_PKG_VERSION").into(),
         of: "keys".into(),
         runs: 0,
+        beside: 0,
     }
 }
 

@@ -33,6 +33,8 @@ pub struct Work {
     pub of: String,
     /// How many runs it is made of.
     pub runs: usize,
+    /// Further runs beside these, of which each says by itself what else it depends on: another call may have more or fewer.
+    pub beside: usize,
 }
 
 impl Work {
@@ -43,6 +45,7 @@ impl Work {
             version,
             of,
             runs,
+            beside: _,
         } = self;
         format!("{SCHEMA}\t{kind}\t{version}\t{of}\t{runs}")
     }
@@ -56,6 +59,7 @@ impl Work {
             version: next()?,
             of: next()?,
             runs: next()?.parse().ok()?,
+            beside: 0,
         };
         (schema == SCHEMA && next().is_none()).then_some(work)
     }
@@ -83,7 +87,7 @@ impl Runs {
         let (path, file) = begun(dir, work)?;
         Ok(Self {
             path,
-            taken: vec![None; work.runs],
+            taken: vec![None; work.runs + work.beside],
             open: Mutex::new(Open { file, fault: None }),
         })
     }
@@ -118,12 +122,14 @@ impl Runs {
             return Err(refused(other));
         }
         whole += read.unwrap_or_default();
-        let mut taken = vec![None; work.runs];
+        let mut taken = vec![None; work.runs + work.beside];
         while let Some(read) = next(&mut line) {
-            let Some((place, run)) = run_of(&line).filter(|(place, _)| *place < work.runs) else {
+            let Some((place, run)) = run_of(&line) else {
                 break;
             };
-            taken[place] = Some(run.to_string());
+            if let Some(slot) = taken.get_mut(place) {
+                *slot = Some(run.to_string());
+            }
             whole += read;
         }
         // What was being written when the call ended.
@@ -250,7 +256,7 @@ fn other(theirs: &Work, ours: &Work) -> Option<String> {
             theirs.version, ours.version
         ));
     }
-    (theirs != ours).then(|| {
+    (theirs.line() != ours.line()).then(|| {
         format!(
             "holds runs of another {}: SHA-256 of all that they depend on {}, of this {}",
             ours.kind,
@@ -271,6 +277,7 @@ mod tests {
             version: "1".into(),
             of: of.into(),
             runs: 5,
+            beside: 0,
         }
     }
 
@@ -312,6 +319,29 @@ mod tests {
             prop_assert_eq!(runs.before(), before + 1);
             prop_assert_eq!(runs.taken(1), Some("11"));
         }
+    }
+
+    #[test]
+    fn runs_beside_the_work_are_kept_for_calls_that_have_them() {
+        let dir = tempfile::tempdir().unwrap();
+        let with = Work {
+            beside: 2,
+            ..work("a")
+        };
+        let runs = Runs::begin(dir.path(), &with).unwrap();
+        assert_eq!(runs.all(), 7);
+        runs.add(6, "16");
+        runs.add(1, "11");
+        drop(runs);
+        let runs = Runs::resume(dir.path(), &work("a")).unwrap();
+        assert_eq!(
+            (runs.all(), runs.before(), runs.taken(1)),
+            (5, 1, Some("11"))
+        );
+        runs.add(2, "12");
+        drop(runs);
+        let runs = Runs::resume(dir.path(), &with).unwrap();
+        assert_eq!((runs.before(), runs.taken(6)), (3, Some("16")));
     }
 
     #[test]

@@ -11,6 +11,9 @@ use tempfile::NamedTempFile;
 /// Temporary names begin so, followed by six letters or digits.
 pub(super) const PREFIX: &str = ".stiction-part-";
 
+/// Why nothing can be written in a folder of the system.
+const NO_FILES: &str = "no file can be made in this folder";
+
 /// A file is locked as soon as this after it is made.
 const SOON: Duration = Duration::from_secs(60);
 
@@ -50,7 +53,12 @@ fn temporary_beside(path: &Path) -> std::io::Result<NamedTempFile> {
         Some(dir) if !dir.as_os_str().is_empty() => dir,
         _ => Path::new("."),
     };
-    tempfile::Builder::new().prefix(PREFIX).tempfile_in(dir)
+    let made = tempfile::Builder::new().prefix(PREFIX).tempfile_in(dir);
+    made.map_err(|e| match e.kind() {
+        // A folder such as /proc, which is there and takes no file.
+        std::io::ErrorKind::NotFound if dir.is_dir() => std::io::Error::other(NO_FILES),
+        _ => e,
+    })
 }
 
 /// Whether a name is one that [`temporary_beside`] gives.

@@ -1,9 +1,10 @@
 //! What an output folder may hold already, and what would be lost in it.
 
-use super::staged::{clean, probe};
+use super::staged::{self, clean, probe};
 use super::{describe, runs};
 use crate::error::{Error, Remedy};
 use std::fs;
+use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 /// Files that mark a folder as one that stiction wrote and may replace, each written last.
@@ -104,21 +105,29 @@ pub fn check_folder_of(dir: impl AsRef<Path>, schema: &str, force: bool) -> Resu
     let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
     // Runs that were kept until the outcome is there are nothing that would be lost.
     let empty = entries.all(|entry| entry.is_ok_and(|entry| entry.file_name() == runs::NAME));
+    if empty || force {
+        return Ok(());
+    }
     let mut marks = MARKS
         .iter()
         .filter(|mark| mark.split('.').next() == Some(kind));
-    if empty || force || marks.any(|mark| is_ours(&dir.join(mark), kind)) {
-        return Ok(());
-    }
-    Err(Error::taken(
-        dir,
-        "is not empty and holds no result of stiction",
-        Remedy::AnotherFolderOrForce,
-    ))
+    let found = match marks.find_map(|mark| schema_of(&dir.join(mark), kind)) {
+        Some(there) if version(&there) <= version(schema) => return Ok(()),
+        Some(there) => format!("holds {there} of a newer stiction; this one writes {schema}"),
+        None => "is not empty and holds no result of stiction".into(),
+    };
+    Err(Error::taken(dir, found, Remedy::AnotherFolderOrForce))
 }
 
 /// The nearest folder that exists, `dir` or one above it, in which something can be written.
 pub(super) fn writable_above(dir: &Path) -> Result<&Path, Error> {
+    // A name that no disk takes is refused where it is looked at, and so is one behind a folder that may not be read.
+    let inside = dir.join(staged::PREFIX);
+    if let Err(e) = inside.symlink_metadata()
+        && !matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
+    {
+        return Err(Error::output(dir, describe(&e)));
+    }
     // The nearest folder that exists; `symlink_metadata` so that a dangling link counts as something.
     let existing = dir
         .ancestors()
@@ -139,15 +148,93 @@ pub(super) fn writable_above(dir: &Path) -> Result<&Path, Error> {
 }
 
 pub(super) fn is_ours(mark: &Path, kind: &str) -> bool {
+    schema_of(mark, kind).is_some()
+}
+
+/// The schema of a file that stiction wrote, such as `stiction.result/1`; `None` for any other.
+fn schema_of(mark: &Path, kind: &str) -> Option<String> {
     // Opening a pipe of this name would wait for ever.
-    if !mark.is_file() {
-        return false;
-    }
-    let Ok(file) = fs::File::open(mark) else {
-        return false;
-    };
+    let file = mark.is_file().then(|| fs::File::open(mark).ok()).flatten();
     let mut head = Vec::new();
-    use std::io::Read;
-    file.take(4096).read_to_end(&mut head).is_ok()
-        && String::from_utf8_lossy(&head).contains(&format!("\"stiction.{kind}/"))
+    file?.take(4096).read_to_end(&mut head).ok()?;
+    let head = String::from_utf8_lossy(&head);
+    let at = head.find(&format!("\"stiction.{kind}/"))?;
+    Some(head[at + 1..].split('"').next()?.to_string())
+}
+
+/// The version in a schema; of none that can be read, one that no other is newer than.
+fn version(schema: &str) -> u64 {
+    let version = schema.split_once('/').map(|(_, version)| version);
+    version.and_then(|v| v.parse().ok()).unwrap_or(u64::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check_folder;
+    use std::fs;
+    use std::path::Path;
+
+    fn said(dir: &Path) -> String {
+        check_folder(dir, false).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_folder_that_cannot_be_made_is_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join("file"), "").unwrap();
+        let long = dir.path().join("a".repeat(300));
+        for long in [
+            long.clone(),
+            long.join("b"),
+            dir.path().join("a/".repeat(3000)),
+        ] {
+            assert!(said(&long).contains("mostly 255 bytes"), "{}", said(&long));
+        }
+        let below = dir.path().join("file/out");
+        assert!(
+            said(&below).contains("file: is not a folder"),
+            "{}",
+            said(&below)
+        );
+        assert!(check_folder(dir.path().join("a/b/c"), false).is_ok());
+        // Nothing was made to find out.
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_folder_of_the_system_is_there_and_takes_no_file() {
+        for dir in ["/proc", "/proc/out", "/proc/self/out"] {
+            let said = said(Path::new(dir));
+            assert!(
+                said.contains("no file can be made in this folder"),
+                "{said}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_result_of_a_newer_version_is_kept() {
+        let dir = tempfile::tempdir().unwrap();
+        let mark = dir.path().join("result.json");
+        let of = |schema: &str| {
+            fs::write(&mark, format!("{{\n  \"schema\": \"{schema}\"\n}}\n")).unwrap();
+            check_folder(dir.path(), false).map_err(|e| e.to_string())
+        };
+        assert_eq!(of("stiction.result/1"), Ok(()));
+        assert_eq!(of("stiction.result/0"), Ok(()));
+        for (newer, found) in [("2", "2"), ("10", "10"), ("next", "next")] {
+            let said = of(&format!("stiction.result/{newer}")).unwrap_err();
+            let found = format!(
+                "holds stiction.result/{found} of a newer stiction; this one writes stiction.result/1"
+            );
+            assert!(said.contains(&found), "{said}");
+            assert!(check_folder(dir.path(), true).is_ok());
+        }
+        assert!(
+            of("another/1")
+                .unwrap_err()
+                .contains("holds no result of stiction")
+        );
+    }
 }

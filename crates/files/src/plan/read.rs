@@ -1,16 +1,12 @@
 //! A plan as text: its pieces, and what its log is expected to show.
 
-use crate::config::{Source, Table, read};
+use crate::config::{Form, Source, Table, read};
 use crate::error::Error;
 use crate::hash::sha256_of;
 use std::path::{Path, PathBuf};
 use stiction_friction::ParamError;
 use stiction_plan::{Atom, Motion};
 
-/// What a plan is, for messages.
-const PLAN: &str = "a plan.toml as stiction plan writes it";
-/// The page that lists every key.
-const PAGE: &str = "docs/plan.md";
 /// Most pieces: those of a motion of ten minutes.
 const MOST_PIECES: usize = 10_000;
 const MOST_PARAMETERS: usize = 100;
@@ -49,7 +45,7 @@ impl ReadPlan {
     /// # Errors
     /// With file, line, column and key, what was found and what is allowed.
     pub fn read(file: &Path) -> Result<Self, Error> {
-        let text = read(file, PLAN)?;
+        let text = read(file, Form::Plan)?;
         Self::parse(&text, file)
     }
 
@@ -57,12 +53,16 @@ impl ReadPlan {
         let source = Source {
             file,
             text,
-            page: PAGE,
+            form: Form::Plan,
             swept: None,
         };
         let entries = source.parse()?;
         let root = Table::root(source, &entries);
-        root.required("schema", root.choice("schema", &[super::SCHEMA])?, PLAN)?;
+        root.required(
+            "schema",
+            root.choice("schema", &[super::SCHEMA])?,
+            Form::Plan.what(),
+        )?;
         let kind = root.choice("kind", &["linear", "rotary"])?;
         let kind = root.required("kind", kind, "linear or rotary")?;
         let mut expected = Vec::new();

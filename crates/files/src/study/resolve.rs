@@ -21,7 +21,7 @@ mod usual;
 use super::belief::{Belief, Family, Undrawn};
 use super::plan::{Machine, Named, Study};
 use super::size::MOST_SAMPLES;
-use crate::config::{ANY_COUNT, Source, Table};
+use crate::config::{ANY_COUNT, Form, Source, Table};
 use crate::error::{Error, Warning};
 pub(super) use compensators::whole;
 pub(super) use dimensions::Dimensions;
@@ -50,7 +50,7 @@ impl Study {
     /// As [`Study::read`].
     pub fn read_within(file: impl AsRef<Path>, samples: u64) -> Result<Self, Error> {
         let file = file.as_ref();
-        let text = crate::config::read(file, "a study file")?;
+        let text = crate::config::read(file, Form::Study)?;
         let study = resolve(&text, file)?;
         study.within(file, samples)?;
         Ok(study)
@@ -62,7 +62,7 @@ fn resolve(text: &str, file: &Path) -> Result<Study, Error> {
     let source = Source {
         file,
         text,
-        page: "docs/study.md",
+        form: Form::Study,
         swept: None,
     };
     let entries = source.parse()?;

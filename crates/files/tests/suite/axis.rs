@@ -196,6 +196,7 @@ fn log(axis: &Axis, names: [&str; 3]) -> Log {
         name: name.into(),
         unit: None,
         values: (0..100).map(values).collect(),
+        ..Column::default()
     };
     let table = Table {
         columns: vec![
@@ -563,6 +564,7 @@ fn a_log_is_refused_at_the_key() {
                 name: name.into(),
                 unit: None,
                 values: (0..100).map(|i| f64::from(i) * 1e-3).collect(),
+                ..Column::default()
             })
             .to_vec(),
         ..Table::default()
@@ -619,6 +621,7 @@ fn table(names: &[(String, Option<String>)]) -> Table {
                 name: name.clone(),
                 unit: unit.clone(),
                 values: vec![0.0],
+                ..Column::default()
             })
             .collect(),
         ..Table::default()

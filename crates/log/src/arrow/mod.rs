@@ -220,7 +220,7 @@ fn give(
                 Kind::Ticks(_, period, clock) => {
                     let (values, done) = seconds(&samples.ticks, period, clock);
                     collector.detected(format!("{name}: {done}"));
-                    collector.column(name, Some("s".to_owned()), values);
+                    collector.stamps(name, values);
                 }
                 _ if rows == 1 && every == 1 => {
                     collector.column(name, unit, samples.values.samples)

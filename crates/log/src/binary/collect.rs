@@ -151,8 +151,27 @@ impl Collector {
         self.table.columns.push(Column {
             name: name.to_owned(),
             unit,
+            stamps: false,
             values,
         });
+    }
+
+    /// Adds a column of seconds that were made of time stamps or durations.
+    pub(crate) fn stamps(&mut self, name: &str, values: Vec<f64>) {
+        let first = self.columns();
+        self.column(name, Some("s".to_owned()), values);
+        self.are_stamps(first);
+    }
+
+    /// How many columns there are so far.
+    pub(crate) fn columns(&self) -> usize {
+        self.table.columns.len()
+    }
+
+    /// Says that the columns from this one on are seconds that were made of time stamps.
+    pub(crate) fn are_stamps(&mut self, first: usize) {
+        let columns = self.table.columns.iter_mut().skip(first);
+        columns.for_each(|column| column.stamps = true);
     }
 
     /// Adds an array: a scalar, a column, or the columns `name(:,1)`, `name(:,2)` ... of a matrix.

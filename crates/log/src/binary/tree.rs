@@ -513,12 +513,16 @@ impl Tree {
             ));
             unit = Some("s".to_owned());
         }
+        let (first, stamps) = (self.collector.columns(), samples.first.is_some());
         match dims {
             // A list of one number is a column, as a file of one row has columns.
             [1, 1] => self.collector.column(name, unit, samples.values.samples),
             dims => self
                 .collector
                 .array(name, unit, dims, Order::Row, samples.values),
+        }
+        if stamps {
+            self.collector.are_stamps(first);
         }
     }
 }

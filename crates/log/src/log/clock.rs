@@ -14,6 +14,8 @@ const MAX_STEPS_OVER_OVERFLOW: f64 = 10.0;
 const MAX_DURATION: f64 = 1e9;
 /// Tolerance of the ends of a crop, relative to them, so that decimal limits keep the samples that they name.
 const CROP_ROUNDING: f64 = 1e-9;
+/// Times that the stamps of recordings behind each other in one file go back; of more the rows are in no order.
+const MOST_BREAKS: usize = 10;
 /// Counts at which time counters overflow: 16 bits, 31 bits (signed), 32 bits.
 const COUNTER_SIZES: [f64; 3] = [65_536.0, 2_147_483_648.0, 4_294_967_296.0];
 
@@ -109,7 +111,12 @@ fn stamped(
         .copied()
         .find(|row| range.contains(row) && *row > range.start)
     {
-        return Err(backward(raw, row));
+        let often = broken.len() > MOST_BREAKS;
+        let mut before = (range.start..row).rev();
+        let end = before
+            .find(|r| is_stamp(&raw[*r]))
+            .map(|row| since(row, origin));
+        return Err(backward(raw, row, end.filter(|_| !often)));
     }
     let mut time = Vec::with_capacity(range.len());
     let mut dropped = Vec::new();
@@ -148,8 +155,16 @@ fn stamped(
             count(repeated.len(), "row")
         );
         if share(&repeated) > MAX_DROPPED_SHARE {
-            let allowed = "at most 5 % of the rows: the clock is coarser than the sampling; give the rate \
-                           instead of the time column (rate = \"4 kHz\")";
+            let lasted = since(range.end - 1, origin) - since(range.start, origin);
+            let allowed = match (range.len() - 1) as f64 / lasted {
+                rate if rate.is_finite() && lasted > 0.0 => format!(
+                    "at most 5 % of the rows: the clock is coarser than the sampling; give the rate instead of the time column, on average \
+                     rate = \"{} Hz\" above [columns] of axis.toml",
+                    short(rate)
+                ),
+                _ => "time stamps that go on; give the rate instead of the time column, as in rate = \"1 kHz\" above [columns] of axis.toml"
+                    .to_string(),
+            };
             return Err(Error::new(Kind::Time, found, allowed).at_row(first as u64 + 1));
         }
         let message = format!(
@@ -231,7 +246,8 @@ fn is_stamp(raw: &f64) -> bool {
     raw.abs() <= LARGEST_VALUE
 }
 
-fn backward(raw: &[f64], row: usize) -> Error {
+/// The refusal of time that goes back at a row; `end` is the last second, counted from the first sample, that may be kept before it.
+fn backward(raw: &[f64], row: usize, end: Option<f64>) -> Error {
     let before = raw[..row]
         .iter()
         .rev()
@@ -244,8 +260,14 @@ fn backward(raw: &[f64], row: usize) -> Error {
         full(raw[row]),
         row + 1
     );
-    let allowed = "increasing time stamps; if two recordings are in one file, keep one with crop under [log], or \
-                   give the rate instead of the time column";
+    let allowed = match end {
+        Some(end) => format!(
+            "increasing time stamps; if two recordings are in one file, keep the first under [log] of axis.toml: crop = [\"0 s\", \
+             \"{} s\"], or give the rate instead of the time column",
+            full((end * 1e6).floor() / 1e6)
+        ),
+        None => "increasing time stamps: sort the rows by them, or give the rate instead of the time column".into(),
+    };
     Error::new(Kind::Time, found, allowed).at_row(row as u64 + 1)
 }
 
@@ -260,9 +282,11 @@ fn crop(
     };
     let slack = CROP_ROUNDING * from.abs().max(to.abs()).min(1e9);
     let start = (0..length).find(|&row| at(row) >= from - slack);
+    // Another recording may begin right behind the last row that is asked for.
+    let begins_again = |row: usize| at(row - 1) >= to - slack && at(row) < at(row - 1);
     let end = start.map(|s| {
         (s..length)
-            .find(|&row| at(row) > to + slack)
+            .find(|&row| at(row) > to + slack || row > s && begins_again(row))
             .unwrap_or(length)
     });
     match (start, end) {

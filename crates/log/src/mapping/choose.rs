@@ -6,15 +6,14 @@ use super::enable::{self, Enable};
 use super::flags::is_flag;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
-use super::{Detected, Mapping, bases, describe, endings, motion};
-use crate::findings::{Finding, Severity, median, short};
+use super::still::{has_to_change, never_changes};
+use super::{Detected, Mapping, bases, describe, endings, motion, rate};
+use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
 
 /// Sample times, s, that a file may give: those of the rates that an axis file may give.
 const PLAUSIBLE_SAMPLE_TIME: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
-/// How much a given rate and that of the time stamps may differ, as a fraction.
-const MAX_RATE_DEVIATION: f64 = 0.01;
 
 /// What must be of one axis: a motion and the force that drives it.
 const MOVED_AND_MOVING: [Role; 3] = [Role::Position, Role::Velocity, Role::Force];
@@ -26,6 +25,8 @@ struct Scan<'a> {
     units: Vec<Option<Unit>>,
     /// Columns of 0 and 1.
     flags: Vec<bool>,
+    /// Columns that never change.
+    still: Vec<bool>,
     used: Vec<bool>,
     /// Letter of the axis whose columns are named so far.
     axis: Option<char>,
@@ -95,13 +96,15 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     let none_named = Role::ALL
         .iter()
         .all(|r| *r == Role::Time || given.channel(*r).is_none());
-    if let Some(rate) = given.rate_hz {
-        scan.refuse_other_rate(rate)?;
+    if let Some(hertz) = given.rate_hz {
+        let stamps = scan.pick(Role::Time).ok().flatten();
+        let stamps = stamps.map(|column| (column, scan.units[column].as_ref()));
+        out.findings.extend(rate::compare(table, stamps, hertz)?);
     }
     if given.time.is_none() && given.rate_hz.is_none() {
         match scan.pick(Role::Time)? {
             Some(column) => out.mapping.time = Some(scan.take(column)),
-            None => out.mapping.rate_hz = Some(stated_rate(table)?),
+            None => out.mapping.rate_hz = Some(scan.stated_rate()?),
         }
     }
     if let Some(rate) = out.mapping.rate_hz {
@@ -178,22 +181,6 @@ pub(crate) fn clear(table: &Table) -> Mapping {
     out
 }
 
-fn stated_rate(table: &Table) -> Result<f64, Error> {
-    if let Some(step) = table
-        .sample_time
-        .filter(|dt| PLAUSIBLE_SAMPLE_TIME.contains(dt))
-    {
-        return Ok(1.0 / step);
-    }
-    let found = format!(
-        "no time column was recognised, and no rate is given; {}",
-        describe::columns(table)
-    );
-    let allowed = "give one of them in axis.toml: rate = \"1 kHz\", or under [columns]: time = \"t\" (or the \
-                   number of the column, counted from 1)";
-    Err(Error::new(Kind::Missing, found, allowed))
-}
-
 fn nameless(table: &Table) -> Error {
     let steps_by_one =
         |values: &[f64]| values.len() > 1 && values.windows(2).all(|p| p[1] - p[0] == 1.0);
@@ -241,6 +228,9 @@ impl<'a> Scan<'a> {
                 .collect(),
             flags: (0..table.columns.len())
                 .map(|c| is_flag(table, c))
+                .collect(),
+            still: (0..table.columns.len())
+                .map(|c| never_changes(table, c))
                 .collect(),
             used: vec![false; table.columns.len()],
             axis: None,
@@ -324,7 +314,11 @@ impl<'a> Scan<'a> {
         if is_motion && fits.iter().all(|(_, h)| h.commanded) {
             return Ok(None);
         }
-        let mut fits = fits.into_iter().map(|(column, _)| column).collect();
+        let mut fits: Vec<usize> = fits.into_iter().map(|(column, _)| column).collect();
+        // A measured position that never changes is a fault to be seen, whatever else is commanded; of equals it is none.
+        if has_to_change(role) && fits.iter().any(|c| !self.still[*c]) {
+            fits.retain(|c| !self.still[*c]);
+        }
         if role == Role::Time
             && let Some(motion) = self.motion()
         {
@@ -351,6 +345,7 @@ impl<'a> Scan<'a> {
         let fits: Vec<usize> = (0..self.table.columns.len())
             .filter(|&c| !self.used[c] && !self.flags[c] && self.hints[c].is_none())
             .filter(|&c| !names::passed_over(&self.table.columns[c].name))
+            .filter(|&c| !(self.still[c] && has_to_change(role)))
             .filter(|&c| self.units[c].as_ref().is_some_and(telling))
             .collect();
         self.only(distinct(self.table, fits), role)
@@ -456,43 +451,27 @@ impl<'a> Scan<'a> {
             .is_none_or(|unit| allows(role, of_role(unit, role).dimension()))
     }
 
-    /// Refuses a rate that time stamps in a written unit contradict. Their mean step counts as much
-    /// as the median: a clock coarser than the sampling repeats its stamps, and a rate is the cure.
-    fn refuse_other_rate(&self, rate: f64) -> Result<(), Error> {
-        let Ok(Some(column)) = self.pick(Role::Time) else {
-            return Ok(());
-        };
-        let Some(unit) = &self.units[column] else {
-            return Ok(());
-        };
-        let stamps: Vec<(usize, f64)> = self.table.columns[column]
-            .values
-            .iter()
-            .map(|t| unit.to_si(*t))
-            .enumerate()
-            .filter(|(_, t)| t.is_finite())
-            .collect();
-        let (Some(first), Some(last)) = (stamps.first(), stamps.last()) else {
-            return Ok(());
-        };
-        let mean = (last.1 - first.1) / (last.0 - first.0).max(1) as f64;
-        let steps = stamps.windows(2).map(|w| w[1].1 - w[0].1);
-        let Some(usual) = median(&mut steps.filter(|d| *d > 0.0).collect::<Vec<_>>()) else {
-            return Ok(());
-        };
-        let agrees = |step: f64| (rate * step - 1.0).abs() <= MAX_RATE_DEVIATION;
-        if agrees(mean) || agrees(usual) {
-            return Ok(());
+    /// The rate that the file states, where it has no time.
+    fn stated_rate(&self) -> Result<f64, Error> {
+        let table = self.table;
+        let step = table
+            .sample_time
+            .filter(|dt| PLAUSIBLE_SAMPLE_TIME.contains(dt));
+        if let Some(step) = step {
+            return Ok(1.0 / step);
         }
         let found = format!(
-            "rate is {} Hz, but the time stamps run at {} Hz",
-            short(rate),
-            short(1.0 / usual)
+            "no time column was recognised, and no rate is given; {}",
+            describe::columns(table)
         );
-        let allowed = "rate is for logs without time; take it out of axis.toml, or correct it";
-        let place = describe::place(self.table, column);
-        let error = Error::new(Kind::Ambiguous, found, allowed);
-        Err(error.in_column(place).of_setting("rate"))
+        let open = |c: &usize| !self.used[*c] && !self.flags[*c] && self.hints[*c].is_none();
+        let mut runs_on = (0..self.units.len()).filter(open);
+        let line = runs_on.find_map(|c| rate::time_line(table, c));
+        let line = line
+            .unwrap_or_else(|| "time = \"t\" (or the number of the column, counted from 1)".into());
+        let allowed =
+            format!("give one of them in axis.toml: rate = \"1 kHz\", or under [columns]: {line}");
+        Err(Error::new(Kind::Missing, found, allowed))
     }
 
     fn no_motion(&self) -> Error {
@@ -522,7 +501,8 @@ impl<'a> Scan<'a> {
         // A column that may be a position: none that is something else by its name or its unit.
         let open = |c: &usize| {
             let named = self.hints[*c].is_some_and(|hint| hint.role != Role::Position);
-            !self.used[*c] && !self.flags[*c] && !named && self.unit_allows(*c, Role::Position)
+            let free = !self.used[*c] && !self.flags[*c] && !self.still[*c];
+            free && !named && self.unit_allows(*c, Role::Position)
         };
         let example = match (0..self.units.len()).find(open) {
             Some(column) => {
@@ -541,7 +521,8 @@ impl<'a> Scan<'a> {
         let open = |c: &usize| {
             let named =
                 self.hints[*c].is_some() || names::passed_over(&self.table.columns[*c].name);
-            !self.used[*c] && !self.flags[*c] && !named && self.unit_allows(*c, Role::Force)
+            let free = !self.used[*c] && !self.flags[*c] && !self.still[*c];
+            free && !named && self.unit_allows(*c, Role::Force)
         };
         let how = match (0..self.units.len()).rev().find(open) {
             Some(column) => {

@@ -10,7 +10,7 @@ use stiction_codes::Code;
 use stiction_number::full;
 
 /// Median spacings, s, with which a time column without a unit is taken as seconds: 5 Hz to 1 MHz.
-const PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2;
+pub(super) const PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2;
 
 /// One role with its column found and, where anything tells it, its unit.
 pub(super) struct Part {
@@ -46,9 +46,8 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
             assumed: false,
         });
     }
-    let written =
-        |(place, column): (usize, &Column)| column.unit.is_some() && !table.is_stamped(place);
-    let labelled = table.columns.iter().enumerate().any(written)
+    let written = |column: &Column| column.unit.is_some() && !column.stamps;
+    let labelled = table.columns.iter().any(written)
         || parts
             .iter()
             .any(|p| p.channel.unit.is_some() || p.channel.scale.is_some());
@@ -102,7 +101,15 @@ fn written_unit(
         return Ok(Some(unit.clone()));
     }
     if let Some(text) = in_file {
-        let place = |e: Error| e.in_column(describe::place(table, column));
+        let unit = format!("unit = \"{}\"", usual(role));
+        let place = |mut e: Error| {
+            let line = describe::line_with(table, column, role, &unit);
+            e.allowed = format!(
+                "{}; or say what it is in axis.toml under [columns], as in: {line}",
+                e.allowed
+            );
+            e.in_column(describe::place(table, column))
+        };
         return Unit::parse(text).map(Some).map_err(place);
     }
     if let Some(unit) = endings::of_channel(table, column, channel, role) {
@@ -116,6 +123,18 @@ fn written_unit(
         })
     });
     Ok(counts.then(|| Unit::si(Dimension::COUNTS)))
+}
+
+/// A unit that a column of a role is often in, as an example.
+fn usual(role: Role) -> &'static str {
+    match role {
+        Role::Time => "ms",
+        Role::Position | Role::Reference => "mm",
+        Role::Velocity => "mm/s",
+        Role::Acceleration => "mm/s^2",
+        Role::Force | Role::External | Role::Load => "N",
+        Role::Temperature => "degC",
+    }
 }
 
 /// Refuses a motion or force column without a unit in a file where others have one.

@@ -1,9 +1,10 @@
-//! Units at the end of names: `Zeit_ms`, `J3_q_act_deg`.
+//! Units at the end of names: `Zeit_ms`, `J3_q_act_deg`, `position, mm`, `Weg / mm`, `speed in mm/s`.
 
 use super::channel::{Channel, Motion, Role};
 use super::choose::allows;
 use super::convert::of_role;
 use super::names::{self, Hint};
+use crate::text::unit::is_known;
 use crate::{Dimension, Table, Unit};
 
 /// The endings that are units. Those of one letter are other things too: a motor, a phase, an axis, a sample.
@@ -11,11 +12,33 @@ const UNITS: &[&str] = &[
     "ms", "us", "ns", "s", "deg", "rad", "mm", "um", "m", "Nm", "N", "mA", "A",
 ];
 
+/// What sets a unit apart from the name before it, whatever unit it is.
+const MARKS: [&str; 3] = [", ", " / ", " in "];
+
+/// A name and the unit at its end.
+struct Apart<'a> {
+    stem: &'a str,
+    ending: &'a str,
+    /// Whether a mark says that it is a unit; behind `_` it may be a motor, a phase, an axis or a sample.
+    marked: bool,
+}
+
 /// A name without the unit at its end, and that; `None` where it ends in none.
-fn apart(name: &str) -> Option<(&str, &'static str)> {
-    let (stem, ending) = name.trim().rsplit_once('_')?;
-    let unit = UNITS.iter().find(|unit| **unit == ending)?;
-    (!stem.is_empty()).then_some((stem, unit))
+fn apart(name: &str) -> Option<Apart<'_>> {
+    let name = name.trim();
+    let mut marked = MARKS.into_iter().filter_map(|mark| name.rsplit_once(mark));
+    let marked = marked.find(|(_, ending)| is_known(ending));
+    let (stem, ending) = match marked {
+        Some((stem, ending)) => (stem.trim_end(), ending.trim()),
+        None => name
+            .rsplit_once('_')
+            .filter(|(_, ending)| UNITS.contains(ending))?,
+    };
+    (!stem.is_empty()).then_some(Apart {
+        stem,
+        ending,
+        marked: marked.is_some(),
+    })
 }
 
 /// Whether the ending of a name is one of several letters that tell columns apart: `pos_m` and `pos_l`, motor and load.
@@ -35,11 +58,17 @@ fn read(table: &Table, index: usize) -> Option<(&str, Unit, Option<Hint>)> {
     if column.unit.as_deref().is_some_and(|u| !u.trim().is_empty()) {
         return None;
     }
-    let (stem, ending) = apart(&column.name)?;
+    let Apart {
+        stem,
+        ending,
+        marked,
+    } = apart(&column.name)?;
     let unit = Unit::parse(ending).ok()?;
     let hint = names::hint(stem);
     let one_letter = ending.len() == 1;
     let fits = match hint {
+        // Where it speaks against the name, that is to be seen.
+        Some(_) if marked => true,
         Some(hint) => {
             let dimension = of_role(&unit, hint.role).dimension();
             // An angle in metres: the letter is that of a motor.
@@ -49,7 +78,7 @@ fn read(table: &Table, index: usize) -> Option<(&str, Unit, Option<Hint>)> {
         }
         None => !one_letter,
     };
-    let told_apart = one_letter && counts_columns(table, index, stem);
+    let told_apart = one_letter && !marked && counts_columns(table, index, stem);
     (fits && !told_apart).then_some((stem, unit, hint))
 }
 
@@ -83,9 +112,13 @@ pub(super) fn of_channel(
 ) -> Option<Unit> {
     let unit = unit(table, index).or_else(|| {
         // Whoever gave the role said what the letter could be; metres may be a motor still.
-        let (stem, ending) = apart(&table.columns[index].name)?;
+        let Apart {
+            stem,
+            ending,
+            marked,
+        } = apart(&table.columns[index].name)?;
         let open = names::hint(stem).is_none() && ending != "m";
-        let open = open && !counts_columns(table, index, stem);
+        let open = marked || open && !counts_columns(table, index, stem);
         Unit::parse(ending).ok().filter(|_| open)
     })?;
     let own = of_role(&unit, role).dimension();

@@ -80,6 +80,7 @@ const FORCE: &[&str] = &[
 const TEMPERATURE: &[&str] = &["temperature", "temp", "temperatur"];
 const WEAK: &[(&str, Role)] = &[
     ("t", Role::Time),
+    ("ts", Role::Time),
     ("x", Role::Position),
     ("q", Role::Position),
     ("phi", Role::Position),

@@ -5,6 +5,7 @@ use super::complete::Part;
 use super::enable::Enable;
 use super::flags::{has_zeros, is_flag};
 use super::names;
+use super::still::{has_to_change, never_changes};
 use super::{Mapping, describe, endings};
 use crate::{Dimension, Table, Unit};
 
@@ -146,6 +147,9 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
             format!("named in the axis file as enable: rows where it is not {kept} are left out")
         }
         _ if is_flag(table, column) => flag(table, column),
+        (Some(hint), _) if has_to_change(hint.role) && never_changes(table, column) => {
+            format!("could be the {}, but never changes", hint.role)
+        }
         (_, Some(part)) => format!(
             "could be the {} too, which is column {}{}",
             part.role,
@@ -155,6 +159,9 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
                 false => String::new(),
             }
         ),
+        (Some(hint), None) if hint.role == Role::Time && given.rate_hz.is_some() => {
+            "could be the time, which the rate of the axis file is taken for".into()
+        }
         _ if named => "not named in the axis file".into(),
         _ if names::says_mode(name) => format!(
             "a mode or a state by its name; to leave out rows where it is another than 8: enable = {{ column = {}, equals = 8 \
@@ -167,6 +174,9 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
             hint.role
         ),
         (None, None) if name.is_empty() => "has no name".into(),
+        (None, None) if never_changes(table, column) => {
+            "its name says nothing known, and it never changes".into()
+        }
         (None, None) if is_force_by_unit(table, column) => format!(
             "its name says nothing known; {}",
             beside(

@@ -96,7 +96,7 @@ fn array(reader: &mut impl Read, name: &str, collector: &mut Collector) -> Resul
             let values = times(reader, count, order, period, clock)?;
             at_end(reader)?;
             collector.detected(format!("{name}: {}", values.1));
-            collector.column(name, Some("s".to_owned()), values.0);
+            collector.stamps(name, values.0);
         }
     }
     Ok(())

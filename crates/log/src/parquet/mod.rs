@@ -141,7 +141,7 @@ fn one(
         Meaning::Ticks(period, clock) => {
             let (values, done) = seconds(&samples.ticks, period, clock);
             collector.detected(format!("{name}: {done}"));
-            collector.column(name, Some("s".to_owned()), values);
+            collector.stamps(name, values);
         }
         // A file of one row still has columns.
         _ if total == 1 => collector.column(name, None, samples.values.samples),

@@ -384,7 +384,9 @@ impl Reader {
             steps.extend(channel.increment);
             let rows = channel.values.samples.len() as u64;
             let mut unit = channel.unit;
-            if channel.first.is_some() {
+            let first = self.collector.columns();
+            let stamps = channel.first.is_some();
+            if stamps {
                 self.collector.detected(format!(
                     "{name}: time stamps, converted to seconds from the first"
                 ));
@@ -395,6 +397,9 @@ impl Reader {
                 rows => self
                     .collector
                     .array(name, unit, &[rows, 1], Order::Row, channel.values),
+            }
+            if stamps {
+                self.collector.are_stamps(first);
             }
         }
         for (name, value) in self.scalars {

@@ -57,7 +57,7 @@ impl Layout {
         let heads = titles.map(|title| Column {
             name: title.name.clone(),
             unit: title.unit.clone(),
-            values: Vec::new(),
+            ..Column::default()
         });
         let heads = Table {
             columns: heads.collect(),

@@ -36,7 +36,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
             "" => format!("column {}", c + 1),
             name => problem::label(name, c),
         };
-        let mut unit = title.unit;
+        let (mut unit, mut stamps) = (title.unit, false);
         match body.state.roles[c] {
             Role::Text => {
                 let seen = body.texts[c].as_ref();
@@ -51,7 +51,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
                 left_out.push(c + 1);
             }
             Role::Moment { dated, .. } => {
-                unit = Some("s".to_owned());
+                (unit, stamps) = (Some("s".to_owned()), true);
                 let sort = if dated {
                     "dates with time"
                 } else {
@@ -75,6 +75,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
         table.columns.push(Column {
             name: title.name,
             unit,
+            stamps,
             values,
         });
     }

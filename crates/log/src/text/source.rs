@@ -57,7 +57,7 @@ impl<'a> Source<'a> {
             return Err(Error::new(
                 Kind::Format,
                 "a zero byte, which is not text",
-                "a text file (UTF-16 needs its byte order mark), or the format that its extension names",
+                "text has none (UTF-16 needs its byte order mark); every other format is recognised by its first bytes, whatever its name is: docs/formats.md",
             )
             .at_byte(at as u64));
         }

@@ -141,6 +141,11 @@ fn units_at_the_end_of_names_are_read() {
         &["t", "pos_m", "pos_l", "tau"],
         &["t", "q_m", "tau_m"],
         &["t", "x_A", "F_A"],
+        // Marked as units, whatever they are.
+        &["time, s", "position, mm", "force, N"],
+        &["Zeit / ms", "Weg / mm", "Strom / mA"],
+        &["t in s", "x in mm", "speed in mm/s", "F in kN"],
+        &["t", "pos, left", "force / axis"],
     ]));
     let line = |headers: &[&str], column: &str, role: &str| {
         let mapping = Mapping {
@@ -599,6 +604,52 @@ fn the_rate_stands_in_for_time() {
 }
 
 #[test]
+fn a_rate_that_beats_time_stamps_without_a_unit_is_said() {
+    let read = |step: f64, hertz: f64| {
+        let mut table = axis(2000).table();
+        let time = (0..2000).map(|i| i as f64 * step).collect();
+        table.columns[0] = column("time", time);
+        let mapping = Mapping {
+            rate_hz: Some(hertz),
+            ..Mapping::default()
+        };
+        Log::from_table(&table, &mapping).unwrap()
+    };
+    insta::assert_snapshot!(message(&read(0.002, 1000.0), "rate-override"), @r#"the rows are counted at rate = "1000 Hz" of axis.toml, and column 1 "time" is not read: in s it runs at 500 Hz; if that is right, delete the line rate and write under [columns]: time = { column = "time", unit = "s" }"#);
+    insta::assert_snapshot!(message(&read(5.0, 1000.0), "rate-override"), @r#"the rows are counted at rate = "1000 Hz" of axis.toml, and column 1 "time" is not read: in ms it runs at 200 Hz; if that is right, delete the line rate and write under [columns]: time = { column = "time", unit = "ms" }"#);
+    insta::assert_snapshot!(read(0.002, 1000.0).columns[0].reason, @"could be the time, which the rate of the axis file is taken for");
+    // Seconds, milliseconds, microseconds, and row numbers.
+    for (step, hertz) in [
+        (0.001, 1000.0),
+        (0.001, 1005.0),
+        (2.0, 500.0),
+        (500.0, 2000.0),
+        (1.0, 4000.0),
+    ] {
+        assert!(
+            !codes(&read(step, hertz)).contains(&"rate-override"),
+            "{step} {hertz}"
+        );
+    }
+}
+
+#[test]
+fn a_rate_that_beats_the_sample_time_of_the_file_is_said() {
+    let read = |hertz: f64| {
+        let mut table = axis(2000).table();
+        table.columns.remove(0);
+        table.sample_time = Some(0.002);
+        let mapping = Mapping {
+            rate_hz: Some(hertz),
+            ..Mapping::default()
+        };
+        Log::from_table(&table, &mapping).unwrap()
+    };
+    insta::assert_snapshot!(message(&read(1000.0), "rate-override"), @r#"the rows are counted at rate = "1000 Hz" of axis.toml, and the file states a sample time of 0.002 s, 500 Hz; if the file is right, delete the line rate"#);
+    assert!(!codes(&read(500.0)).contains(&"rate-override"));
+}
+
+#[test]
 fn a_rate_that_contradicts_the_time_stamps_is_refused() {
     let stamped = |unit: &str, step: f64| {
         let axis = axis(2000);
@@ -696,4 +747,108 @@ fn every_column_is_accounted_for() {
         ),
     ];
     insta::assert_snapshot!(found.join("\n\n"));
+}
+
+#[test]
+fn a_column_that_never_changes_is_no_candidate() {
+    let n = 2000;
+    let with = |more: Vec<(&str, f64)>| {
+        let mut table = axis(n).table();
+        table.columns.remove(2);
+        let more = more
+            .into_iter()
+            .map(|(name, value)| column(name, vec![value; n]));
+        table.columns.extend(more);
+        table
+    };
+    let read = |table: &Table| Log::from_table(table, &Mapping::default()).unwrap();
+    let taken = |log: &Log, role: Role| {
+        let column = log.columns.iter().find(|c| c.role == Some(role));
+        column.map(|c| c.column.clone())
+    };
+    // Of equals it is none.
+    let log = read(&with(vec![("position 2 [m]", 0.3), ("force 2 [N]", 5.0)]));
+    assert_eq!(taken(&log, Role::Position).unwrap(), "2 \"position [m]\"");
+    assert_eq!(taken(&log, Role::Force).unwrap(), "3 \"force [N]\"");
+    insta::assert_snapshot!(log.columns[4].reason, @"could be the force, but never changes");
+    // By its unit alone it is nothing; by its name it may be one at rest.
+    let mut table = with(vec![("supply [V]", 24.0)]);
+    table.columns.remove(2);
+    let log = read(&table);
+    assert!(log.force.is_none());
+    insta::assert_snapshot!(log.columns[2].reason, @"its name says nothing known, and it never changes");
+    table.columns[2].name = "force".into();
+    assert_eq!(
+        taken(&read(&table), Role::Force).unwrap(),
+        "3 \"force [V]\""
+    );
+    // An encoder that is dead does not make a position of what is commanded.
+    let mut table = with(vec![("actual position [m]", 0.3)]);
+    table.columns[1].name = "commanded position".into();
+    let log = read(&table);
+    assert_eq!(
+        taken(&log, Role::Position).unwrap(),
+        "4 \"actual position [m]\""
+    );
+}
+
+/// Seconds that a reader has made of time stamps do not label a file; those that somebody wrote do.
+#[test]
+fn stamps_say_nothing_of_the_units_of_others() {
+    let of = |stamps: bool| {
+        let mut table = headed(&["when [s]", "position", "force"]);
+        table.columns[0].stamps = stamps;
+        let mapping = Mapping {
+            time: Some(Channel::named("when")),
+            motion: Some(Motion::Linear),
+            ..Mapping::default()
+        };
+        Log::from_table(&table, &mapping)
+    };
+    assert_eq!(codes(&of(true).unwrap())[0], "unit-assumed");
+    let refused = of(false).unwrap_err().to_string();
+    assert!(
+        refused.contains("position has no unit while other columns have one"),
+        "{refused}"
+    );
+}
+
+/// A column that runs on is named as the time that it may be, in a unit that fits.
+#[test]
+fn what_may_be_the_time_is_named() {
+    let said = |name: &str, step: f64| {
+        let mut table = axis(2000).table();
+        table.columns[0] = column(name, (0..2000).map(|i| 1e6 + i as f64 * step).collect());
+        Log::from_table(&table, &Mapping::default())
+            .unwrap_err()
+            .allowed
+    };
+    insta::assert_snapshot!(said("clock", 1e6), @"");
+    insta::assert_snapshot!(said("clock", 0.002), @"");
+    // Row numbers.
+    insta::assert_snapshot!(said("nr", 1.0), @"");
+}
+
+#[test]
+fn time_that_goes_back_or_stands_leads_on() {
+    let said = |stamp: &dyn Fn(usize) -> f64| {
+        let mut table = axis(2000).table();
+        table.columns[0].values = (0..2000).map(stamp).collect();
+        Log::from_table(&table, &Mapping::default())
+            .unwrap_err()
+            .allowed
+    };
+    // Two recordings in one file, all in the wrong order, a clock of 10 ms, and none.
+    insta::assert_snapshot!(said(&|i| 0.001 * (i % 1200) as f64), @"");
+    insta::assert_snapshot!(said(&|i| -0.001 * i as f64), @"");
+    insta::assert_snapshot!(said(&|i| 0.01 * (i / 10) as f64), @"");
+    insta::assert_snapshot!(said(&|_| 5.0), @"");
+    // The line that is named reads the first recording.
+    let mut table = axis(2000).table();
+    table.columns[0].values = (0..2000).map(|i| 0.001 * (i % 1200) as f64).collect();
+    let mapping = Mapping {
+        crop: Some((0.0, 1.199)),
+        ..Mapping::default()
+    };
+    assert_eq!(Log::from_table(&table, &mapping).unwrap().time.len(), 1200);
 }

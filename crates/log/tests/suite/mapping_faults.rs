@@ -255,7 +255,12 @@ fn any_column() -> impl Strategy<Value = Column> {
     let walk = (0.0001..0.1_f64, prop::collection::vec(any_number(), 0..60))
         .prop_map(|(step, n)| (0..n.len()).map(|i| i as f64 * step).collect());
     let values = prop_oneof![prop::collection::vec(any_number(), 0..60), walk];
-    (name, unit, values).prop_map(|(name, unit, values)| Column { name, unit, values })
+    (name, unit, values).prop_map(|(name, unit, values)| Column {
+        name,
+        unit,
+        values,
+        ..Column::default()
+    })
 }
 
 fn any_channel() -> impl Strategy<Value = Option<Channel>> {

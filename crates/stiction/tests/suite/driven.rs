@@ -37,6 +37,7 @@ fn with(
         name: name.into(),
         unit: Some(unit.into()),
         values: values.to_vec(),
+        ..Column::default()
     };
     let columns = vec![
         of("time", "s", &log.time),

@@ -500,6 +500,19 @@ fn validation_and_split() {
         split.split = Some(part);
         assert_eq!(run(&split).unwrap_err().code().as_str(), "usage", "{part}");
     }
+    // One sample is one sample.
+    let usable = whole_log.result.fit.samples as f64;
+    let mut alone = [0.5, 1.0, 1.5].map(|rest| {
+        split.split = Some(1.0 - rest / usable);
+        run(&split).unwrap_err().to_string()
+    });
+    alone.sort();
+    assert!(
+        alone
+            .iter()
+            .any(|said| said.contains(" leaves 1 sample to validate on")),
+        "{alone:?}"
+    );
     // Too little to fit, too little to validate on: the share is named.
     for (part, left) in [
         (1e-6, " leaves 0 samples to fit"),

@@ -48,12 +48,16 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
             let mut found = log.as_ref().map(found).unwrap_or_default();
             found.own_stamps = detected.mapping.own_stamps(&table);
             let lacks = |f: &&stiction_log::Finding| f.code == Code::NoForce;
-            if let Some(lacking) = detected.findings.iter().find(lacks) {
+            let lacking = detected.findings.iter().find(lacks);
+            let lacking = lacking.map(|finding| finding.message.clone());
+            // Columns with time stamps of their own are refused until the file that is written names these.
+            let refused = log.as_ref().err().filter(|_| found.own_stamps.is_empty());
+            if let Some(undecided) = lacking.or(refused.map(ToString::to_string)) {
                 found.columns = described(&table);
                 return Ok(Started {
-                    text: template(&table, Err((&detected.mapping, &lacking.message)), &found),
+                    text: template(&table, Err((&detected.mapping, &undecided)), &found),
                     changes: filled_in(&detected.mapping, &found),
-                    undecided: Some(lacking.message.clone()),
+                    undecided: Some(undecided),
                 });
             }
             Started {

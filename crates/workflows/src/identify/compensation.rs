@@ -1,5 +1,6 @@
 //! How well a law predicts friction on motion like that of its logs, and what motion that was.
 
+use super::logs::has_wrong_sign;
 use super::trust::{Evidence, Reasons};
 use crate::source::Source;
 use crate::turns::turns;
@@ -45,15 +46,23 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
             (left, judged_on) = (found, "validation");
         }
         if found > LITTLE_LEFT && found > VALIDATION_FAILS_ABOVE * fitted {
+            let mut logs = evidence.held_out.iter();
+            let turned = logs.any(|log| log.name() == *name && has_wrong_sign(log));
             let text = format!(
-                "on {name} the law leaves {} of the friction, where it was fitted {}: friction, load or motion differ there",
+                "on {name} the law leaves {} of the friction, where it was fitted {}: {}",
                 percent(found),
-                percent(fitted)
+                percent(fitted),
+                match turned {
+                    true => "its force has the wrong sign",
+                    false => "friction, load or motion differ there",
+                }
             );
-            let next = match evidence.validated_on_logs {
-                true if shows_friction(series, top_speed(own)) => Next::IdentifyTheOther,
-                true => Next::CheckTheOther,
-                false => Next::Check,
+            let next = match evidence.held_out.is_empty() {
+                true => Next::Check,
+                false if !turned && shows_friction(series, top_speed(own)) => {
+                    Next::IdentifyTheOther
+                }
+                false => Next::CheckTheOther,
             };
             reasons.push_elsewhere(text, next, name);
         }

@@ -13,6 +13,7 @@ use stiction_files::{Axis, symbols};
 use stiction_identify as engine;
 use stiction_identify::{Conditioning, LawKind, Observer, Record, Settings, Terms};
 use stiction_log::Motion;
+use stiction_number::counted;
 
 /// Fewest samples that a split may leave to validate on: fewer give an rms that says nothing.
 const FEWEST_HELD_OUT_SAMPLES: usize = 20;
@@ -155,7 +156,7 @@ fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
         return Err(Error::usage(
             [
                 Setting::Split.is(part),
-                format!(" leaves {} samples to validate on", rest.kept()).into(),
+                format!(" leaves {} to validate on", counted(rest.kept(), "sample")).into(),
             ],
             format!(
                 "at least {FEWEST_HELD_OUT_SAMPLES} of the {} usable ones",

@@ -5,7 +5,7 @@ use super::disagree;
 use super::fit::Fitted;
 use super::late;
 use super::load::{Asked, Loaded};
-use super::logs::log_warnings;
+use super::logs::{log_warnings, validation_warnings};
 use super::mixed;
 use super::trust::{self, Judged};
 use stiction_codes::Code;
@@ -26,6 +26,7 @@ pub(super) fn judge(
 ) -> Judged {
     let law = &fitted.choice.estimate;
     let mut warnings = log_warnings(&loaded.sources);
+    warnings.extend(validation_warnings(&loaded.held_out, &loaded.sources));
     // A search by itself looks for no delay and compares no laws.
     let finishes = !asked.options.searching.no_finish;
     let asks_delay = asked.axis.terms.delay == Delay::Fitted && finishes;
@@ -54,7 +55,7 @@ pub(super) fn judge(
         better: fitted.choice.better.as_ref(),
         held_out_rmse: fitted.choice.held_out_rmse,
         validation,
-        validated_on_logs: !loaded.held_out.is_empty(),
+        held_out: &loaded.held_out,
         options: disagree::options(asked),
         unscaled: mixed::cause(asked, &loaded.sources[0].log),
         can_be_simulated: can_be_simulated(asked, loaded),

@@ -10,7 +10,7 @@ use crate::wording::Setting;
 use std::time::Instant;
 use stiction_files::Axis;
 use stiction_identify::LawKind;
-use stiction_log::{Limits, Log, Motion};
+use stiction_log::{Limits, Log, Motion, Role, Understood};
 
 /// What is asked, of which axis, and since when.
 #[derive(Clone, Copy)]
@@ -175,6 +175,43 @@ pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<
                 "logs that are fitted or validated together must be of one axis",
             ));
         }
+        if let Some((role, [one, another])) = other_column(&first.log, &other.log) {
+            return Err(Error::usage(
+                format!(
+                    "the {role} is column {one} in {} and column {another} in {}, which both have",
+                    first.path.display(),
+                    other.path.display()
+                ),
+                format!(
+                    "one of them for all logs, named in axis.toml under [columns]: {role} = {0} or {role} = {1}",
+                    name(one),
+                    name(another)
+                ),
+            ));
+        }
     }
     Ok(())
+}
+
+/// A role for which two logs with the same columns were read from different ones: the joint that moves need not be the same.
+fn other_column<'a>(a: &'a Log, b: &'a Log) -> Option<(Role, [&'a str; 2])> {
+    [Role::Position, Role::Velocity, Role::Force]
+        .into_iter()
+        .find_map(|role| {
+            let taken = |log: &'a Log| log.columns.iter().find(|c| c.role == Some(role));
+            let (one, another) = (taken(a)?, taken(b)?);
+            let has = |log: &Log, column: &Understood| {
+                log.columns
+                    .iter()
+                    .any(|c| name(&c.column) == name(&column.column))
+            };
+            let differ = name(&one.column) != name(&another.column);
+            let both = differ && has(b, one) && has(a, another);
+            both.then_some((role, [one.column.as_str(), another.column.as_str()]))
+        })
+}
+
+/// The name of a column without its number: `"position"` of `2 "position"`; the number where it has no name.
+fn name(column: &str) -> &str {
+    column.split_once(' ').map_or(column, |(_, name)| name)
 }

@@ -81,6 +81,40 @@ pub(super) fn log_warnings(sources: &[Source]) -> Vec<Warning> {
     out
 }
 
+/// Whether the force of a log does the work of one that brakes.
+pub(super) fn has_wrong_sign(source: &Source) -> bool {
+    wrong_sign(source).is_some()
+}
+
+fn wrong_sign(source: &Source) -> Option<&Finding> {
+    let mut findings = source.log.findings.iter();
+    findings.find(|finding| finding.code == Code::ForceSign)
+}
+
+/// What makes a validation on other logs than the fitted ones worth nothing: a force of the wrong sign. All else that the reader
+/// warns of matters to what is fitted alone.
+pub(super) fn validation_warnings(held_out: &[Source], fitted: &[Source]) -> Vec<Warning> {
+    let alike = fitted.iter().any(has_wrong_sign);
+    let wrong = held_out
+        .iter()
+        .filter_map(|log| Some((log, wrong_sign(log)?)));
+    let one = |(log, finding): (&Source, &Finding)| {
+        let message = match finding.message.split_once("; ").filter(|_| !alike) {
+            // The axis file is that of the fitted logs too.
+            Some((found, _)) => format!(
+                "{found}, and that of the fitted logs does not: turn the sign in this file, or validate on another"
+            ),
+            None => finding.message.clone(),
+        };
+        let path = log.path.display();
+        Warning::new(
+            Code::ForceSign,
+            format!("{path}, which is not fitted: {message}"),
+        )
+    };
+    wrong.map(one).collect()
+}
+
 fn warnings_of(source: &Source) -> impl Iterator<Item = &Finding> {
     let findings = source.log.findings.iter();
     findings.filter(|f| f.severity == Severity::Warning)

@@ -5,7 +5,7 @@ use super::condition::settings;
 use super::conditioning::{self, conditioned};
 use super::disagree;
 use super::load::{Asked, Loaded};
-use super::logs::{log_warnings, refused};
+use super::logs::{log_warnings, refused, validation_warnings};
 use super::mixed;
 use super::outcome::{Found, Outcome, Simulated};
 use super::procedure::break_away;
@@ -140,13 +140,14 @@ pub(super) fn run(
         better: None,
         held_out_rmse: None,
         validation: &[],
-        validated_on_logs: false,
+        held_out: &[],
         options: disagree::options(asked),
         unscaled: mixed::cause(asked, &sources[0].log),
         can_be_simulated: false,
         motion,
     };
     let mut warnings = log_warnings(sources);
+    warnings.extend(validation_warnings(&loaded.held_out, sources));
     let was_sought = !(found.is_closed_loop() && axis.hold == Hold::Centred);
     if terms.delay == Delay::Fitted && found.fitted.terms.delay == Delay::NONE && was_sought {
         warnings.push(Warning::new(

@@ -216,8 +216,8 @@ pub(super) struct Evidence<'a> {
     pub held_out_rmse: Option<f64>,
     /// Signals of each validation, with its name.
     pub validation: &'a [(String, Series)],
-    /// Whether those are of logs of their own.
-    pub validated_on_logs: bool,
+    /// The logs that those are of, unless they are of a part of the fitted ones.
+    pub held_out: &'a [Source],
     /// The options of the run, as they are typed.
     pub options: String,
     /// What the column of the force lacks where its unit does not fit the axis.

@@ -2,10 +2,12 @@
 //!
 //! A study file is untrusted and never starts a compiler: the folder of the C comes from the caller alone.
 
+mod kept;
 mod process;
 mod run;
 mod source;
 
+pub(super) use kept::runs;
 pub use run::compare_exported;
 
 use crate::error::Error;

@@ -6,10 +6,9 @@ use super::disturbance::disturbance;
 use super::drive::drive;
 use super::inputs::input;
 use super::published::published;
-use crate::config::Table;
 use crate::config::machine::MASSES;
+use crate::config::{Form, Table};
 use crate::error::{Error, Warning};
-use crate::model::MODEL;
 use crate::study::model::{Model, axis_law};
 use crate::study::plan::Machine;
 use crate::study::result::StudyInput;
@@ -46,7 +45,7 @@ pub(super) fn machine(
     ) {
         (None, None, Some(given)) => published(&given)?,
         (Some(given), None, None) => {
-            let (file, text) = given.file(folder, MODEL)?;
+            let (file, text) = given.file(folder, Form::Model)?;
             inputs.push(input(&file, &text));
             Model::parse(&text, &file)?
         }

@@ -13,6 +13,7 @@ pub fn column(header: &str, values: Vec<f64>) -> Column {
         name: name.to_string(),
         unit,
         values,
+        ..Column::default()
     }
 }
 

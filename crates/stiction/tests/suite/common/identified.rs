@@ -26,6 +26,7 @@ fn columns(machine: &Machine, log: &Recording) -> Vec<Column> {
         name: name.into(),
         unit: Some(unit.into()),
         values: values.to_vec(),
+        ..Column::default()
     };
     let mut columns = vec![column("time", "s", &log.time)];
     if let Some(x) = &log.position {

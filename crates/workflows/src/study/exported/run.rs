@@ -2,6 +2,7 @@
 //! compensator in Rust and with the C.
 
 use super::ExportedC;
+use super::kept::{self, Kept, METRICS};
 use super::process::Process;
 use crate::error::Error;
 use crate::study::changing::Changing;
@@ -14,9 +15,9 @@ use crate::study::outcome::StudyOutcome;
 use crate::study::path::along;
 use crate::study::trace::Trace;
 use stiction_codes::Code;
-use stiction_files::Warning;
-use stiction_files::study::result::{ExportedEntry, ExportedRow, ExportedValue};
+use stiction_files::study::result::ExportedEntry;
 use stiction_files::study::{Belief, Job, Scheme, Study};
+use stiction_files::{Runs, Warning};
 use stiction_friction::compensator::{Compensator, Input, Watch};
 use stiction_friction::{ElastoPlastic, LuGre, MaxwellSlip, ParamError};
 use stiction_number::{four_digits, quantity};
@@ -38,14 +39,11 @@ const ALLOWED: f64 = 1e-12;
 /// Time at standstill in which compensation comes in before a run, beyond its ramp, s.
 const SETTLED: f64 = 0.01;
 
-/// Metrics that stand beside each other.
-const METRICS: [&str; 3] = ["rms_error", "peak_error", "reversal_peak"];
-
 /// One run: its samples, and whether the watchdog has switched off.
 type Ran = (Vec<Sample>, bool);
 
 /// Puts the runs with exported C beside an outcome: their metrics, courses and the largest difference of the force. C that gives
-/// another force is warned of.
+/// another force is warned of. Runs that an earlier call has kept in `runs` are taken, others are kept there.
 ///
 /// # Errors
 /// Where the program ends before its inputs do.
@@ -53,37 +51,36 @@ pub fn compare_exported(
     outcome: &mut StudyOutcome,
     study: &Study,
     exported: &ExportedC,
+    runs: &Runs,
 ) -> Result<(), Error> {
     let mut rows = Vec::new();
-    for path in 0..study.paths.len() {
-        for controller in 0..study.controllers.len() {
-            let job = Job {
-                path,
-                controller,
-                compensator: 0,
-                coupled: false,
-                family: 0,
-                belief: 0,
-            };
-            match on_path(study, job, exported) {
-                Ok(compared) => rows.push(compared.told(outcome, study, job)),
-                Err(Failed::Program(found)) => {
-                    return Err(Error::usage(
-                        format!("--exported-c {}: {found}", exported.folder),
-                        format!("C as this writes it: {}", exported.again),
-                    ));
-                }
-                // The study itself says of the run without compensation why it cannot be made.
-                Err(Failed::Run(fault)) => outcome.file.warnings.push(Warning::new(
-                    Code::NotRun,
-                    format!(
-                        "{}, {} was not run with the exported C: {}",
-                        study.path_name(job),
-                        study.controllers[controller].name,
-                        reason(&fault)
-                    ),
-                )),
+    for (place, job) in kept::jobs(study).enumerate() {
+        if let Some(kept) = Kept::taken(runs, study, (place, job), &exported.id()) {
+            rows.push(kept.told(outcome, study));
+            continue;
+        }
+        match on_path(study, job, exported) {
+            Ok(compared) => {
+                let kept = compared.kept(study, job, exported.id());
+                kept.add(runs, study, place);
+                rows.push(kept.told(outcome, study));
             }
+            Err(Failed::Program(found)) => {
+                return Err(Error::usage(
+                    format!("--exported-c {}: {found}", exported.folder),
+                    format!("C as this writes it: {}", exported.again),
+                ));
+            }
+            // The study itself says of the run without compensation why it cannot be made.
+            Err(Failed::Run(fault)) => outcome.file.warnings.push(Warning::new(
+                Code::NotRun,
+                format!(
+                    "{}, {} was not run with the exported C: {}",
+                    study.path_name(job),
+                    study.controllers[job.controller].name,
+                    reason(&fault)
+                ),
+            )),
         }
     }
     let entry = ExportedEntry {
@@ -352,58 +349,40 @@ fn follow<L: OfAxis, I: Integrator<L>>(
 }
 
 impl Compared {
-    /// The row of a path under a controller; its courses go into the outcome.
-    fn told(self, outcome: &mut StudyOutcome, study: &Study, job: Job) -> ExportedRow {
+    /// What an outcome shows of them.
+    fn kept(&self, study: &Study, job: Job, of: String) -> Kept {
         let [path, controller, _] = study.names(job);
         let skip = study.paths[job.path].skip;
         let largest = largest_force(&study.machine, &study.controllers[job.controller].value);
         let names = metrics(study, job);
-        let mut values: [Vec<f64>; 3] = Default::default();
+        let (mut values, mut traces, mut course) = (Vec::new(), Vec::new(), String::new());
         for (i, (samples, _)) in self.runs.iter().enumerate() {
             let counted = &samples[samples.partition_point(|s| s.time < skip)..];
             let all = of_path(counted, largest, None);
             let of = |name: &&str| names.iter().position(|n| n == name).map(|k| all[k]);
-            values[i] = METRICS.iter().filter_map(of).collect();
+            values.extend(METRICS.iter().filter_map(of));
             let called = [path, controller, NAMES[i]];
             if study.keeps_courses {
-                outcome.exported_traces.push(Trace::of(called, counted));
+                traces.push(Trace::of(called, counted));
                 // Without compensation it is there already.
                 if i > 0 {
                     let most = course::rows_of_a_run(study);
-                    outcome.courses[0].push_str(&course::rows(called, samples, most));
+                    course.push_str(&course::rows(called, samples, most));
                 }
             }
         }
-        let [none, rust, c] = &values;
-        let less = |without: f64, with: f64| {
-            let percent = 100.0 * (1.0 - with / without);
-            percent.is_finite().then_some(percent)
-        };
-        let [_, (rust_samples, _), (c_samples, tripped)] = &self.runs;
-        let apart = rust_samples.iter().zip(c_samples);
+        let [_, (rust, _), (c, tripped)] = &self.runs;
+        let apart = rust.iter().zip(c);
         let apart = apart.map(|(a, b)| (a.position - b.position).abs());
-        ExportedRow {
-            path: path.into(),
-            controller: controller.into(),
-            metrics: METRICS
-                .iter()
-                .enumerate()
-                .map(|(k, name)| ExportedValue {
-                    name: (*name).into(),
-                    unit: machine::unit(&study.machine, name),
-                    without: none[k],
-                    rust: rust[k],
-                    c: c[k],
-                    rust_reduction_percent: less(none[k], rust[k]),
-                    c_reduction_percent: less(none[k], c[k]),
-                })
-                .collect(),
-            force_difference: self.difference,
-            force_unit: stiction_files::symbols::force_unit(study.machine.motion).into(),
-            at_s: self.at,
-            position_difference: apart.fold(0.0, f64::max),
+        Kept {
+            of,
+            job,
+            metrics: values,
+            apart: vec![self.difference, self.at, apart.fold(0.0, f64::max)],
             differs: self.differs,
             switched_off: *tripped,
+            traces,
+            course,
         }
     }
 }

@@ -1,0 +1,144 @@
+//! Which form a file has that a user gives, and which one was asked for.
+
+use crate::error::Error;
+use std::io::Read;
+use std::path::Path;
+use toml::de::{DeTable, DeValue};
+
+/// What a file that is read is to be.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// `axis.toml`.
+    #[default]
+    Axis,
+    /// `model.toml`.
+    Model,
+    /// `study.toml`.
+    Study,
+    /// `plan.toml`.
+    Plan,
+}
+
+/// So much of a file tells what it is, characters or bytes.
+const HEAD: usize = 4096;
+
+/// What a file is that is none to type, by the schema that it begins with.
+const WRITTEN: [(&str, &str); 6] = [
+    ("result", "the result of an identification"),
+    ("study", "the result of a study"),
+    ("compare", "a comparison of searches"),
+    ("reproduce", "the result of published experiments"),
+    ("batch", "the summary of a batch"),
+    ("drift", "the alarms of a fleet"),
+];
+
+impl Form {
+    /// What it is called in messages.
+    pub fn what(self) -> &'static str {
+        match self {
+            Form::Axis => "an axis file",
+            Form::Model => "a model file as an identification writes it",
+            Form::Study => "a study file",
+            Form::Plan => "a plan.toml as stiction plan writes it",
+        }
+    }
+
+    /// The page that lists every key.
+    pub fn page(self) -> &'static str {
+        match self {
+            Form::Axis => "docs/axis.md",
+            Form::Model => "docs/result.md",
+            Form::Study => "docs/study.md",
+            Form::Plan => "docs/plan.md",
+        }
+    }
+
+    /// Its name in a folder that stiction wrote; axis files are written by people, under any name.
+    fn name(self) -> Option<&'static str> {
+        match self {
+            Form::Axis => None,
+            Form::Model => Some("model.toml"),
+            Form::Study => Some("study.toml"),
+            Form::Plan => Some("plan.toml"),
+        }
+    }
+
+    /// The error of a file that is something else, with the file of this form beside it or in it.
+    pub fn instead_of(self, file: &Path, found: String) -> Error {
+        let beside = self.name().map(|name| match file.is_dir() {
+            true => file.join(name),
+            false => file.with_file_name(name),
+        });
+        Error::OtherForm {
+            file: file.to_path_buf(),
+            found,
+            wanted: self.what(),
+            instead: beside.filter(|path| path.is_file() && path != file),
+        }
+    }
+}
+
+/// The form of tables that were read, by keys that no other form has.
+pub(super) fn of_tables(entries: &DeTable<'_>) -> Option<Form> {
+    let get = |key: &str| entries.get(key).map(|value| value.get_ref());
+    let schema = match get("schema") {
+        Some(DeValue::String(schema)) => schema.strip_prefix("stiction."),
+        _ => None,
+    };
+    let schema = schema.and_then(|schema| schema.split('/').next());
+    let is_table = |key: &str| matches!(get(key), Some(DeValue::Table(_)));
+    let is_list = |key: &str| matches!(get(key), Some(DeValue::Array(_)));
+    match schema {
+        Some("model") => Some(Form::Model),
+        Some("plan") => Some(Form::Plan),
+        _ if is_list("parameter") && get("law").is_some() => Some(Form::Model),
+        _ if is_table("axis") && (is_list("path") || is_table("path")) => Some(Form::Study),
+        _ if ["columns", "conditioning", "terms"]
+            .into_iter()
+            .any(is_table) =>
+        {
+            Some(Form::Axis)
+        }
+        _ if get("rate").is_some() || get("mass").is_some() => Some(Form::Axis),
+        _ => None,
+    }
+}
+
+/// What a text is that is no TOML, if its beginning tells it.
+pub(super) fn of_text(text: &str) -> Option<String> {
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let head: String = text.chars().take(HEAD).collect();
+    let written = |(kind, what): &(&str, &str)| {
+        let is_it = head.contains(&format!("\"stiction.{kind}/"));
+        is_it.then(|| format!("{what} ({kind}.json)"))
+    };
+    if text.starts_with('{') {
+        let known = WRITTEN.iter().find_map(written);
+        return Some(known.unwrap_or_else(|| "JSON".into()));
+    }
+    let mut lines = head.lines();
+    let line = lines.next().unwrap_or_default();
+    let next = lines.next().unwrap_or_default();
+    let begins = |with: &str| {
+        line.get(..with.len())
+            .is_some_and(|l| l.eq_ignore_ascii_case(with))
+    };
+    if begins("<!doctype html") || begins("<html") {
+        return Some("a page for a browser".into());
+    }
+    let is_toml = line.contains('=') || line.starts_with(['[', '#']);
+    let cells = |line: &str| line.matches([',', ';', '\t']).count();
+    let is_table = cells(line) > 0 && cells(line) == cells(next);
+    (is_table && !is_toml).then(|| "a table, such as a log".into())
+}
+
+/// What a file is that cannot be read as a text, or is too long for one that a user types.
+pub(super) fn of_file(file: &Path) -> Option<String> {
+    if file.is_dir() {
+        return Some("a folder".into());
+    }
+    let mut head = Vec::new();
+    let open = std::fs::File::open(file).ok().filter(|_| file.is_file())?;
+    open.take(HEAD as u64).read_to_end(&mut head).ok()?;
+    of_text(&String::from_utf8_lossy(&head))
+}

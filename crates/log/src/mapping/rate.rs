@@ -1,0 +1,124 @@
+//! A rate that is given, beside the time stamps that a table has: the rate counts the rows, and the stamps say whether it can.
+
+use super::channel::Role;
+use super::complete::PLAUSIBLE_SPACING;
+use super::describe;
+use crate::findings::{Finding, Severity, median, short};
+use crate::{Error, Kind, Table, Unit};
+use stiction_codes::Code;
+
+/// How much a given rate and that of the time stamps may differ, as a fraction.
+const MAX_DEVIATION: f64 = 0.01;
+/// Units that time stamps without one may be in, the likeliest first.
+const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
+
+/// What there is to say of a given rate (Hz), where the time stamps of `column`, in a unit if one is written, or the sample time
+/// of the file contradict it.
+///
+/// # Errors
+/// Where stamps in a written unit contradict it: one of the two is wrong.
+pub(super) fn compare(
+    table: &Table,
+    column: Option<(usize, Option<&Unit>)>,
+    rate: f64,
+) -> Result<Option<Finding>, Error> {
+    match column {
+        Some((column, Some(unit))) => match Steps::of(table, column) {
+            Some(steps) if !steps.agree(rate, unit) => {
+                Err(other(table, column, rate, &steps, unit))
+            }
+            _ => Ok(None),
+        },
+        Some((column, None)) => Ok(without_unit(table, column, rate)),
+        None => Ok(stated(table, rate)),
+    }
+}
+
+/// The line of the axis file that makes a column the time, where its numbers run on as time stamps do in some unit.
+pub(super) fn time_line(table: &Table, column: usize) -> Option<String> {
+    let values = &table.columns[column].values;
+    let steps = Steps::of(table, column).filter(|_| values.is_sorted())?;
+    let fits = |unit: &Unit| PLAUSIBLE_SPACING.contains(&(unit.factor() * steps.usual));
+    let mut units = UNITS.iter().filter_map(|unit| Unit::parse(unit).ok());
+    let unit = units.find(fits).filter(|_| steps.usual != 1.0)?;
+    let named = format!("unit = \"{unit}\"");
+    Some(describe::line_with(table, column, Role::Time, &named))
+}
+
+/// Steps of time stamps, in their own unit.
+struct Steps {
+    /// The median of those that go forward.
+    usual: f64,
+    /// From the first row to the last.
+    mean: f64,
+}
+
+impl Steps {
+    fn of(table: &Table, column: usize) -> Option<Self> {
+        let rows = table.columns[column].values.iter().copied().enumerate();
+        let stamps: Vec<(usize, f64)> = rows.filter(|(_, t)| t.is_finite()).collect();
+        let (first, last) = (stamps.first()?, stamps.last()?);
+        let steps = stamps.windows(2).map(|w| w[1].1 - w[0].1);
+        Some(Self {
+            usual: median(&mut steps.filter(|step| *step > 0.0).collect::<Vec<_>>())?,
+            mean: (last.1 - first.1) / (last.0 - first.0).max(1) as f64,
+        })
+    }
+
+    /// Whether a rate is theirs. The mean step counts as much as the median: a clock coarser than the sampling repeats its stamps,
+    /// and a rate is the cure.
+    fn agree(&self, rate: f64, unit: &Unit) -> bool {
+        let agrees = |step: f64| (rate * unit.factor() * step - 1.0).abs() <= MAX_DEVIATION;
+        agrees(self.mean) || agrees(self.usual)
+    }
+}
+
+fn other(table: &Table, column: usize, rate: f64, steps: &Steps, unit: &Unit) -> Error {
+    let found = format!(
+        "rate is {} Hz, but the time stamps run at {} Hz",
+        short(rate),
+        short(1.0 / (unit.factor() * steps.usual))
+    );
+    let allowed = "rate is for logs without time; take it out of axis.toml, or correct it";
+    let place = describe::place(table, column);
+    let error = Error::new(Kind::Ambiguous, found, allowed);
+    error.in_column(place).of_setting("rate")
+}
+
+/// Stamps whose unit is not known contradict a rate where they are too fast or too slow for it in every unit.
+fn without_unit(table: &Table, column: usize, rate: f64) -> Option<Finding> {
+    let steps = Steps::of(table, column)?;
+    let units = || UNITS.iter().filter_map(|unit| Unit::parse(unit).ok());
+    let numbers_rows = steps.usual == 1.0;
+    if numbers_rows || units().any(|unit| steps.agree(rate, &unit)) {
+        return None;
+    }
+    let seconds = |unit: &Unit| unit.factor() * steps.usual;
+    let unit = units().find(|unit| PLAUSIBLE_SPACING.contains(&seconds(unit)))?;
+    let named = format!("unit = \"{unit}\"");
+    let message = format!(
+        "the rows are counted at rate = \"{} Hz\" of axis.toml, and {} is not read: in {unit} it runs at {} Hz; if that is right, \
+         delete the line rate and write under [columns]: {}",
+        short(rate),
+        describe::column(table, column),
+        short(1.0 / seconds(&unit)),
+        describe::line_with(table, column, Role::Time, &named)
+    );
+    Some(Finding::new(Code::RateOverride, Severity::Warning, message))
+}
+
+/// A file without time stamps may state its sample time.
+fn stated(table: &Table, rate: f64) -> Option<Finding> {
+    let step = table.sample_time.filter(|step| *step > 0.0)?;
+    if (rate * step - 1.0).abs() <= MAX_DEVIATION {
+        return None;
+    }
+    let message = format!(
+        "the rows are counted at rate = \"{} Hz\" of axis.toml, and the file states a sample time of {} s, {} Hz; if the file is \
+         right, delete the line rate",
+        short(rate),
+        short(step),
+        short(1.0 / step)
+    );
+    Some(Finding::new(Code::RateOverride, Severity::Warning, message))
+}
