@@ -59,7 +59,10 @@ def locked() -> bool:
 
 def test_importing_leaves_the_lock_of_the_interpreter_as_it_is() -> None:
     """A native half that does not say that it needs none would bring it back, for the whole process."""
-    line = "import sys; lock = getattr(sys, '_is_gil_enabled', lambda: True); before = lock(); import stiction; print(before, lock())"
+    line = (
+        "import sys; lock = getattr(sys, '_is_gil_enabled', lambda: True); before = lock(); "
+        "import numpy, stiction; print(before, lock())"
+    )
     done = subprocess.run([sys.executable, "-W", "error", "-c", line], capture_output=True, text=True, check=True)
     before, after = done.stdout.split()
     assert before == after

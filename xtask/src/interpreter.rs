@@ -1,18 +1,18 @@
-//! A free-threaded Python, which runs its threads at the same time. Debian has none, so it is built from Debian's sources.
+//! A free-threaded Python, which runs its threads at the same time. Debian has none, so it is built from the sources that Ubuntu 26.04 has.
 
 use crate::debian;
 use crate::shell::{self, Outcome};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Its program on the PATH, the newest first.
-const NAMES: [&str; 2] = ["python3.14t", "python3.13t"];
+/// Its program; pyo3 takes no earlier one, and the next one has other libraries.
+const NAME: &str = "python3.14t";
 /// Its sources.
 const SOURCE: &str =
-    "http://deb.debian.org/debian/pool/main/p/python3.13/python3.13_3.13.5.orig.tar.xz";
-const SHA256: &str = "93e583f243454e6e9e4588ca2c2662206ad961659863277afcdb96801647d640";
+    "http://archive.ubuntu.com/ubuntu/pool/main/p/python3.14/python3.14_3.14.4.orig.tar.xz";
+const SHA256: &str = "d923c51303e38e249136fc1bdf3568d56ecb03214efdef48516176d3d7faaef8";
 /// What the archive holds.
-const UNPACKED: &str = "Python-3.13.5";
+const UNPACKED: &str = "Python-3.14.4";
 /// Where it is built, in the target folder.
 const FOLDER: &str = "python/free-threaded";
 /// Whether a Python is one; it has what pip needs.
@@ -20,15 +20,11 @@ const PROBE: &str = "import sys, ssl, zlib, ctypes, venv; sys.exit(sys._is_gil_e
 
 /// The free-threaded Python: on the PATH, or built by [`install`].
 pub fn find() -> Result<String, String> {
-    let built = built();
-    let names = NAMES.into_iter().map(String::from);
-    let mut all = names.chain([text(&built)]);
+    let built = text(&built());
     let works = |python: &String| shell::succeeds(shell::command(python, &["-c", PROBE]));
-    all.find(works).ok_or_else(|| {
+    [NAME.to_owned(), built.clone()].into_iter().find(works).ok_or_else(|| {
         format!(
-            "no free-threaded Python: neither {} is on the PATH, nor is {} there; `cargo xtask interpreter` builds one",
-            NAMES.join(" nor "),
-            built.display()
+            "no free-threaded Python: neither is {NAME} on the PATH nor {built} there; `cargo xtask interpreter` builds it"
         )
     })
 }
@@ -84,7 +80,7 @@ fn fetch(folder: &Path) -> Outcome {
 /// Where [`install`] leaves it.
 fn built() -> PathBuf {
     let folder = shell::target().join(FOLDER);
-    folder.join("installed/bin/python3.13t")
+    folder.join("installed/bin/python3.14t")
 }
 
 fn text(path: &Path) -> String {

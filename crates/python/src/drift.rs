@@ -259,7 +259,10 @@ pub fn drift_of_rows(
         serde_json::from_str(row).map_err(|e| {
             let place = format!("{name}[{k}]");
             let allowed = "a row that identify_uri gives";
-            Refusal::argument(&place, e.to_string(), allowed).raise(py)
+            let said = e.to_string();
+            // A row is no text that has lines and columns.
+            let said = said.split(" at line ").next().unwrap_or_default();
+            Refusal::argument(&place, said, allowed).raise(py)
         })
     };
     let rows: PyResult<Vec<LogRow>> = rows.iter().enumerate().map(read).collect();
