@@ -56,7 +56,9 @@ pub fn install() -> Outcome {
     let jobs = std::thread::available_parallelism().map_or(1, usize::from);
     run("make", &["-s", &format!("-j{jobs}")])?;
     run("make", &["-s", "install"])?;
-    fs::remove_dir_all(&build).map_err(|e| format!("{}: {e}", build.display()))?;
+    for done in [build, folder.join(UNPACKED)] {
+        fs::remove_dir_all(&done).map_err(|e| format!("{}: {e}", done.display()))?;
+    }
     find().map(drop)
 }
 
