@@ -1,4 +1,5 @@
-"""Packs python/stiction and a native half that is built already into a wheel: assemble.py LIBRARY FOLDER.
+"""Packs python/stiction and a native half that is built already into a wheel: assemble.py LIBRARY FOLDER, run by the Python
+that the native half was built for.
 
 Users and releases build the wheel with maturin. It has cargo build one package alone, which gets other features of its
 dependencies than in the workspace, and so compiles the whole library once more; tests of the package need not wait for that.
@@ -23,8 +24,8 @@ def main(library: Path, folder: Path) -> Path:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     version = tomllib.loads((ROOT / "Cargo.toml").read_text())["workspace"]["package"]["version"]
     platform = sysconfig.get_platform().replace("-", "_").replace(".", "_")
-    oldest = project["requires-python"].removeprefix(">=").replace(".", "")
-    tag = f"cp{oldest}-abi3-{platform}"
+    tag, native = kind(project["requires-python"].removeprefix(">="))
+    tag += f"-{platform}"
     extras = project["optional-dependencies"]
     about = f"stiction-{version}.dist-info"
     metadata = [
@@ -40,7 +41,7 @@ def main(library: Path, folder: Path) -> Path:
     wheel = ["Wheel-Version: 1.0", "Generator: assemble.py", "Root-Is-Purelib: false", f"Tag: {tag}"]
     sources = sorted(path for path in PACKAGE.rglob("*") if path.suffix in {".py", ".pyi"} or path.name == "py.typed")
     files = {f"stiction/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes() for path in sources}
-    files["stiction/_native.abi3.so"] = library.read_bytes()
+    files[f"stiction/_native{native}"] = library.read_bytes()
     files |= {f"{about}/licenses/{name}": (ROOT / name).read_bytes() for name in project["license-files"]}
     files[f"{about}/METADATA"] = ("\n".join(metadata) + "\n").encode()
     files[f"{about}/WHEEL"] = ("\n".join(wheel) + "\n").encode()
@@ -52,6 +53,14 @@ def main(library: Path, folder: Path) -> Path:
         for name, content in files.items():
             archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, compresslevel=9)
     return out
+
+
+def kind(oldest: str) -> tuple[str, str]:
+    """Which Pythons load the native half, and how its name ends: all from the oldest on, or this free-threaded one alone."""
+    if not sysconfig.get_config_var("Py_GIL_DISABLED"):
+        return f"cp{oldest.replace('.', '')}-abi3", ".abi3.so"
+    own = f"cp{sys.version_info.major}{sys.version_info.minor}"
+    return f"{own}-{own}t", str(sysconfig.get_config_var("EXT_SUFFIX"))
 
 
 def digest(content: bytes) -> str:

@@ -1,7 +1,8 @@
 """What the Python package costs over the library: measure.py TIMED [WHEEL], the built example `timed` of crates/stiction.
 
-Prints import time, identification of 30 001 samples against the same call in Rust (in turn, the least of all), two Python
-threads against one, the memory of many calls and the size of the wheel, and ends with exit code 1 where one misses its bar.
+Prints import time, identification of 30 001 samples against the same call in Rust (in turn, the least of all), two threads
+against one, in Rust and in Python, the memory of many calls and the size of the wheel, and ends with exit code 1 where one
+misses its bar.
 Run it with the Python that the wheel is installed in, on a machine that does nothing else: `cargo xtask wheel` does.
 """
 
@@ -49,6 +50,23 @@ def with_the_interpreter(log: stiction.Log) -> float:
 def together(log: stiction.Log, threads: int) -> float:
     """Time of as many identifications at once, s."""
     all_of_them = [threading.Thread(target=identified, args=(log,)) for _ in range(threads)]
+    start = time.perf_counter()
+    for thread in all_of_them:
+        thread.start()
+    for thread in all_of_them:
+        thread.join()
+    return time.perf_counter() - start
+
+
+def stepped(law: stiction.Law) -> None:
+    """A law called from Python, sample by sample."""
+    for _ in range(300_000):
+        law(1e-3, 1e-4)
+
+
+def in_python(fit: stiction.Fit, count: int) -> float:
+    """Time of as many threads that each call a law of their own, s."""
+    all_of_them = [threading.Thread(target=stepped, args=(fit.law,)) for _ in range(count)]
     start = time.perf_counter()
     for thread in all_of_them:
         thread.start()
@@ -114,6 +132,12 @@ def main(timed: str, wheel: str | None) -> list[str]:
         two = min(together(log, 2) for _ in range(ROUNDS))
         print(f"two threads do {2 * one / two:.2f} times the work of one")
         bars.hold("two threads 1.8 times one", 2 * one >= 1.8 * two)
+        fit = stiction.identify(log, law="lugre", compare_laws=False)
+        one = min(in_python(fit, 1) for _ in range(ROUNDS))
+        two = min(in_python(fit, 2) for _ in range(ROUNDS))
+        print(f"two threads that call a law from Python do {2 * one / two:.2f} times the work of one")
+        is_free = not getattr(sys, "_is_gil_enabled", lambda: True)()
+        bars.hold("without a lock of the interpreter they do 1.6 times", not is_free or 2 * one >= 1.6 * two)
     growth = kept(10_000)
     print(f"10 000 identifications: {growth:+.1f} MB")
     bars.hold("no growth over 10 000 calls", growth < 10.0)

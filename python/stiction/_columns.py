@@ -8,18 +8,24 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from ._errors import argument
+from ._errors import argument, kind_of
 
 if TYPE_CHECKING:
     import numpy
     from numpy.typing import NDArray
 
+    from ._errors import StictionError
+
     Column = tuple[str, "str | None", NDArray[numpy.float64]]
 
 WHAT = "a path, a dict of arrays, a DataFrame of pandas or polars, or an Arrow table"
 """What a log may be."""
-TABLES = ("columns", "column_names", "__arrow_c_stream__")
-"""What a table has: one of pandas and polars, of pyarrow, of any other library that passes on Arrow tables."""
+TABLES = ("collect_schema", "columns", "column_names", "__arrow_c_stream__")
+"""What a table has: one of polars, of pandas, of pyarrow, of any other library that passes on Arrow tables."""
+SECONDS = (
+    "seconds as numbers: ((t - t[0]) / numpy.timedelta64(1, 's'), 's'), of a DataFrame (t - t.iloc[0]).dt.total_seconds()"
+)
+"""What a column of times may be."""
 EXACT = 2**53
 """Integers up to this are exact as 64-bit floats."""
 
@@ -55,6 +61,8 @@ def is_missing(value: Any) -> bool:
 
 def items(data: Any, name: str) -> Iterator[tuple[Any, Any]]:
     """The columns of a table with their names."""
+    if hasattr(data, "collect_schema") and hasattr(data, "collect"):  # polars: one that is not computed yet
+        raise argument(name, kind_of(data), "a table that is there: .collect()")
     if isinstance(data, Mapping):
         yield from data.items()
     elif hasattr(data, "column_names"):  # pyarrow
@@ -69,7 +77,7 @@ def items(data: Any, name: str) -> Iterator[tuple[Any, Any]]:
         for header in headers:
             yield header, data[header]
     else:
-        raise argument(name, f"a {type(data).__name__}", WHAT)
+        raise argument(name, kind_of(data), WHAT)
 
 
 def _each_once(headers: list[Any], name: str) -> None:
@@ -92,11 +100,11 @@ def _arrow(data: Any, name: str) -> Any:
     try:
         import pyarrow
     except ImportError:
-        raise argument(name, f"a {type(data).__name__}, which needs pyarrow", f"pip install pyarrow, or {WHAT}") from None
+        raise argument(name, f"{kind_of(data)}, which needs pyarrow", f"pip install pyarrow, or {WHAT}") from None
     try:
         return pyarrow.table(data)
     except (TypeError, ValueError) as error:
-        raise argument(name, f"a {type(data).__name__} that is no table ({error})", WHAT) from error
+        raise argument(name, f"{kind_of(data)} that is no table ({error})", WHAT) from error
 
 
 def array(values: Any, place: str) -> NDArray[numpy.float64]:
@@ -108,15 +116,14 @@ def array(values: Any, place: str) -> NDArray[numpy.float64]:
         found = _plain(values)
     except (TypeError, ValueError) as error:
         raise argument(place, f"no array ({error})", "one number for each sample") from error
+    if found.ndim == 0:
+        raise argument(place, kind_of(values), "an array: one number for each sample")
     if found.ndim != 1:
         raise argument(place, f"an array of shape {found.shape}", "one dimension: one number for each sample")
     if found.dtype.kind in "mM":
-        raise argument(
-            place,
-            f"an array of {found.dtype}",
-            "seconds as numbers: ((t - t[0]) / numpy.timedelta64(1, 's'), 's'), "
-            "of a DataFrame (t - t.iloc[0]).dt.total_seconds()",
-        )
+        raise argument(place, f"an array of {found.dtype}", SECONDS)
+    if found.dtype.kind == "O":
+        raise _objects(found, place)
     if found.dtype.kind not in "fiub":
         raise argument(place, f"an array of {found.dtype}", "real numbers; leave columns of text out")
     if found.dtype.kind in "iu" and found.size and max(abs(int(found.min())), abs(int(found.max()))) > EXACT:
@@ -131,6 +138,24 @@ def array(values: Any, place: str) -> NDArray[numpy.float64]:
     return out
 
 
+def _objects(found: NDArray[Any], place: str) -> StictionError:
+    """What is wrong with an array of Python objects: most are numbers beside something else, or times with a zone."""
+    odd = next((k for k, value in enumerate(found) if not isinstance(value, (int, float))), None)
+    if odd is None:
+        return argument(place, "an array of objects", "real numbers: .astype(float) makes them of these")
+    value = found[odd]
+    what = f"an array of objects, {kind_of(value)} in row {odd + 1}"
+    if hasattr(value, "utcoffset") or hasattr(value, "total_seconds"):
+        return argument(place, what, SECONDS)
+    if hasattr(value, "__len__"):
+        return argument(place, what, "real numbers; leave columns of text out")
+    if is_missing(value):
+        return argument(place, what, "NaN where a sample is missing: .astype(float) makes it of None")
+    if hasattr(value, "__float__"):
+        return argument(place, what, "real numbers: .astype(float) makes them of these")
+    return argument(place, what, "real numbers; leave columns of text out")
+
+
 def _plain(values: Any) -> NDArray[Any]:
     """An array of what pandas, polars, pyarrow or a list has, without a copy where there need be none."""
     import numpy
@@ -139,6 +164,8 @@ def _plain(values: Any) -> NDArray[Any]:
     if hasattr(values, "isna") and getattr(values.dtype, "na_value", None) is not None:
         if getattr(values.dtype, "kind", "O") in "fiub":
             return numpy.asarray(values.to_numpy(dtype=numpy.float64, na_value=numpy.nan))
+    if type(values).__module__.split(".")[0] == "pyarrow":
+        return numpy.asarray(values.to_numpy(zero_copy_only=False))
     if hasattr(values, "to_numpy") and not isinstance(values, numpy.ndarray):
         return numpy.asarray(values.to_numpy())
     if isinstance(values, numpy.ma.MaskedArray):

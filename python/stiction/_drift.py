@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import json
 from collections.abc import Iterable, Mapping
 from functools import cached_property
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from . import _native
 from ._axis import path_of
 from ._columns import is_columns, is_missing, items
-from ._errors import argument
+from ._errors import argument, kind_of
 from ._options import words
 from ._types import PathLike
 
@@ -114,11 +115,16 @@ class Drift:
 
     def __repr__(self) -> str:
         found, count = self.result, len(self.alarms)
-        return f"<stiction.Drift of {found['input']['logs']} logs, {found['machines']} machines: {count} alarms>"
+        logs, machines = _counted(found["input"]["logs"], "log"), _counted(found["machines"], "machine")
+        return f"<stiction.Drift of {logs}, {machines}: {_counted(count, 'alarm')}>"
 
     def _repr_html_(self) -> str:
         document = escape(self.report(), quote=True)
         return f'<iframe srcdoc="{document}" style="width: 100%; height: 40em; border: 0"></iframe>'
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"
 
 
 def _again(parts: Any) -> Drift:
@@ -138,7 +144,7 @@ def drift(results: Any, *, limit: str | Iterable[str] = ()) -> Drift:
         return Drift(_native.drift_of_columns(NAME, _columns(results), limits))
     if isinstance(results, Iterable) and not isinstance(results, (str, bytes)):
         return Drift(_native.drift_of_rows(NAME, _rows(results), limits))
-    return Drift(_native.drift(path_of(results, NAME), limits))
+    return Drift(_native.drift(path_of(results, NAME, WHAT), limits))
 
 
 def _columns(table: Any) -> list[tuple[str, list[Any]]]:
@@ -152,14 +158,22 @@ def _columns(table: Any) -> list[tuple[str, list[Any]]]:
     return out
 
 
+def _known(row: Mapping[str, Any]) -> dict[str, Any]:
+    """A row with None where nothing is known, also after it was one of a DataFrame."""
+    return {key: None if isinstance(value, float) and value != value else value for key, value in row.items()}
+
+
 def _cells(values: Any, place: str) -> list[Any]:
+    # As numbers a column of times would count nanoseconds.
+    if type(values).__module__ == "numpy" and values.dtype.kind == "M":
+        values = values.astype("M8[us]")
     if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-        raise argument(place, f"a {type(values).__name__}", "a cell for each row")
+        raise argument(place, kind_of(values), "a cell for each row")
     for to_list in ("to_pylist", "to_list", "tolist"):
         if hasattr(values, to_list):
             values = getattr(values, to_list)()
             break
-    cells = [None if is_missing(value) else value for value in values]
+    cells = [None if is_missing(value) else _seconds(value) for value in values]
     kind = None
     for k, value in enumerate(cells):
         if value is None:
@@ -171,14 +185,23 @@ def _cells(values: Any, place: str) -> list[Any]:
     return cells
 
 
+def _seconds(value: Any) -> Any:
+    """A time or a date as seconds since 1970 UTC, which it is in where it has no zone, as in a list of logs; all else as it is."""
+    if isinstance(value, datetime.datetime):
+        return (value if value.tzinfo else value.replace(tzinfo=datetime.timezone.utc)).timestamp()
+    if isinstance(value, datetime.date):
+        return datetime.datetime(value.year, value.month, value.day, tzinfo=datetime.timezone.utc).timestamp()
+    return value
+
+
 def _rows(rows: Iterable[Any]) -> list[str]:
     out: list[str] = []
     for k, row in enumerate(rows):
         place = f"{NAME}[{k}]"
         if not isinstance(row, Mapping):
-            raise argument(place, f"a {type(row).__name__}", WHAT)
+            raise argument(place, kind_of(row), WHAT)
         try:
-            out.append(json.dumps(dict(row), allow_nan=False))
+            out.append(json.dumps(_known(row), allow_nan=False))
         except (TypeError, ValueError) as error:
             raise argument(place, str(error), "a row that identify_uri gives") from error
     return out

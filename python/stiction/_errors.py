@@ -46,6 +46,14 @@ class StictionWarning(UserWarning):
         return f"[{self.code}] {self.message}"
 
 
+def kind_of(value: object) -> str:
+    """What a value is, in words: `a list`, `an int`, `None`."""
+    if value is None:
+        return "None"
+    name = type(value).__name__
+    return f"{'an' if name[0] in 'aeioAEIO' else 'a'} {name}"
+
+
 def argument(place: str, found: str, allowed: str) -> StictionError:
     """An argument that cannot be taken."""
     return StictionError("usage", place, found, allowed)

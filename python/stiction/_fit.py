@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _native
 from ._axis import path_of
-from ._errors import argument
+from ._errors import argument, kind_of
 from ._export import Exported, write_code
 from ._law import Law
 from ._log import Log, _warn
@@ -137,7 +137,7 @@ class Fit:
         A fit that was loaded or unpickled has no filters of a record and refuses: identify again, which gives the same bits.
         """
         if not isinstance(log, Log):
-            raise argument("log", f"a {type(log).__name__}", "a Log: stiction.read_log(..., axis)")
+            raise argument("log", kind_of(log), "a Log: stiction.read_log(..., axis)")
         signals, quality = self._native.predict(log._native)
         return Prediction(**dict(signals), quality=json.loads(quality))
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from . import _native
-from ._axis import path_of
+from ._axis import AXIS, path_of, paths_of
 from ._errors import argument
 from ._fit import Fit
-from ._log import Logs, _warn, all_paths, one_axis, read_all, several
+from ._log import Logs, _warn, all_paths, one_axis, read_all, several, some_paths
 from ._options import maybe, some_threads, truth, whole
 from ._progress import finish, teller
 from ._study import STOPPED
@@ -26,9 +26,9 @@ def identify(
     split: float | None = None,
     seed: int = 0,
     compare_laws: bool = True,
-    statics: Sequence[PathLike] = (),
+    statics: PathLike | Sequence[PathLike] = (),
     model: PathLike | None = None,
-    break_away: Sequence[PathLike] = (),
+    break_away: PathLike | Sequence[PathLike] = (),
     plan: PathLike | None = None,
     search: str | None = None,
     no_finish: bool = False,
@@ -69,9 +69,9 @@ def identify(
         "split": maybe(split, "split"),
         "seed": whole(seed, "seed"),
         "method": str(method),
-        "statics": [path_of(path, "statics") for path in statics],
+        "statics": paths_of(statics, "statics"),
         "model": None if model is None else path_of(model, "model"),
-        "break_away": [path_of(path, "break_away") for path in break_away],
+        "break_away": paths_of(break_away, "break_away"),
         "plan": None if plan is None else path_of(plan, "plan"),
         "search": None if search is None else str(search),
         "no_finish": truth(no_finish, "no_finish"),
@@ -92,9 +92,9 @@ def identify(
             if not each and axis is None and not break_away:
                 raise argument("logs", "no log", "at least one log, here or under [[log]] of the axis file")
             native, stopped = _native.identify_files(
-                [path_of(log, "logs") for log in each],
-                [path_of(log, "validate") for log in held_out],
-                None if axis is None else path_of(axis, "axis"),
+                some_paths(each, "logs"),
+                some_paths(held_out, "validate"),
+                None if axis is None else path_of(axis, "axis", AXIS),
                 options,
                 tell,
                 own,

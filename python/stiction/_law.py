@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from . import _native
 from ._columns import array
 from ._errors import argument
+from ._options import real
 
 if TYPE_CHECKING:
     import numpy
@@ -21,6 +22,8 @@ class Law:
 
     Along a record, from rest and with the velocity linear between samples, as an identification takes it:
     `force = law.record(time, velocity)`. This neither uses nor changes the state.
+
+    Threads that share a law step it one after the other, an array in one piece; let each have a law of its own.
     """
 
     def __init__(self, native: _native.Law, kind: str, unit: str) -> None:
@@ -32,11 +35,16 @@ class Law:
 
     def __call__(self, velocity: float, dt: float) -> float:
         """One sample in real time: `dt` s at `velocity` m/s (rad/s); the force, positive against positive velocities."""
-        return self._native.step(velocity, dt)
+        try:
+            return self._native.step(velocity, dt)
+        except TypeError:
+            real(velocity, "velocity")
+            real(dt, "dt")
+            raise
 
     def steps(self, velocity: Any, dt: float) -> NDArray[numpy.float64]:
         """The same sample after sample for an array of velocities, in one call."""
-        return self._native.steps(array(velocity, "velocity"), dt)
+        return self._native.steps(array(velocity, "velocity"), real(dt, "dt"))
 
     def record(self, time: Any, velocity: Any) -> NDArray[numpy.float64]:
         """The force along a record: time in s, velocity in m/s (rad/s)."""

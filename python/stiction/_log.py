@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 from . import _native
-from ._axis import axis_of, path_of
-from ._columns import columns, is_columns
+from ._axis import AXIS, axis_of, path_of
+from ._columns import WHAT, columns, is_columns
 from ._errors import StictionError, StictionWarning, argument
 from ._options import some_threads, whole
 from ._progress import finish, teller
@@ -129,12 +129,14 @@ def _again(origin: tuple[Any, ...], sha256: str) -> Log:
 
 def _read(data: Any, axis: AxisLike, name: str) -> Log:
     known = axis_of(axis)
+    if not isinstance(name, str) or not name or not name.isprintable():
+        raise argument("name", repr(name), "text that a log in memory is called")
     if is_columns(data):
         given = columns(data, name)
         native = _native.Log.of_columns(name, given, known)
         kept = {header: values if unit is None else (values, unit) for header, unit, values in given}
         return Log(native, known, (kept, axis, name))
-    path = path_of(data, name)
+    path = path_of(data, name, WHAT)
     return Log(_native.Log.read(path, known), known, (path, axis, name))
 
 
@@ -200,6 +202,11 @@ def several(logs: Any, place: str) -> list[Any]:
     return [logs]
 
 
+def some_paths(logs: list[Any], place: str) -> list[str]:
+    """The paths of logs that are all files."""
+    return [path_of(log, place, f"a log that was read, {WHAT}, or a list of these") for log in logs]
+
+
 def all_paths(logs: list[Any]) -> bool:
     """Whether these are files that are read as the command line reads them."""
     return not any(isinstance(log, Log) or is_columns(log) for log in logs)
@@ -238,8 +245,10 @@ def check(
     each = several(logs, "logs")
     try:
         if all_paths(each) and not isinstance(axis, dict):
-            paths = [path_of(log, "logs") for log in each]
-            known = None if axis is None else path_of(axis, "axis")
+            if not each and axis is None:
+                raise argument("logs", "no log", "at least one log, here or under [[log]] of the axis file")
+            paths = some_paths(each, "logs")
+            known = None if axis is None else path_of(axis, "axis", AXIS)
             found = _native.check_files(paths, known, teller(progress), some_threads(threads))
         else:
             read = read_all(each, axis, "logs")

@@ -35,6 +35,14 @@ def real(value: Any, place: str) -> float:
         raise argument(place, repr(value), "a number") from None
 
 
+def samples(value: Any, place: str) -> int:
+    """A number of samples, which may be written as 2e9."""
+    number = real(value, place)
+    if not 1.0 <= number <= LARGEST:
+        raise argument(place, repr(value), f"a number from 1 to {LARGEST}")
+    return int(value)
+
+
 def maybe(value: Any, place: str) -> float | None:
     """A number, or none."""
     return None if value is None else real(value, place)

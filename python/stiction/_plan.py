@@ -13,7 +13,7 @@ from . import _native
 from ._axis import path_of
 from ._errors import StictionError, argument
 from ._log import _warn
-from ._options import maybe, some_threads, whole
+from ._options import maybe, some_threads, whole, words
 from ._progress import finish, teller
 from ._study import STOPPED
 from ._types import PathLike, PlanOptions, Watcher
@@ -81,8 +81,8 @@ def plan(
     stage: Literal["probe", "whole"] = "whole",
     time: float | None = None,
     seed: int = 0,
-    wants: Sequence[str] = (),
-    formats: Sequence[str] = (),
+    wants: str | Sequence[str] = (),
+    formats: str | Sequence[str] = (),
     start: str | None = None,
     progress: Watcher = None,
     threads: int | None = None,
@@ -105,8 +105,8 @@ def plan(
         "probe": stage == "probe",
         "time": maybe(time, "time"),
         "seed": whole(seed, "seed"),
-        "wants": [str(wish) for wish in wants],
-        "formats": [str(form) for form in formats],
+        "wants": words(wants, "wants"),
+        "formats": words(formats, "formats"),
         "start": None if start is None else str(start),
     }
     try:

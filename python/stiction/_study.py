@@ -11,7 +11,7 @@ from typing import Any
 from . import _native
 from ._axis import path_of
 from ._log import _warn
-from ._options import real, some_threads, whole
+from ._options import samples, some_threads
 from ._progress import finish, teller
 from ._types import PathLike, Verdict, Watcher
 
@@ -88,7 +88,7 @@ def simulate(
     max_samples: samples that may be simulated, 2e9 if it is not given; a study with more is refused before it begins.
     progress, threads: as of `identify`.
     """
-    most = None if max_samples is None else whole(int(real(max_samples, "max_samples")), "max_samples", 1)
+    most = None if max_samples is None else samples(max_samples, "max_samples")
     try:
         native, stopped = _native.simulate(path_of(study, "study"), most, teller(progress), some_threads(threads))
     finally:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import datetime
+import decimal
 from pathlib import Path
 from typing import Any
 
@@ -37,8 +39,14 @@ def other(values: Any, column: str = "position [mm]") -> dict[str, Any]:
     ("values", "found"),
     [
         (GOOD["position [mm]"].reshape(2, -1), "shape (2, 2000)"),
-        (numpy.float64(3.0), "shape ()"),
-        (GOOD["position [mm]"].astype(object), "object"),
+        (numpy.float64(3.0), "a float64"),
+        ("1.0", "a str"),
+        ((x for x in (1.0, 2.0)), "a generator"),
+        (GOOD["position [mm]"].astype(object), "objects"),
+        ([decimal.Decimal(1)] * 4000, "a Decimal in row 1"),
+        ([1.0, None] * 2000, "None in row 2"),
+        ([datetime.datetime(2026, 1, 1)] * 4000, "a datetime in row 1"),
+        (numpy.array([[1.0], "a"] * 2000, dtype=object), "a list in row 1"),
         (GOOD["position [mm]"].astype(complex), "complex128"),
         (numpy.array(["1"] * 4000), "<U1"),
         (numpy.zeros(4000, dtype="datetime64[ns]"), "datetime64[ns]"),
@@ -46,7 +54,7 @@ def other(values: Any, column: str = "position [mm]") -> dict[str, Any]:
         (numpy.zeros(4000, dtype=[("a", float)]), "[('a', '<f8')]"),
         ([[1.0], [1.0, 2.0]], "no array"),
         (["a"] * 4000, "<U1"),
-        (None, "shape ()"),
+        (None, "None"),
         ((GOOD["position [mm]"], "mm", 3), "a tuple of 3"),
         ((GOOD["position [mm]"], 3), "a tuple of 2"),
         (GOOD["position [mm]"][:-1], "3999 samples"),
@@ -80,9 +88,58 @@ def test_a_table_that_is_none_is_refused(data: Any, found: str) -> None:
     assert found in refused(data).found
 
 
-@pytest.mark.parametrize("data", [3, 2.5, T, [1, 2], object(), ""])
-def test_what_is_no_log_is_refused(data: Any) -> None:
-    assert refused(data).place == "log"
+@pytest.mark.parametrize("data", [3, 2.5, T, [1, 2], object(), "", None])
+def test_what_is_no_log_is_refused_with_what_is_one(data: Any) -> None:
+    error = refused(data)
+    assert error.place == "log"
+    assert "DataFrame" in error.allowed
+
+
+@pytest.mark.parametrize(
+    ("values", "advice"),
+    [
+        ([None] * 4000, "NaN"),
+        ([datetime.datetime(2026, 1, 1)] * 4000, "seconds"),
+        (GOOD["time [s]"].astype(object), "astype(float)"),
+    ],
+)
+def test_an_array_of_objects_is_refused_with_what_makes_it_one_of_numbers(values: Any, advice: str) -> None:
+    assert advice in refused(other(values)).allowed
+
+
+@pytest.mark.parametrize("name", [None, 3, "", "a\nb"])
+def test_a_name_that_is_none_is_refused(name: Any) -> None:
+    assert refused(GOOD, name=name).place == "name"
+
+
+def test_a_law_is_given_numbers(fit: stiction.Fit) -> None:
+    law = fit.law
+    calls: list[tuple[Any, str]] = [
+        (lambda: law("a", 1e-3), "velocity"),  # type: ignore[arg-type]
+        (lambda: law(T, 1e-3), "velocity"),  # type: ignore[arg-type]
+        (lambda: law(0.1, None), "dt"),  # type: ignore[arg-type]
+        (lambda: law.steps(T, "fast"), "dt"),  # type: ignore[arg-type]
+        (lambda: law.steps(0.1, 1e-3), "velocity"),
+    ]
+    for call, place in calls:
+        with pytest.raises(StictionError) as caught:
+            call()
+        assert caught.value.place == place
+
+
+def test_a_log_that_cannot_be_predicted_is_told_why(fit: stiction.Fit) -> None:
+    slow = quietly(stiction.read_log, GOOD)
+    still = quietly(stiction.read_log, {name: values for name, values in GOOD.items() if "force" not in name})
+    for log, found in [(slow, "1000 samples a second"), (still, "without a force")]:
+        with pytest.raises(StictionError, match=found):
+            fit.predict(log)
+
+
+@pytest.mark.parametrize("most", [float("nan"), float("inf"), 0, -1, "many"])
+def test_a_number_of_samples_that_is_none_is_named(fit: stiction.Fit, most: Any) -> None:
+    with pytest.raises(StictionError) as caught:
+        fit.simulate(max_samples=most)
+    assert caught.value.place == "max_samples"
 
 
 @pytest.mark.parametrize(("samples", "found"), [(0, "no sample"), (1, "1 sample")])
@@ -191,6 +248,9 @@ def test_a_column_without_a_number_is_refused_or_found(column: str, value: float
         ({"kidn": "linear"}, "bad-config"),
         ({"mass": object()}, "usage"),
         ({"mass": float("nan")}, "usage"),
+        ({"columns": {"time": None}}, "usage"),
+        ({"name": b"X"}, "usage"),
+        ([1], "usage"),
         ({"mass": None}, "usage"),
         ("no/such/axis.toml", "bad-config"),
         (3, "usage"),
@@ -214,6 +274,9 @@ def test_an_axis_that_is_none_is_refused(axis: Any, code: str) -> None:
         ({"law": "auto", "asymmetric": True}, "asymmetric"),
         ({"axis": "axis.toml"}, "axis"),
         ({"model": 3}, "model"),
+        ({"statics": 3}, "statics"),
+        ({"break_away": None}, "break_away"),
+        ({"statics": "levels.csv"}, "static-then-dynamic"),
     ],
 )
 def test_an_option_that_is_none_is_named(options: dict[str, Any], place: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import json
 import pickle
 from pathlib import Path
@@ -83,6 +84,27 @@ def test_without_a_limit_and_a_change_nothing_is_alarmed() -> None:
     assert not quiet.changed and quiet.courses == []
 
 
+def test_times_may_be_stamps_and_dates(found: stiction.Drift) -> None:
+    """As in a list of logs; without a zone they are in UTC."""
+    columns = drift_rows.columns()
+    zone = datetime.timezone(datetime.timedelta(hours=5))
+    for times in (
+        [datetime.datetime.fromtimestamp(t, zone) for t in columns["time"]],
+        [datetime.datetime.fromtimestamp(t, datetime.timezone.utc).replace(tzinfo=None) for t in columns["time"]],
+        (numpy.array(columns["time"]) * 1e9).astype("M8[ns]"),
+    ):
+        assert stiction.drift({**columns, "time": times}, limit=LIMITS).alarms == found.alarms
+    days = [datetime.datetime.fromtimestamp(t, datetime.timezone.utc).date() for t in columns["time"]]
+    midnight = stiction.drift({**columns, "time": days}).courses[0].time
+    assert numpy.all(midnight % drift_rows.DAY == 0.0)
+
+
+def test_rows_may_come_from_a_data_frame(found: stiction.Drift) -> None:
+    """Which has NaN where nothing is known."""
+    rows = [{**row, "error": float("nan"), "message": float("nan")} for row in drift_rows.rows()]
+    assert stiction.drift(rows, limit=LIMITS).alarms == found.alarms
+
+
 def without(key: str) -> dict[str, Any]:
     return {name: cells for name, cells in drift_rows.columns().items() if name != key}
 
@@ -106,7 +128,9 @@ def without(key: str) -> dict[str, Any]:
         ([], [], "", "0 logs"),
         ([{"path": "a"}], [], "results[0]", "missing field"),
         (["a"], [], "results[0]", "a str"),
-        (7, [], "results", "a int"),
+        (7, [], "results", "an int"),
+        (None, [], "results", "None"),
+        ([{**drift_rows.rows()[0], "time": "late"}], [], "results[0]", "invalid type: string \"late\", expected f64"),
         ("nowhere.parquet", [], "nowhere.parquet", "cannot be read"),
     ],
 )

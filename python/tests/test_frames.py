@@ -77,9 +77,25 @@ def test_time_zones_are_refused_with_the_line_that_works() -> None:
         table = pandas.DataFrame({**GOOD, "time [s]": time})
         error = refused(table)
         assert error.place == "log['time [s]']"
+        assert "total_seconds" in error.allowed
     stamp = table["time [s]"]
     table["time [s]"] = (stamp - stamp.iloc[0]).dt.total_seconds()
     assert quietly(stiction.read_log, table).samples == 4000
+
+
+def test_arrow_arrays_may_lack_samples() -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    cells = pyarrow.array([None if 1000 <= k < 1003 else float(x) for k, x in enumerate(GOOD["position [mm]"])])
+    log = quietly(stiction.read_log, {**GOOD, "position [mm]": cells})
+    assert any(finding.code == "missing-cells" for finding in log.findings)
+    error = refused({**GOOD, "position [mm]": pyarrow.array(["a"] * 4000).dictionary_encode()})
+    assert "a str in row 1" in error.found
+
+
+def test_a_table_that_is_not_computed_yet_is_refused_with_what_computes_it() -> None:
+    polars = pytest.importorskip("polars")
+    error = refused(polars.DataFrame(GOOD).lazy())
+    assert (error.place, error.allowed) == ("log", "a table that is there: .collect()")
 
 
 def test_any_table_that_passes_on_arrow_is_read() -> None:
@@ -133,6 +149,9 @@ def test_drift_of_what_pandas_reads(tmp_path: Path) -> None:
     pytest.importorskip("pyarrow")
     table = drift_rows.table(tmp_path / "results.parquet")
     found = stiction.drift(table)
+    stamped = pandas.read_parquet(table)
+    stamped["time"] = pandas.to_datetime(stamped["time"], unit="s", utc=True).dt.tz_convert("Europe/Berlin")
+    assert stiction.drift(stamped).alarms == found.alarms
     for frame in (pandas.read_parquet(table), pandas.read_parquet(table, dtype_backend="pyarrow")):
         assert stiction.drift(frame).alarms == found.alarms
         untimed = stiction.drift(frame.assign(time=None, temperature=numpy.nan))

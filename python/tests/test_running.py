@@ -118,9 +118,11 @@ def forked(path: Path) -> list[stiction.Parameter]:
 
 
 INTERRUPTED = """
-import sys, warnings
+import signal, sys, warnings
 import stiction
 warnings.simplefilter("ignore")
+# Where it is started in the background signals are ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 said = False
 def told(p):
     global said
@@ -148,6 +150,7 @@ def test_ctrl_c_where_there_is_nothing_to_keep_is_a_keyboard_interrupt(run_csv: 
     script = """
 import os, signal, sys
 import stiction
+signal.signal(signal.SIGINT, signal.default_int_handler)
 told = lambda p: os.kill(os.getpid(), signal.SIGINT)
 try:
     stiction.check(sys.argv[1], progress=told)
@@ -157,6 +160,33 @@ except KeyboardInterrupt:
     words = [sys.executable, "-c", script, str(run_csv)]
     done = subprocess.run(words, capture_output=True, text=True, check=True)
     assert done.stdout == "stopped\n"
+
+
+FOLLOWED = """
+import os, signal, sys, threading, time
+import drift_rows, stiction
+signal.signal(signal.SIGINT, signal.default_int_handler)
+# A log every ten minutes: quiet machines of a thousand logs are simulated, for each of five parameters.
+drift_rows.DAY = 600.0
+rows = drift_rows.rows()
+for row in rows:
+    [only] = row["parameters"]
+    row["parameters"] = [{**only, "parameter": f"p{k}"} for k in range(5)]
+threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+begin = time.monotonic()
+try:
+    stiction.drift(rows)
+except KeyboardInterrupt:
+    print("stopped", time.monotonic() - begin < 1.3)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends a signal")
+def test_ctrl_c_ends_what_is_followed_at_once() -> None:
+    """Which takes more than ten seconds else."""
+    here = dict(os.environ, PYTHONPATH=str(Path(__file__).parent))
+    done = subprocess.run([sys.executable, "-c", FOLLOWED], capture_output=True, text=True, check=True, env=here)
+    assert done.stdout == "stopped True\n"
 
 
 def test_nothing_is_kept_of_many_calls(arrays: dict[str, Any]) -> None:

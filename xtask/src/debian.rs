@@ -139,18 +139,57 @@ const PACKAGES: &[Package] = &[
     },
 ];
 
+/// What building Python needs, which no test does.
+const FOR_PYTHON: &[Package] = &[
+    Package {
+        name: "build-essential",
+        program: Some("make"),
+        why: "builds Python",
+    },
+    Package {
+        name: "curl",
+        program: Some("curl"),
+        why: "fetches the sources of Python",
+    },
+    Package {
+        name: "xz-utils",
+        program: Some("xz"),
+        why: "unpacks the sources of Python",
+    },
+    Package {
+        name: "libffi-dev",
+        program: None,
+        why: "ctypes of Python",
+    },
+    Package {
+        name: "libssl-dev",
+        program: None,
+        why: "pip of Python",
+    },
+    Package {
+        name: "zlib1g-dev",
+        program: None,
+        why: "pip of Python",
+    },
+];
+
 /// Installs what is missing as root; otherwise says the command to give.
 pub fn install() -> Outcome {
-    install_of(|_| true)
+    install_of(PACKAGES, |_| true)
 }
 
 /// The same of one package.
 pub fn install_one(name: &str) -> Outcome {
-    install_of(|package| package.name == name)
+    install_of(PACKAGES, |package| package.name == name)
 }
 
-fn install_of(wanted: impl Fn(&Package) -> bool) -> Outcome {
-    let missing: Vec<&Package> = PACKAGES
+/// The same of what building Python needs.
+pub fn install_for_python() -> Outcome {
+    install_of(FOR_PYTHON, |_| true)
+}
+
+fn install_of(packages: &[Package], wanted: impl Fn(&Package) -> bool) -> Outcome {
+    let missing: Vec<&Package> = packages
         .iter()
         .filter(|package| wanted(package) && !present(package))
         .collect();

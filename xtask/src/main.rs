@@ -3,6 +3,7 @@
 
 mod debian;
 mod instructions;
+mod interpreter;
 mod licences;
 mod package;
 mod peers;
@@ -37,7 +38,7 @@ const TASKS: &[Task] = &[
     },
     Task {
         name: "soak",
-        help: "what CI has no time for: the same tests with more seeds, packed crates built on their own, killed workers",
+        help: "what CI has no time for: the same tests with more seeds, packed crates built on their own, killed workers, free-threaded Python",
         run: soak::run,
     },
     Task {
@@ -64,6 +65,21 @@ const TASKS: &[Task] = &[
         name: "wheel",
         help: "the Python wheel as users get it, tested and measured: target/python/release",
         run: wheel::release,
+    },
+    Task {
+        name: "interpreter",
+        help: "build the free-threaded Python that the next two need, where there is none",
+        run: interpreter::install,
+    },
+    Task {
+        name: "python --free-threaded",
+        help: "the Python package and its tests on that Python",
+        run: wheel::built_free_threaded,
+    },
+    Task {
+        name: "wheel --free-threaded",
+        help: "its wheel as users get it, tested and measured: target/python/release-free-threaded",
+        run: wheel::release_free_threaded,
     },
     Task {
         name: "studio",
@@ -133,7 +149,7 @@ fn main() -> ExitCode {
         "" | "help" | "-h" | "--help" => {
             println!("cargo xtask <task>\n");
             for task in TASKS {
-                println!("  {:21} {}", task.name, task.help);
+                println!("  {:22} {}", task.name, task.help);
             }
             return ExitCode::SUCCESS;
         }

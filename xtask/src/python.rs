@@ -1,8 +1,8 @@
 //! The virtual environments: one with the Python packages that tests compare stiction with, one that has nothing but the
 //! Python package stiction and what its tests need.
 
-use crate::debian;
 use crate::shell::{self, Outcome};
+use crate::{debian, interpreter};
 use std::fs;
 use std::path::PathBuf;
 
@@ -19,6 +19,8 @@ struct Environment {
     folder: PathBuf,
     /// Exact versions of its packages, a file from the workspace root.
     requirements: &'static str,
+    /// The Python that it is of; `None` for the usual one.
+    python: Option<String>,
 }
 
 /// Makes both.
@@ -31,6 +33,7 @@ pub fn environment() -> Result<String, String> {
     made(&Environment {
         folder: shell::root().join(".venv"),
         requirements: "xtask/requirements.txt",
+        python: None,
     })
 }
 
@@ -39,6 +42,16 @@ pub fn bare() -> Result<String, String> {
     made(&Environment {
         folder: shell::target().join("python/venv"),
         requirements: "python/tests/requirements.txt",
+        python: None,
+    })
+}
+
+/// A free-threaded Python that has numpy and pytest alone, for the same.
+pub fn free_threaded() -> Result<String, String> {
+    made(&Environment {
+        folder: shell::target().join("python/free-threaded/venv"),
+        requirements: "python/tests/requirements-free-threaded.txt",
+        python: Some(interpreter::find()?),
     })
 }
 
@@ -54,6 +67,22 @@ fn made(environment: &Environment) -> Result<String, String> {
     if made && shell::succeeds(shell::command(&python, &["-c", PROBE])) {
         return Ok(python);
     }
+    let base = match &environment.python {
+        Some(python) => python.clone(),
+        None => usual()?,
+    };
+    let arguments = ["-m", "venv", "--clear", &folder.to_string_lossy()];
+    shell::run(shell::command(&base, &arguments))?;
+    let install = "-m pip install --quiet --disable-pip-version-check --only-binary :all: -r";
+    let mut arguments: Vec<&str> = install.split_whitespace().collect();
+    arguments.push(environment.requirements);
+    shell::run(shell::command(&python, &arguments))?;
+    fs::write(&stamp, wanted).map_err(|e| format!("{}: {e}", stamp.display()))?;
+    Ok(python)
+}
+
+/// The Python on the PATH, able to make an environment.
+fn usual() -> Result<String, String> {
     if !shell::on_path("python3") {
         return Err(format!(
             "python3 is not on the PATH; Python {OLDEST} or later is needed"
@@ -70,12 +99,5 @@ fn made(environment: &Environment) -> Result<String, String> {
     if !has("import ensurepip, venv") {
         debian::install_python_venv()?;
     }
-    let arguments = ["-m", "venv", "--clear", &folder.to_string_lossy()];
-    shell::run(shell::command("python3", &arguments))?;
-    let install = "-m pip install --quiet --disable-pip-version-check --only-binary :all: -r";
-    let mut arguments: Vec<&str> = install.split_whitespace().collect();
-    arguments.push(environment.requirements);
-    shell::run(shell::command(&python, &arguments))?;
-    fs::write(&stamp, wanted).map_err(|e| format!("{}: {e}", stamp.display()))?;
-    Ok(python)
+    Ok("python3".into())
 }

@@ -1,7 +1,7 @@
 //! The Python package: its wheel, and its tests in an environment that has nothing else.
 
-use crate::python;
 use crate::shell::{self, Outcome, cargo};
+use crate::{interpreter, python};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,52 +11,92 @@ const LIBRARY: &str = "debug/libstiction_native.so";
 /// Where its wheels are made, in the target folder.
 const FOLDER: &str = "python";
 const TESTS: &str = "python/tests";
+/// Builds that library and the command line to compare with.
+const BUILD: &str = "build --workspace --lib --bins --example record";
+
+/// The tests that need no package without wheels for a free-threaded Python: neither Dask nor DataFrames nor pictures.
+const FREE_THREADED: &[&str] = &[
+    "test_bad_input.py",
+    "test_drift.py",
+    "test_fit.py",
+    "test_guide.py",
+    "test_package.py",
+    "test_running.py",
+    "test_same_bits.py",
+    "test_threads.py",
+];
 
 /// Builds what the tests of the package need, then runs them.
 pub fn built() -> Outcome {
     // With an example, dependencies have the features that they have in the tests, and are not built once more.
-    shell::run(cargo("build --workspace --lib --bins --example record"))?;
+    shell::run(cargo(BUILD))?;
     test()
+}
+
+/// Builds the same for the free-threaded Python, then runs the tests that it has packages for.
+pub fn built_free_threaded() -> Outcome {
+    let python = interpreter::find()?;
+    let mut build = cargo(BUILD);
+    build.env("PYO3_PYTHON", &python);
+    shell::run(build)?;
+    let wheel = packed(&python, &shell::target().join(FOLDER).join("free-threaded"))?;
+    tested_free_threaded(&wheel, "debug")
 }
 
 /// Packs the library that is built already, and runs the tests of the package with it.
 pub fn test() -> Outcome {
-    let folder = shell::target().join(FOLDER);
-    fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    let wheel = packed(&python::environment()?, &shell::target().join(FOLDER))?;
+    tested(&wheel, "debug")
+}
+
+/// Packs the library that is built already for that Python.
+fn packed(python: &str, folder: &Path) -> Result<PathBuf, String> {
+    fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let library = text(&shell::target().join(LIBRARY));
-    let stripped = text(&folder.join("_native.abi3.so"));
+    let stripped = text(&folder.join("_native.so"));
     shell::run(shell::command("strip", &["-o", &stripped, &library]))?;
-    let python = python::environment()?;
-    let assemble = ["python/assemble.py", &stripped, &text(&folder)];
-    let wheel = shell::output(shell::command(&python, &assemble))?;
-    tested(Path::new(wheel.trim()), "debug")
+    let assemble = ["python/assemble.py", &stripped, &text(folder)];
+    let wheel = shell::output(shell::command(python, &assemble))?;
+    Ok(wheel.trim().into())
 }
 
 /// Builds the wheel that users get, runs the tests of the package with it, and measures it against its bars.
 pub fn release() -> Outcome {
+    let wheel = released("release", None)?;
+    tested(&wheel, "release")?;
+    measured(&wheel, &python::bare()?)
+}
+
+/// The same of the wheel for the free-threaded Python.
+pub fn release_free_threaded() -> Outcome {
+    let python = interpreter::find()?;
+    let wheel = released("release-free-threaded", Some(&python))?;
+    tested_free_threaded(&wheel, "release")?;
+    measured(&wheel, &python::free_threaded()?)
+}
+
+/// Builds a wheel as users get it, for a Python or for all, and what it is compared with.
+fn released(folder: &str, python: Option<&str>) -> Result<PathBuf, String> {
     shell::run(cargo(
         "build --release --package stiction-cli --package stiction --bins --example timed",
     ))?;
-    let folder = shell::target().join(FOLDER).join("release");
+    let folder = shell::target().join(FOLDER).join(folder);
     // Of another version there may be one.
     let _ = fs::remove_dir_all(&folder);
-    let python = python::environment()?;
-    let arguments = [
-        "-m",
-        "maturin",
-        "build",
-        "--release",
-        "--out",
-        &text(&folder),
-    ];
-    shell::run(shell::command(&python, &arguments))?;
+    let out = text(&folder);
+    let mut arguments = vec!["-m", "maturin", "build", "--release", "--out", &out];
+    arguments.extend(python.iter().flat_map(|python| ["--interpreter", *python]));
+    shell::run(shell::command(&python::environment()?, &arguments))?;
     let wheels = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut wheels = wheels.flatten().map(|entry| entry.path());
-    let wheel = wheels.next().ok_or("maturin built no wheel")?;
-    tested(&wheel, "release")?;
+    Ok(wheels.next().ok_or("maturin built no wheel")?)
+}
+
+/// Measures a wheel that is installed beside a Python.
+fn measured(wheel: &Path, python: &str) -> Outcome {
     let timed = text(&shell::target().join("release/examples/timed"));
-    let measure = ["bench/python/measure.py", &timed, &text(&wheel)];
-    shell::run(shell::command(&python::bare()?, &measure))
+    let measure = ["bench/python/measure.py", &timed, &text(wheel)];
+    shell::run(shell::command(python, &measure))
 }
 
 /// The tests of fleets with what there is no time for: more logs, and a worker that is killed twenty times. Needs what
@@ -75,20 +115,8 @@ pub fn soak() -> Outcome {
 /// packages and of types with the packages of `.venv`.
 fn tested(wheel: &Path, profile: &str) -> Outcome {
     let (bare, full) = (python::bare()?, python::environment()?);
-    let wheel = text(wheel);
-    let install =
-        "-m pip install --quiet --disable-pip-version-check --no-index --force-reinstall --no-deps";
-    let mut arguments: Vec<&str> = install.split_whitespace().collect();
-    arguments.push(&wheel);
-    shell::run(shell::command(&bare, &arguments))?;
-    shell::run(shell::command(&bare, &["-m", "pip", "check"]))?;
-    let mut tests = shell::command(&bare, &["-m", "pytest", "-q", TESTS]);
-    tests.env("STICTION_PROGRAM", program(profile));
-    // What users get is held small: the build of the tests checks every sum for overflow besides.
-    if profile == "release" {
-        tests.env("STICTION_WHEEL", &wheel);
-    }
-    shell::run(tests)?;
+    install(wheel, &bare)?;
+    shell::run(tests(wheel, profile, &bare, &[TESTS]))?;
     let place = "import sysconfig; print(sysconfig.get_path('purelib'))";
     let place = shell::output(shell::command(&bare, &["-c", place]))?;
     let beside = |arguments: &[&str]| -> Command {
@@ -101,6 +129,44 @@ fn tested(wheel: &Path, profile: &str) -> Outcome {
     shell::run(beside(&["-m", "mypy", "python/stiction", TESTS]))?;
     shell::run(beside(&["-m", "mypy.stubtest", "stiction._native"]))?;
     shell::run(beside(&["-m", "basedpyright"]))
+}
+
+/// Installs a wheel beside numpy and pytest of the free-threaded Python, and runs its tests there.
+fn tested_free_threaded(wheel: &Path, profile: &str) -> Outcome {
+    let python = python::free_threaded()?;
+    install(wheel, &python)?;
+    let files: Vec<String> = FREE_THREADED
+        .iter()
+        .map(|file| format!("{TESTS}/{file}"))
+        .collect();
+    let files: Vec<&str> = files.iter().map(String::as_str).collect();
+    let mut tests = tests(wheel, profile, &python, &files);
+    // A lock of the interpreter fails them.
+    tests.env("STICTION_FREE_THREADED", "1");
+    shell::run(tests)
+}
+
+/// Installs a wheel and nothing else.
+fn install(wheel: &Path, python: &str) -> Outcome {
+    let install =
+        "-m pip install --quiet --disable-pip-version-check --no-index --force-reinstall --no-deps";
+    let wheel = text(wheel);
+    let mut arguments: Vec<&str> = install.split_whitespace().collect();
+    arguments.push(&wheel);
+    shell::run(shell::command(python, &arguments))?;
+    shell::run(shell::command(python, &["-m", "pip", "check"]))
+}
+
+/// Tests of a wheel that is installed.
+fn tests(wheel: &Path, profile: &str, python: &str, files: &[&str]) -> Command {
+    let arguments = [&["-m", "pytest", "-q"], files].concat();
+    let mut tests = shell::command(python, &arguments);
+    tests.env("STICTION_PROGRAM", program(profile));
+    // What users get is held small: the build of the tests checks every sum for overflow besides.
+    if profile == "release" {
+        tests.env("STICTION_WHEEL", text(wheel));
+    }
+    tests
 }
 
 /// The command line to compare with.

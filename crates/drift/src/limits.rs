@@ -56,6 +56,16 @@ const COMMON: f64 = 0.95;
 impl Limits {
     /// The limits for one of so many numbers that are looked at on each machine.
     pub fn of(noise: &Noise, numbers: usize, settings: &Settings) -> Self {
+        Self::of_while(noise, numbers, settings, || true).expect("goes on")
+    }
+
+    /// The same for as long as `goes_on` says so, which is asked for each machine that is simulated; else `None`.
+    pub fn of_while(
+        noise: &Noise,
+        numbers: usize,
+        settings: &Settings,
+        mut goes_on: impl FnMut() -> bool,
+    ) -> Option<Self> {
         let reference = settings.reference.max(3);
         // Every window is looked at once at least, however seldom there is a log.
         let logs = (settings.horizon / noise.spacing)
@@ -64,9 +74,9 @@ impl Limits {
         let logs = (logs as usize).min(MOST_LOGS);
         let part = settings.alarmed / numbers.max(1) as f64;
         let mut random = Random::new(settings.seed);
-        let machines: Vec<[f64; WINDOWS.len()]> = (0..MACHINES)
-            .map(|_| largest(&quiet(noise, reference + logs, &mut random), reference))
-            .collect();
+        let mut machine = || largest(&quiet(noise, reference + logs, &mut random), reference);
+        let machines = (0..MACHINES).map(|_| goes_on().then(&mut machine));
+        let machines: Vec<[f64; WINDOWS.len()]> = machines.collect::<Option<_>>()?;
         let mut of_window = [0.0; WINDOWS.len()];
         for (w, unit) in of_window.iter_mut().enumerate() {
             *unit = quantile(machines.iter().map(|m| m[w]).collect(), COMMON);
@@ -80,10 +90,10 @@ impl Limits {
             parts.fold(0.0, f64::max)
         };
         let factor = quantile(machines.iter().map(worst).collect(), 1.0 - part);
-        Limits {
+        Some(Limits {
             of_window: of_window.map(|unit| unit * factor),
             reference,
-        }
+        })
     }
 }
 

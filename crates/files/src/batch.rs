@@ -12,7 +12,7 @@ mod table;
 mod time;
 
 pub use list::{Listed, is_address, is_list, read_list};
-pub use read::{read_results, rows_of};
+pub use read::{read_results, read_results_while, rows_while};
 pub use row::{LogRow, ParameterRow};
 pub use summary::{BatchFile, Failure, SCHEMA};
 pub use table::{COLUMNS, Results};

@@ -1,15 +1,16 @@
 //! Friction over time.
 
 use crate::error::{Refusal, raised};
-use crate::run::{How, run};
+use crate::run::{How, Watch, run};
 use crate::study::{bundled, saved, unbundled};
 use numpy::PyArray1;
+use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use stiction::commands::batch::{self, Cells, LogRow, rows_of};
+use stiction::commands::batch::{self, Cells, LogRow, rows_while};
 use stiction::commands::drift::{
-    DriftOutcome, Limit, SCHEMA, Shown, drift as follow, drift_of_rows as follow_rows,
+    DriftOutcome, Limit, SCHEMA, Shown, drift_of_rows_while, drift_while,
 };
 use stiction::commands::{Bundle, text};
 use stiction::{Error, bundle};
@@ -173,18 +174,23 @@ fn limits(typed: &[String]) -> Result<Vec<Limit>, Error> {
 fn followed(
     py: Python<'_>,
     table: Option<PathBuf>,
-    work: impl FnOnce() -> Result<DriftOutcome, Error> + Send,
+    work: impl FnOnce(&mut Watch<'_>) -> Result<Option<DriftOutcome>, Error> + Send,
 ) -> PyResult<Drift> {
-    let (found, _) = run(py, &How::quiet(), |_| {
-        work().map(|outcome| Drift::of(&outcome, table))
+    let (found, _) = run(py, &How::quiet(), |watch| {
+        let outcome = work(watch)?;
+        Ok(outcome.map(|outcome| Drift::of(&outcome, table)))
     })?;
-    found.map_err(|e| raised(py, &e))
+    let found = found.map_err(|e: Error| raised(py, &e))?;
+    // Whoever stopped it raised an error of their own.
+    found.ok_or_else(|| PyKeyboardInterrupt::new_err(()))
 }
 
 /// What changed in a table, or in a folder of tables.
 #[pyfunction]
 pub fn drift(py: Python<'_>, table: PathBuf, limit: Vec<String>) -> PyResult<Drift> {
-    followed(py, Some(table.clone()), || follow(&table, &limits(&limit)?))
+    followed(py, Some(table.clone()), |watch| {
+        drift_while(&table, &limits(&limit)?, || watch.goes_on())
+    })
 }
 
 /// A column of a table in memory.
@@ -216,19 +222,27 @@ impl From<Column> for Cells {
 pub fn drift_of_columns(
     py: Python<'_>,
     name: String,
-    columns: Vec<(String, Column)>,
+    columns: Vec<(String, Bound<'_, PyAny>)>,
     limit: Vec<String>,
 ) -> PyResult<Drift> {
-    followed(py, None, || {
-        let mut columns: HashMap<String, Column> = columns.into_iter().collect();
+    let taken = |(name, cells): (String, Bound<'_, PyAny>)| {
+        py.check_signals()?;
+        PyResult::Ok((name, cells.extract::<Column>()?))
+    };
+    let columns: PyResult<HashMap<String, Column>> = columns.into_iter().map(taken).collect();
+    let mut columns = columns?;
+    followed(py, None, |watch| {
         let of = |name: &&str| columns.remove(*name).map(Cells::from);
         let columns: Vec<Option<Cells>> = batch::COLUMNS.iter().map(of).collect();
         let mut rows = Vec::new();
-        rows_of(Path::new(&name), &columns, |row| {
+        let take = |row| {
             rows.push(row);
             Ok(())
-        })?;
-        follow_rows(&name, rows, &limits(&limit)?)
+        };
+        if !rows_while(Path::new(&name), &columns, || watch.goes_on(), take)? {
+            return Ok(None);
+        }
+        drift_of_rows_while(&name, rows, &limits(&limit)?, || watch.goes_on())
     })
 }
 
@@ -241,13 +255,19 @@ pub fn drift_of_rows(
     limit: Vec<String>,
 ) -> PyResult<Drift> {
     let read = |(k, row): (usize, &String)| {
+        py.check_signals()?;
         serde_json::from_str(row).map_err(|e| {
             let place = format!("{name}[{k}]");
             let allowed = "a row that identify_uri gives";
-            Refusal::argument(&place, e.to_string(), allowed).raise(py)
+            let said = e.to_string();
+            // A row is no text that has lines and columns.
+            let said = said.split(" at line ").next().unwrap_or_default();
+            Refusal::argument(&place, said, allowed).raise(py)
         })
     };
     let rows: PyResult<Vec<LogRow>> = rows.iter().enumerate().map(read).collect();
     let rows = rows?;
-    followed(py, None, || follow_rows(&name, rows, &limits(&limit)?))
+    followed(py, None, |watch| {
+        drift_of_rows_while(&name, rows, &limits(&limit)?, || watch.goes_on())
+    })
 }

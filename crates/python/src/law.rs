@@ -3,13 +3,16 @@
 use crate::error::{Refusal, raised};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
+use pyo3::sync::MutexExt;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use stiction::{FrictionLaw, ModelFile, SteppedLaw, forces_along};
 
 /// A friction law with its state.
-#[pyclass(module = "stiction._native")]
+#[pyclass(frozen, module = "stiction._native")]
 pub struct Law {
     law: FrictionLaw,
-    stepped: SteppedLaw,
+    /// Calls from several threads follow one another.
+    stepped: Mutex<SteppedLaw>,
     /// The model file of the law.
     model: String,
 }
@@ -29,10 +32,16 @@ impl Law {
             values.ok_or_else(|| refused("a law that this version does not know".into()))?;
         let law = values.law().map_err(|e| refused(e.to_string()))?;
         Ok(Self {
-            stepped: SteppedLaw::new(law.clone()),
+            stepped: Mutex::new(SteppedLaw::new(law.clone())),
             law,
             model: model.to_toml(),
         })
+    }
+
+    /// The law with its state, for this thread alone. Nothing of Python may be called until it is let go.
+    fn stepped(&self, py: Python<'_>) -> MutexGuard<'_, SteppedLaw> {
+        let locked = self.stepped.lock_py_attached(py);
+        locked.unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -42,8 +51,9 @@ impl Law {
     #[staticmethod]
     fn of_model(py: Python<'_>, model: &str, memory: Vec<f64>) -> PyResult<Self> {
         let model = ModelFile::parse(model).map_err(|e| raised(py, &e.into()))?;
-        let mut law = Self::of(&model).map_err(|refusal| refusal.raise(py))?;
-        match law.stepped.recall(&memory) {
+        let law = Self::of(&model).map_err(|refusal| refusal.raise(py))?;
+        let recalled = law.stepped(py).recall(&memory);
+        match recalled {
             true => Ok(law),
             false => {
                 let found = format!("{} numbers", memory.len());
@@ -59,24 +69,26 @@ impl Law {
     }
 
     /// All that it remembers.
-    fn memory(&self) -> Vec<f64> {
-        self.stepped.memory()
+    fn memory(&self, py: Python<'_>) -> Vec<f64> {
+        self.stepped(py).memory()
     }
 
     /// One sample in real time.
-    fn step(&mut self, velocity: f64, dt: f64) -> f64 {
-        self.stepped.step(dt, velocity)
+    fn step(&self, py: Python<'_>, velocity: f64, dt: f64) -> f64 {
+        self.stepped(py).step(dt, velocity)
     }
 
-    /// Many samples in real time.
+    /// Many samples in real time, without a sample of another thread between them.
     fn steps<'py>(
-        &mut self,
+        &self,
         py: Python<'py>,
         velocity: PyReadonlyArray1<'py, f64>,
         dt: f64,
     ) -> Bound<'py, PyArray1<f64>> {
         let velocity = velocity.as_array();
-        let forces: Vec<f64> = velocity.iter().map(|&v| self.stepped.step(dt, v)).collect();
+        let mut law = self.stepped(py);
+        let forces: Vec<f64> = velocity.iter().map(|&v| law.step(dt, v)).collect();
+        drop(law);
         forces.into_pyarray(py)
     }
 
@@ -98,18 +110,18 @@ impl Law {
 
     /// Force of the last real-time sample.
     #[getter]
-    fn force(&self) -> f64 {
-        self.stepped.force()
+    fn force(&self, py: Python<'_>) -> f64 {
+        self.stepped(py).force()
     }
 
     /// Deflection of a bristle, or spring forces of elements.
     #[getter]
-    fn state(&self) -> Vec<f64> {
-        self.stepped.state()
+    fn state(&self, py: Python<'_>) -> Vec<f64> {
+        self.stepped(py).state()
     }
 
     /// Back to rest.
-    fn reset(&mut self) {
-        self.stepped.reset();
+    fn reset(&self, py: Python<'_>) {
+        self.stepped(py).reset();
     }
 }

@@ -17,7 +17,10 @@ mod run;
 mod study;
 
 /// The module `stiction._native`.
-#[pyo3::pymodule]
+///
+/// It needs no lock of the interpreter: every class is frozen and shares nothing that changes but a law its state, which has a
+/// lock of its own; what is static is set once or atomic.
+#[pyo3::pymodule(gil_used = false)]
 mod _native {
     use pyo3::prelude::*;
 

@@ -119,8 +119,7 @@ pub fn plan(
         options.model.clone(),
         options.log.clone(),
     ];
-    let wants: Result<Vec<Want>, stiction::Error> =
-        options.wants.iter().map(|text| Want::parse(text)).collect();
+    let wants: Result<Vec<Want>, Refusal> = options.wants.iter().map(|text| want(text)).collect();
     let carriers: Result<Vec<Carrier>, Refusal> =
         options.formats.iter().map(|name| carrier(name)).collect();
     let options = PlanOptions {
@@ -131,7 +130,7 @@ pub fn plan(
             .map(Known::Model)
             .or(options.log.map(Known::Log)),
         seed: options.seed,
-        wants: wants.map_err(|e| raised(py, &e))?,
+        wants: wants.map_err(|refusal| refusal.raise(py))?,
         carriers: carriers.map_err(|refusal| refusal.raise(py))?,
         start: options.start,
     };
@@ -146,6 +145,15 @@ pub fn plan(
     })?;
     let plan = found.map_err(|e: stiction::Error| raised(py, &e))?;
     Ok((plan, stopped))
+}
+
+/// A wish as it is typed.
+fn want(text: &str) -> Result<Want, Refusal> {
+    Want::parse(text).map_err(|error| {
+        let said = error.to_string();
+        let allowed = said.split_once("; ").map_or("", |(_, allowed)| allowed);
+        Refusal::argument("wants", format!("{text:?}"), allowed)
+    })
 }
 
 /// A form by its name; set points as CSV are always there.

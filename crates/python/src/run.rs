@@ -61,18 +61,29 @@ struct Shared {
     last: Mutex<Option<Progress>>,
 }
 
-struct Watch<'a>(&'a Shared);
+/// Whom the work asks whether it is to go on.
+pub struct Watch<'a>(&'a Shared);
+
+impl Watch<'_> {
+    /// Whether it is, for work that tells no progress.
+    pub fn goes_on(&mut self) -> bool {
+        if !self.0.stop.load(Ordering::Relaxed) {
+            return true;
+        }
+        self.0.stopped.store(true, Ordering::Relaxed);
+        false
+    }
+}
 
 impl Observer for Watch<'_> {
     fn progress(&mut self, progress: &Progress) -> Control {
         if let Ok(mut last) = self.0.last.lock() {
             *last = Some(*progress);
         }
-        if !self.0.stop.load(Ordering::Relaxed) {
-            return Control::Continue;
+        match self.goes_on() {
+            true => Control::Continue,
+            false => Control::Stop,
         }
-        self.0.stopped.store(true, Ordering::Relaxed);
-        Control::Stop
     }
 }
 
@@ -80,7 +91,7 @@ impl Observer for Watch<'_> {
 pub fn run<T: Send>(
     py: Python<'_>,
     how: &How,
-    work: impl FnOnce(&mut dyn Observer) -> T + Send,
+    work: impl FnOnce(&mut Watch<'_>) -> T + Send,
 ) -> PyResult<(T, bool)> {
     let forked = *FIRST.get_or_init(process::id) != process::id();
     // As many as there are cores where none is asked for.

@@ -5,7 +5,7 @@
 pub mod batch {
     pub use stiction_files::batch::{
         BatchFile, COLUMNS, Listed, LogRow, ParameterRow, RESULTS, Results, SCHEMA, is_list,
-        read_list, read_results, rows_of,
+        read_list, read_results, rows_while,
     };
     pub use stiction_log::Cells;
     pub use stiction_workflows::batch::{Batch, Called, Done};
@@ -14,7 +14,9 @@ pub mod batch {
 /// Friction over time, from the table of a batch.
 pub mod drift {
     pub use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA};
-    pub use stiction_workflows::drift::{DriftOutcome, Limit, Shown, drift, drift_of_rows};
+    pub use stiction_workflows::drift::{
+        DriftOutcome, Limit, Shown, drift, drift_of_rows, drift_of_rows_while, drift_while,
+    };
 }
 
 /// A recording in SI with how its columns were understood.

@@ -6,4 +6,4 @@ mod run;
 
 pub use asked::{Limit, Side};
 pub use courses::Followed;
-pub use run::{DriftOutcome, Shown, drift, drift_of_rows};
+pub use run::{DriftOutcome, Shown, drift, drift_of_rows, drift_of_rows_while, drift_while};

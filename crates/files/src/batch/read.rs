@@ -49,33 +49,50 @@ fn tables(path: &Path) -> Result<Vec<PathBuf>, Error> {
 /// Where one cannot be read or is no table of a batch, and what `take` refuses.
 pub fn read_results(
     path: &Path,
-    mut take: impl FnMut(LogRow) -> Result<(), Error>,
+    take: impl FnMut(LogRow) -> Result<(), Error>,
 ) -> Result<String, Error> {
+    Ok(read_results_while(path, || true, take)?.expect("goes on"))
+}
+
+/// The same for as long as `goes_on` says so, which is asked before each part of a column and each log; else `None`.
+///
+/// # Errors
+/// As of [`read_results`].
+pub fn read_results_while(
+    path: &Path,
+    mut goes_on: impl FnMut() -> bool,
+    mut take: impl FnMut(LogRow) -> Result<(), Error>,
+) -> Result<Option<String>, Error> {
     let mut hashes = String::new();
     for table in tables(path)? {
         let mut hash = Hash::default();
-        let columns = read_cells(&table, &COLUMNS, Limits::default(), |bytes| {
-            hash.take(bytes)
-        })?;
-        rows_of(&table, &columns, &mut take)?;
+        let bytes = |bytes: &[u8]| hash.take(bytes);
+        let columns = read_cells(&table, &COLUMNS, Limits::default(), &mut goes_on, bytes)?;
+        let Some(columns) = columns else {
+            return Ok(None);
+        };
+        if !rows_while(&table, &columns, &mut goes_on, &mut take)? {
+            return Ok(None);
+        }
         hashes += &hash.finish();
     }
-    Ok(match path.is_dir() {
+    Ok(Some(match path.is_dir() {
         true => sha256_of(hashes.as_bytes()),
         false => hashes,
-    })
+    }))
 }
 
 /// Hands on the logs of columns that are in memory already, in the order of [`COLUMNS`] and all of one length; `path` is what
-/// errors call them.
+/// errors call them. For as long as `goes_on` says so, which is asked before each log; whether it did to the end.
 ///
 /// # Errors
 /// Where they are no table of a batch, and what `take` refuses.
-pub fn rows_of(
+pub fn rows_while(
     path: &Path,
     columns: &[Option<Cells>],
+    mut goes_on: impl FnMut() -> bool,
     mut take: impl FnMut(LogRow) -> Result<(), Error>,
-) -> Result<(), Error> {
+) -> Result<bool, Error> {
     let columns = checked(path, columns)?;
     let of = |name: &str| {
         let place = COLUMNS.iter().position(|column| *column == name);
@@ -88,6 +105,9 @@ pub fn rows_of(
     let same = |a: usize, b: usize| paths.text(a) == paths.text(b) && keys.text(a) == keys.text(b);
     let mut first = 0;
     while first < paths.len() {
+        if !goes_on() {
+            return Ok(false);
+        }
         let rest = first + 1..paths.len();
         let end = rest
             .into_iter()
@@ -131,7 +151,7 @@ pub fn rows_of(
         })?;
         first = end;
     }
-    Ok(())
+    Ok(true)
 }
 
 /// The columns, all of them there, each with what belongs into it, and of this schema.
@@ -327,6 +347,27 @@ mod tests {
             let mut read = Vec::new();
             read_results(folder.path(), |log| { read.push(log); Ok(()) }).unwrap();
             prop_assert_eq!(&read, &logs);
+        }
+
+        /// Told to stop at any moment, it asks no more and gives nothing.
+        #[test]
+        fn a_table_is_read_only_while_it_is_wanted(logs in prop::collection::vec(log(), 1..8), part in 0.0..1.0f64) {
+            let folder = tempfile::tempdir().unwrap();
+            let mut out = Results::begin(&folder.path().join("part-000001.parquet")).unwrap();
+            logs.iter().for_each(|log| out.add(log).unwrap());
+            out.end().unwrap();
+            let asked = |most: usize| {
+                let mut asked = 0;
+                let goes_on = || { asked += 1; asked <= most };
+                let hash = read_results_while(folder.path(), goes_on, |_| Ok(())).unwrap();
+                (asked, hash)
+            };
+            let (all, hash) = asked(usize::MAX);
+            prop_assert!(hash.is_some());
+            // Each column and each log at least.
+            prop_assert!(all >= COLUMNS.len() + logs.len());
+            let most = (part * all as f64) as usize;
+            prop_assert_eq!(asked(most), (most + 1, None));
         }
 
         /// Cut or changed anywhere, a table is read or refused.

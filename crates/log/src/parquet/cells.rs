@@ -96,7 +96,8 @@ impl Cells {
 }
 
 /// Reads the columns of a Parquet file that are named; `None` for one that it does not have. The bytes that were read are handed
-/// on, in order, for a hash of exactly these.
+/// on, in order, for a hash of exactly these. `goes_on` is asked before each part of a column, and where it says no there is
+/// nothing.
 ///
 /// # Errors
 /// Where the file cannot be read, is damaged, has changed since it was opened or asks for more memory than is allowed, with the
@@ -105,17 +106,22 @@ pub fn read_cells(
     path: &Path,
     names: &[&str],
     limits: Limits,
+    mut goes_on: impl FnMut() -> bool,
     mut bytes: impl FnMut(&[u8]),
-) -> Result<Vec<Option<Cells>>, Error> {
-    guard("Parquet", || read(path, names, limits, &mut bytes)).map_err(|error| error.in_file(path))
+) -> Result<Option<Vec<Option<Cells>>>, Error> {
+    guard("Parquet", || {
+        read(path, names, limits, &mut goes_on, &mut bytes)
+    })
+    .map_err(|error| error.in_file(path))
 }
 
 fn read(
     path: &Path,
     names: &[&str],
     limits: Limits,
+    goes_on: &mut dyn FnMut() -> bool,
     bytes: &mut dyn FnMut(&[u8]),
-) -> Result<Vec<Option<Cells>>, Error> {
+) -> Result<Option<Vec<Option<Cells>>>, Error> {
     let io = |error: std::io::Error| Error::new(Kind::Io, format!("cannot be read ({error})"), "");
     // Looked at before it is opened: opening a pipe that nobody writes to would wait forever.
     let about = std::fs::metadata(path).map_err(io)?;
@@ -135,22 +141,25 @@ fn read(
         let Some(place) = names.iter().position(|wanted| *wanted == name) else {
             continue;
         };
-        let cells = one(&reader, &mut raw, index, &name, &mut collector)
+        let cells = one(&reader, &mut raw, (index, &name), &mut collector, goes_on)
             .map_err(|error| error.in_column(&name))?;
+        let Some(cells) = cells else {
+            return Ok(None);
+        };
         out[place] = Some(cells);
     }
     hand_on(path, &about, bytes)?;
-    Ok(out)
+    Ok(Some(out))
 }
 
-/// Reads one column from all row groups.
+/// Reads one column from all row groups, for as long as `goes_on` says so.
 fn one(
     reader: &SerializedFileReader<File>,
     raw: &mut File,
-    index: usize,
-    name: &str,
+    (index, name): (usize, &str),
     collector: &mut Collector,
-) -> Result<Cells, Error> {
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Option<Cells>, Error> {
     let columns = reader.metadata().file_metadata().schema_descr_ptr();
     let column = columns.column(index);
     if column.max_rep_level() > 0 {
@@ -163,6 +172,9 @@ fn one(
     let mut taken = Taken::of(&column)?;
     let mut total = 0;
     for (number, group) in reader.metadata().row_groups().iter().enumerate() {
+        if !goes_on() {
+            return Ok(None);
+        }
         let rows = u64::try_from(group.num_rows()).map_err(|_| broken("a negative length"))?;
         total += collector.reserve(name, &[rows])?;
         let mut chunk = chunk(reader, raw, number, index, collector)?;
@@ -178,7 +190,7 @@ fn one(
             )));
         }
     }
-    Ok(taken.cells)
+    Ok(Some(taken.cells))
 }
 
 /// What was taken of a column so far.

@@ -6,7 +6,7 @@ use crate::error::Error;
 use std::collections::BTreeMap;
 use std::path::Path;
 use stiction_drift::{Judged, Kind, Limits, Noise, Point, Settings, judge};
-use stiction_files::batch::{BatchFile, LogRow, SUMMARY, read_results};
+use stiction_files::batch::{BatchFile, LogRow, SUMMARY, read_results_while};
 use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA, Table};
 use stiction_files::{sha256_of, shell};
 
@@ -43,17 +43,32 @@ const DAY: f64 = 86_400.0; // s
 /// # Errors
 /// Where it cannot be read, holds no parameter that its logs determine, or a limit is of a parameter or a unit that it does not have.
 pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
+    Ok(drift_while(table, limits, || true)?.expect("goes on"))
+}
+
+/// The same for as long as `goes_on` says so, which is asked all the time; else `None`.
+///
+/// # Errors
+/// As of [`drift`].
+pub fn drift_while(
+    table: &Path,
+    limits: &[Limit],
+    mut goes_on: impl FnMut() -> bool,
+) -> Result<Option<DriftOutcome>, Error> {
     let mut courses = Courses::default();
     check_finished(table)?;
     let mut fault = None;
-    let hash = read_results(table, |row| {
+    let hash = read_results_while(table, &mut goes_on, |row| {
         fault = fault.take().or_else(|| courses.take(&row).err());
         Ok(())
     })?;
     if let Some(fault) = fault {
         return Err(fault);
     }
-    followed(shell::text(table), hash, courses, limits)
+    let Some(hash) = hash else {
+        return Ok(None);
+    };
+    followed(shell::text(table), hash, courses, limits, &mut goes_on)
 }
 
 /// The same of rows that are in memory; the hash is of what is written of them as JSON, one after the other.
@@ -65,14 +80,30 @@ pub fn drift_of_rows(
     rows: impl IntoIterator<Item = LogRow>,
     limits: &[Limit],
 ) -> Result<DriftOutcome, Error> {
+    Ok(drift_of_rows_while(name, rows, limits, || true)?.expect("goes on"))
+}
+
+/// The same for as long as `goes_on` says so, which is asked all the time; else `None`.
+///
+/// # Errors
+/// As of [`drift_of_rows`].
+pub fn drift_of_rows_while(
+    name: &str,
+    rows: impl IntoIterator<Item = LogRow>,
+    limits: &[Limit],
+    mut goes_on: impl FnMut() -> bool,
+) -> Result<Option<DriftOutcome>, Error> {
     let mut courses = Courses::default();
     let mut hash = String::new();
     for row in rows {
+        if !goes_on() {
+            return Ok(None);
+        }
         let text = serde_json::to_string(&row).expect("plain data");
         hash = sha256_of(format!("{hash}{text}").as_bytes());
         courses.take(&row)?;
     }
-    followed(name.into(), hash, courses, limits)
+    followed(name.into(), hash, courses, limits, &mut goes_on)
 }
 
 fn followed(
@@ -80,7 +111,8 @@ fn followed(
     hash: String,
     mut courses: Courses,
     limits: &[Limit],
-) -> Result<DriftOutcome, Error> {
+    goes_on: &mut dyn FnMut() -> bool,
+) -> Result<Option<DriftOutcome>, Error> {
     let settings = Settings::default();
     courses.sort();
     if courses.stands_still() {
@@ -114,12 +146,20 @@ fn followed(
     let mut shown: Vec<Shown> = Vec::new();
     for (number, machines) in courses.of.iter().filter(|(_, machines)| any_long(machines)) {
         let points: Vec<&[Point]> = machines.values().map(|f| &f.points[..]).collect();
+        if !goes_on() {
+            return Ok(None);
+        }
         let Some(found) = Noise::of(&points) else {
             continue;
         };
-        let beyond = Limits::of(&found, numbers, &settings);
+        let Some(beyond) = Limits::of_while(&found, numbers, &settings, &mut *goes_on) else {
+            return Ok(None);
+        };
         noise.push(entry(number, &points, &found, &beyond));
         for (machine, followed) in machines {
+            if !goes_on() {
+                return Ok(None);
+            }
             let Some(judged) = judge(&followed.points, &found, &beyond) else {
                 continue;
             };
@@ -150,7 +190,7 @@ fn followed(
         .machines
         .keys()
         .filter(|m| looked.get(m.as_str()).is_none_or(|n| *n == 0));
-    Ok(DriftOutcome {
+    Ok(Some(DriftOutcome {
         file: DriftFile {
             schema: SCHEMA.into(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -171,7 +211,7 @@ fn followed(
             alarms,
         },
         shown,
-    })
+    }))
 }
 
 /// Refuses the table of a batch that is not there since the batch was not finished.

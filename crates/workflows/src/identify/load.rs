@@ -163,15 +163,7 @@ pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<
     for other in sources.iter().chain(held_out).skip(1) {
         if other.log.motion != first.log.motion || other.log.force_unit != first.log.force_unit {
             return Err(Error::usage(
-                format!(
-                    "{} is {} with force in {}, {} is {} with force in {}",
-                    first.path.display(),
-                    first.log.motion,
-                    first.log.force_unit,
-                    other.path.display(),
-                    other.log.motion,
-                    other.log.force_unit
-                ),
+                format!("{}, {}", axis_of(first), axis_of(other)),
                 "logs that are fitted or validated together must be of one axis",
             ));
         }
@@ -214,4 +206,14 @@ fn other_column<'a>(a: &'a Log, b: &'a Log) -> Option<(Role, [&'a str; 2])> {
 /// The name of a column without its number: `"position"` of `2 "position"`; the number where it has no name.
 fn name(column: &str) -> &str {
     column.split_once(' ').map_or(column, |(_, name)| name)
+}
+
+/// Of what kind of axis a log is.
+fn axis_of(source: &Source) -> String {
+    let log = &source.log;
+    let force = match log.force_unit.is_empty() {
+        true => "without a force".into(),
+        false => format!("with force in {}", log.force_unit),
+    };
+    format!("{} is {} {force}", source.path.display(), log.motion)
 }

@@ -8,7 +8,8 @@ use crate::error::Error;
 use crate::source::Source;
 use stiction_files::result::FitEntry;
 use stiction_identify as engine;
-use stiction_identify::{Fit, Series};
+use stiction_identify::{Conditioning, Cutoff, Fit, Series};
+use stiction_number::short;
 
 /// The force that a fitted law predicts for a log.
 #[derive(Clone, Debug)]
@@ -42,6 +43,7 @@ pub fn predict(outcome: &Outcome, log: &Source) -> Result<Prediction, Error> {
         check_together(std::slice::from_ref(first), std::slice::from_ref(log))?;
     }
     log.check_channels(&fitted.estimate.terms)?;
+    check_rate(&fitted.conditioning, log)?;
     let record = conditioned(std::slice::from_ref(log), &fitted.conditioning)?;
     // A law with elements depends on past motion: it is judged from where the start no longer has an effect.
     let record = match fitted.estimate.law.kind.has_elements() {
@@ -56,4 +58,30 @@ pub fn predict(outcome: &Outcome, log: &Source) -> Result<Prediction, Error> {
         })?;
     let quality = entries::fit(&quality, "force", &outcome.force_unit);
     Ok(Prediction { series, quality })
+}
+
+/// Refuses a log that is sampled too slowly for the filters of the fit.
+fn check_rate(conditioning: &Conditioning, log: &Source) -> Result<(), Error> {
+    let cutoffs = [conditioning.source_cutoff, conditioning.common_cutoff];
+    let hertz = cutoffs.into_iter().filter_map(|cutoff| match cutoff {
+        Cutoff::Hz(frequency) => Some(frequency),
+        Cutoff::Auto | Cutoff::Off => None,
+    });
+    let highest = hertz.fold(0.0, f64::max);
+    let rate = log.log.rate_hz;
+    if rate > 2.0 * highest {
+        return Ok(());
+    }
+    Err(Error::usage(
+        format!(
+            "{} has {} samples a second, and the fit filters at {} Hz",
+            log.path.display(),
+            short(rate),
+            short(highest)
+        ),
+        format!(
+            "a log with more than {} samples a second, or a fit with lower cut-offs under [conditioning] of the axis file",
+            short(2.0 * highest)
+        ),
+    ))
 }
