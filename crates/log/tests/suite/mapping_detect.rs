@@ -823,10 +823,10 @@ fn what_may_be_the_time_is_named() {
             .unwrap_err()
             .allowed
     };
-    insta::assert_snapshot!(said("clock", 1e6), @"");
-    insta::assert_snapshot!(said("clock", 0.002), @"");
+    insta::assert_snapshot!(said("clock", 1e6), @r#"give one of them in axis.toml: rate = "1 kHz", or under [columns]: time = { column = "clock", unit = "ns" }"#);
+    insta::assert_snapshot!(said("clock", 0.002), @r#"give one of them in axis.toml: rate = "1 kHz", or under [columns]: time = { column = "clock", unit = "s" }"#);
     // Row numbers.
-    insta::assert_snapshot!(said("nr", 1.0), @"");
+    insta::assert_snapshot!(said("nr", 1.0), @r#"give one of them in axis.toml: rate = "1 kHz", or under [columns]: time = "t" (or the number of the column, counted from 1)"#);
 }
 
 #[test]
@@ -839,10 +839,10 @@ fn time_that_goes_back_or_stands_leads_on() {
             .allowed
     };
     // Two recordings in one file, all in the wrong order, a clock of 10 ms, and none.
-    insta::assert_snapshot!(said(&|i| 0.001 * (i % 1200) as f64), @"");
-    insta::assert_snapshot!(said(&|i| -0.001 * i as f64), @"");
-    insta::assert_snapshot!(said(&|i| 0.01 * (i / 10) as f64), @"");
-    insta::assert_snapshot!(said(&|_| 5.0), @"");
+    insta::assert_snapshot!(said(&|i| 0.001 * (i % 1200) as f64), @r#"increasing time stamps; if two recordings are in one file, keep the first under [log] of axis.toml: crop = ["0 s", "1.199 s"], or give the rate instead of the time column"#);
+    insta::assert_snapshot!(said(&|i| -0.001 * i as f64), @r#"increasing time stamps: sort the rows by them, or give the rate instead of the time column"#);
+    insta::assert_snapshot!(said(&|i| 0.01 * (i / 10) as f64), @r#"at most 5 % of the rows: the clock is coarser than the sampling; give the rate instead of the time column, on average rate = "1005 Hz" above [columns] of axis.toml"#);
+    insta::assert_snapshot!(said(&|_| 5.0), @r#"time stamps that go on; give the rate instead of the time column, as in rate = "1 kHz" above [columns] of axis.toml"#);
     // The line that is named reads the first recording.
     let mut table = axis(2000).table();
     table.columns[0].values = (0..2000).map(|i| 0.001 * (i % 1200) as f64).collect();
