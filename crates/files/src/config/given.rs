@@ -152,6 +152,17 @@ impl<'a> Given<'a> {
         let file = folder.join(name);
         match typed::text(&file, form) {
             Ok(text) => Ok((file, text)),
+            // The file that names it is the one to mend.
+            Err(NotRead::Other(Error::OtherForm {
+                found,
+                wanted,
+                instead,
+                ..
+            })) => {
+                let found = format!("{}: is {found}", file.display());
+                let beside = instead.map(|path| format!(": {}", path.display()));
+                Err(self.refuse(found, &format!("{wanted}{}", beside.unwrap_or_default())))
+            }
             Err(NotRead::Other(error)) => Err(error),
             Err(NotRead::Faulty(found, allowed)) => {
                 let found = format!("{}: {found}", file.display());
