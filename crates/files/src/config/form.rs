@@ -137,8 +137,12 @@ pub(super) fn of_file(file: &Path) -> Option<String> {
     if file.is_dir() {
         return Some("a folder".into());
     }
+    // To open a pipe would wait for who writes into it.
+    if !file.is_file() {
+        return None;
+    }
     let mut head = Vec::new();
-    let open = std::fs::File::open(file).ok().filter(|_| file.is_file())?;
+    let open = std::fs::File::open(file).ok()?;
     open.take(HEAD as u64).read_to_end(&mut head).ok()?;
     of_text(&String::from_utf8_lossy(&head))
 }
