@@ -7,7 +7,7 @@ use super::flags::is_flag;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
 use super::still::{has_to_change, never_changes};
-use super::{Detected, Mapping, bases, describe, endings, motion, rate};
+use super::{Detected, Mapping, bases, describe, endings, motion, rate, wanted};
 use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -465,7 +465,9 @@ impl<'a> Scan<'a> {
             describe::columns(table)
         );
         let open = |c: &usize| !self.used[*c] && !self.flags[*c] && self.hints[*c].is_none();
-        let mut runs_on = (0..self.units.len()).filter(open);
+        // Of other columns no samples may have been read; one that is left out may have been the time by its name.
+        let read = |c: &usize| table.left_out.is_empty() && wanted::may_run_on(table, *c);
+        let mut runs_on = (0..self.units.len()).filter(|c| open(c) && read(c));
         let line = runs_on.find_map(|c| rate::time_line(table, c));
         let line = line
             .unwrap_or_else(|| "time = \"t\" (or the number of the column, counted from 1)".into());

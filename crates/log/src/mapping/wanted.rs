@@ -38,6 +38,12 @@ pub(super) fn by_mapping(mapping: &Mapping, heads: &Table) -> Vec<bool> {
             .zip(stamps)
             .for_each(|(out, own)| *out |= own);
     }
+    if !given(Role::Time) && mapping.rate_hz.is_none() {
+        let stamps = (0..out.len()).map(|index| may_run_on(heads, index));
+        out.iter_mut()
+            .zip(stamps)
+            .for_each(|(out, own)| *out |= own);
+    }
     if !motion {
         // Where nothing tells the columns apart, what they count is said.
         let nameless = heads.columns.iter().map(|column| column.name.is_empty());
@@ -57,6 +63,12 @@ pub(crate) fn wanted(heads: &Table, selectors: &[&Selector], open: &[Role]) -> V
             || open.iter().any(|role| may_be(heads, index, *role))
     };
     (0..heads.columns.len()).map(one).collect()
+}
+
+/// Whether a column could be the time, of which its numbers tell where no name or unit of any does.
+pub(super) fn may_run_on(heads: &Table, index: usize) -> bool {
+    let told = |index| may_be(heads, index, Role::Time);
+    told(index) || endings::hint(heads, index).is_none() && !(0..heads.columns.len()).any(told)
 }
 
 /// Whether a selector may mean a column: any of the ways in which names are compared, even where another one comes first.
