@@ -15,6 +15,7 @@ import tempfile
 import threading
 import time
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -47,9 +48,9 @@ def with_the_interpreter(log: stiction.Log) -> float:
     return thread / (process - thread)
 
 
-def together(log: stiction.Log, threads: int) -> float:
-    """Time of as many identifications at once, s."""
-    all_of_them = [threading.Thread(target=identified, args=(log,)) for _ in range(threads)]
+def at_once(work: Callable[[], object], count: int) -> float:
+    """Time of as many threads that each do some work, s."""
+    all_of_them = [threading.Thread(target=work) for _ in range(count)]
     start = time.perf_counter()
     for thread in all_of_them:
         thread.start()
@@ -58,21 +59,11 @@ def together(log: stiction.Log, threads: int) -> float:
     return time.perf_counter() - start
 
 
-def stepped(law: stiction.Law) -> None:
-    """A law called from Python, sample by sample."""
+def stepped(fit: stiction.Fit) -> None:
+    """A law of its own called from Python, sample by sample."""
+    law = fit.law
     for _ in range(300_000):
         law(1e-3, 1e-4)
-
-
-def in_python(fit: stiction.Fit, count: int) -> float:
-    """Time of as many threads that each call a law of their own, s."""
-    all_of_them = [threading.Thread(target=stepped, args=(fit.law,)) for _ in range(count)]
-    start = time.perf_counter()
-    for thread in all_of_them:
-        thread.start()
-    for thread in all_of_them:
-        thread.join()
-    return time.perf_counter() - start
 
 
 def kept(calls: int) -> float:
@@ -128,13 +119,13 @@ def main(timed: str, wheel: str | None) -> list[str]:
         bars.hold("identify at most 5 % over Rust", python <= 1.05 * rust)
         held = min(with_the_interpreter(log) for _ in range(ROUNDS))
         print(f"processor time of the calling thread: {100 * held:.2f} % of that of the search")
-        one = min(together(log, 1) for _ in range(ROUNDS))
-        two = min(together(log, 2) for _ in range(ROUNDS))
+        one = min(at_once(lambda: identified(log), 1) for _ in range(ROUNDS))
+        two = min(at_once(lambda: identified(log), 2) for _ in range(ROUNDS))
         print(f"two threads do {2 * one / two:.2f} times the work of one")
         bars.hold("two threads 1.8 times one", 2 * one >= 1.8 * two)
         fit = stiction.identify(log, law="lugre", compare_laws=False)
-        one = min(in_python(fit, 1) for _ in range(ROUNDS))
-        two = min(in_python(fit, 2) for _ in range(ROUNDS))
+        one = min(at_once(lambda: stepped(fit), 1) for _ in range(ROUNDS))
+        two = min(at_once(lambda: stepped(fit), 2) for _ in range(ROUNDS))
         print(f"two threads that call a law from Python do {2 * one / two:.2f} times the work of one")
         is_free = not getattr(sys, "_is_gil_enabled", lambda: True)()
         bars.hold("without a lock of the interpreter they do 1.6 times", not is_free or 2 * one >= 1.6 * two)

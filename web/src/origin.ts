@@ -1,8 +1,8 @@
 // What a result is of, and whether that changed after it was found.
 
 import { get } from "./api";
-import { h } from "./dom";
-import { changedAt, nameOf, state } from "./state";
+import { attempt, h } from "./dom";
+import { changedAt, exists, nameOf, state } from "./state";
 
 export interface Origin { inputs: { path: string }[]; axis: { file?: string } }
 
@@ -25,6 +25,13 @@ export function whence(own: Origin, folder: string): (HTMLElement | null)[] {
     h("p", { class: "muted" }, `${folder}: of ${inputs.join(", ")}${axis ? `, read as ${axis} says` : ", read as found"}.`),
     later.length ? older("Older than what it is of", `${later.join(", ")} changed after this was identified. Identify again to see what that makes of it.`) : null,
   ];
+}
+
+/** The same of the result that a file is of, where it is one of a result. */
+export async function whenceOf(file: string): Promise<(HTMLElement | null)[]> {
+  const folder = file.replace(/\/?[^/]*$/, "");
+  const own = exists(`${folder}/result.json`) ? await attempt(() => readResult(folder)) : undefined;
+  return own ? whence(own, folder) : [];
 }
 
 /** That a result is of another log than the one that is chosen. */

@@ -4,7 +4,7 @@ import { get, open } from "../api";
 import { commandLine } from "../command";
 import { attempt, choice, field, h, put } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
-import { older, readResult, whence } from "../origin";
+import { older, whenceOf } from "../origin";
 import { changedAt, exists, files, onChange, state } from "../state";
 
 const WORDS: Record<string, string> = {
@@ -94,9 +94,8 @@ export class ExportView {
   /** What the model is of, where it is that of a result. */
   private async drawOrigin(): Promise<void> {
     const { model } = this;
-    const folder = model.replace(/\/?[^/]*$/, "");
-    const own = exists(`${folder}/result.json`) ? await attempt(() => readResult(folder)) : undefined;
-    if (model === this.model) put(this.whence, ...(own ? whence(own, folder) : []));
+    const found = await whenceOf(model);
+    if (model === this.model) put(this.whence, ...found);
   }
 
   private drawFound(): void {

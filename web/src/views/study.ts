@@ -6,7 +6,7 @@ import { attempt, choice, field, h, put, say } from "../dom";
 import { editor } from "../editor";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { length, short } from "../numbers";
-import { older, readResult, whence } from "../origin";
+import { older, whenceOf } from "../origin";
 import { changedAt, exists, files, onChange, refresh, state } from "../state";
 import { Lines } from "../lines";
 import { Plane, type PlaneData } from "../plane";
@@ -156,9 +156,8 @@ export class StudyView {
   /** What the model of the study is of, where it is that of a result. */
   private async drawOrigin(): Promise<void> {
     const { study } = this;
-    const folder = study.replace(/\/?[^/]*$/, "");
-    const own = exists(`${folder}/result.json`) ? await attempt(() => readResult(folder)) : undefined;
-    if (study === this.study) put(this.whence, ...(own ? whence(own, folder) : []));
+    const found = await whenceOf(study);
+    if (study === this.study) put(this.whence, ...found);
   }
 
   private drawWork(): void {

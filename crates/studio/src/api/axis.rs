@@ -109,7 +109,7 @@ fn listing(workspace: &Workspace, log: &Path) -> Option<String> {
     lists.next().map(|entry| entry.name)
 }
 
-/// Whether a log has the columns that the axis file of the folder names; one that cannot be read tells nothing.
+/// Whether a log has the columns that the axis file of the folder names; a file that cannot be read tells nothing of its logs.
 fn is_of(workspace: &Workspace, log: &Path) -> bool {
     let Ok(axis) = read_axis(workspace, USUAL, &[log]) else {
         return true;
