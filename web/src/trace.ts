@@ -6,6 +6,7 @@ import { binary, type Channel, type Stretch } from "./api";
 import { color, onTheme } from "./colors";
 import { h, put } from "./dom";
 import { short, unit } from "./numbers";
+import { drawSpans } from "./spans";
 
 export interface Source { name: string; axis?: string | null; table?: boolean; run?: number }
 export interface Band { from: number; to: number; kind: "crop" | "fit" | "validate" | "excluded" }
@@ -25,6 +26,7 @@ interface Options {
 }
 
 const SMALLEST = 8;
+const lines = uPlot.paths.linear!();
 
 export class Trace {
   readonly element: HTMLElement;
@@ -33,10 +35,16 @@ export class Trace {
   private brush: Stretch | null = null;
   private bands: Band[] = [];
   private ticks: Tick[] = [];
+  /** The question for tiles that is under way, and whether the view has moved since. */
   private asked: AbortController | null = null;
-  private due = 0;
-  /** The tiles that are drawn. */
+  private moved = false;
+  /** The picture that is due with the next frame. */
+  private due: number | null = null;
+  /** The latest tiles, and whether they are drawn. */
   private last: ArrayBuffer | null = null;
+  private drawn = true;
+  /** Whether a tile is a sample, and not the span of many. */
+  private single = true;
   private readonly stage = h("div", { class: "plots" });
   private readonly resize = new ResizeObserver(() => this.fit());
   private readonly noTheme: () => void;
@@ -64,7 +72,7 @@ export class Trace {
     this.resize.disconnect();
     this.noTheme();
     this.asked?.abort();
-    cancelAnimationFrame(this.due);
+    if (this.due !== null) cancelAnimationFrame(this.due);
     for (const plot of this.plots) plot.destroy();
     this.plots = [];
   }
@@ -93,8 +101,8 @@ export class Trace {
     const width = Math.min(Math.max(to - from, whole * 1e-7), whole);
     const start = Math.min(Math.max(from, first), last - width);
     this.view = [start, start + width];
-    for (const plot of this.plots) plot.setScale("x", { min: start, max: start + width });
     this.ask();
+    this.draw();
   }
 
   zoom(by: number, at = (this.view[0] + this.view[1]) / 2): void {
@@ -155,10 +163,12 @@ export class Trace {
             stroke: color(line(k)),
             width: 1.25,
             points: { show: false },
+            paths: (own: uPlot, at: number, from: number, to: number) => (this.single ? lines(own, at, from, to) : null),
           })),
         ],
         hooks: {
           drawClear: [(own) => this.shade(own)],
+          drawSeries: [(own, k) => { if (!this.single) drawSpans(own, k, color(line(k - 1))); }],
           setSelect: [(own) => this.selected(own)],
           ready: [(own) => this.listen(own)],
         },
@@ -180,37 +190,50 @@ export class Trace {
     this.ask();
   }
 
-  /** Asks for the tiles of the view, once a frame. */
+  /** Asks for the tiles of the view: at once, or where they are asked for already, when those are there. */
   private ask(): void {
-    cancelAnimationFrame(this.due);
-    this.due = requestAnimationFrame(() => void this.fetch());
+    if (this.asked) this.moved = true;
+    else void this.fetch();
   }
 
   private async fetch(): Promise<void> {
-    this.asked?.abort();
     const asked = new AbortController();
     this.asked = asked;
+    this.moved = false;
     const { source, panels } = this.options;
     const channels = panels.flatMap((panel) => panel.channels);
     const [from, to] = this.view;
     // A little more than is seen, so that panning has something to show.
     const pixels = Math.round((this.plots[0]?.bbox.width ?? 1000) * 1.5);
     const beside = (to - from) / 4;
-    let buffer: ArrayBuffer;
     try {
       const part = { from: from - beside, to: to + beside, pixels };
-      buffer = await binary("/api/tiles", { ...source, channels: channels.map((channel) => channel.name).join(","), ...part }, asked.signal);
+      this.last = await binary("/api/tiles", { ...source, channels: channels.map((channel) => channel.name).join(","), ...part }, asked.signal);
+      this.drawn = false;
+      this.draw();
     } catch (error) {
       if (error instanceof DOMException) return;
       throw error;
+    } finally {
+      this.asked = null;
+      if (this.moved && !asked.signal.aborted) void this.fetch();
     }
-    this.last = buffer;
-    this.apply(buffer);
+  }
+
+  /** Draws the view with the next frame. Tiles mostly come before it, so what is stretched is drawn only where they do not. */
+  private draw(): void {
+    this.due ??= requestAnimationFrame(() => {
+      this.due = null;
+      if (this.last && !this.drawn) this.apply(this.last);
+      else for (const plot of this.plots) plot.setScale("x", { min: this.view[0], max: this.view[1] });
+    });
   }
 
   private apply(buffer: ArrayBuffer): void {
+    this.drawn = true;
     const { panels } = this.options;
     const [count = 0, , single = 0] = new Uint32Array(buffer, 0, 4);
+    this.single = single === 1;
     const column = (at: number) => new Float64Array(buffer, 16 + 8 * count * at, count);
     const time = column(0);
     const breaks = gaps(time);

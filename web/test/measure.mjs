@@ -128,7 +128,9 @@ try {
       const began = performance.now();
       over.dispatchEvent(new WheelEvent("wheel", { deltaY, shiftKey: pan, clientX: box.x + box.width * 0.4, clientY: box.y + 20, bubbles: true, cancelable: true }));
       await done;
+      // The frame that draws the tiles, and what the page does for it.
       await new Promise((next) => requestAnimationFrame(next));
+      await new Promise((next) => { const { port1, port2 } = new MessageChannel(); port1.onmessage = next; port2.postMessage(0); });
       whole.push(performance.now() - began);
     }
     observer.disconnect();
