@@ -12,15 +12,16 @@ mod upload;
 
 use crate::asked::Asked;
 use crate::assets::asset;
+use crate::given::{Json, Query, sent, written};
 use crate::jobs::View;
-use crate::logs::{self, About, Correction};
+use crate::logs::{self, Correction};
 use crate::refused::Refused;
 use crate::server::Shared;
-use axum::extract::{DefaultBodyLimit, Path, Query, State};
+use axum::Router;
+use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::header::{CONTENT_TYPE, SET_COOKIE};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
-use axum::{Json, Router};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -28,7 +29,9 @@ use std::sync::Arc;
 const BODY: usize = 256 << 10;
 
 type App = State<Arc<Shared>>;
-type Answer<T> = Result<Json<T>, Refused>;
+type Answer = Result<Response, Refused>;
+/// What is done on a thread of its own.
+type Work<T> = Box<dyn FnOnce(&Shared) -> Result<T, Refused> + Send>;
 
 /// All of it.
 pub fn router() -> Router<Arc<Shared>> {
@@ -70,7 +73,7 @@ struct Token {
     token: String,
 }
 
-async fn session(State(shared): App, Json(asked): Json<Token>) -> Result<Response, Refused> {
+async fn session(State(shared): App, Json(asked): Json<Token>) -> Answer {
     let Some((cookie, key)) = shared.keys.exchange(&asked.token) else {
         return Err(Refused::forbidden(
             "this is not the token of this run; open the address that stiction studio printed",
@@ -80,7 +83,7 @@ async fn session(State(shared): App, Json(asked): Json<Token>) -> Result<Respons
     Ok(([(SET_COOKIE, cookie)], body).into_response())
 }
 
-async fn workspace(State(shared): App) -> Answer<serde_json::Value> {
+async fn workspace(State(shared): App) -> Answer {
     blocking(shared, |shared| {
         Ok(serde_json::json!({
             "folder": shared.workspace.folder().to_string_lossy(),
@@ -89,7 +92,6 @@ async fn workspace(State(shared): App) -> Answer<serde_json::Value> {
         }))
     })
     .await
-    .map(Json)
 }
 
 #[derive(Deserialize)]
@@ -99,12 +101,13 @@ struct Log {
     axis: Option<String>,
 }
 
-async fn log(State(shared): App, Query(asked): Query<Log>) -> Answer<About> {
-    let found = read(shared, move |shared| {
+async fn log(State(shared): App, Query(asked): Query<Log>) -> Answer {
+    read(shared, move |shared| {
         let Log { name, axis } = &asked;
-        shared.logs.log(&shared.workspace, name, axis.as_deref())
-    });
-    Ok(Json(found.await?.about.clone()))
+        let found = shared.logs.log(&shared.workspace, name, axis.as_deref())?;
+        Ok(found.about.clone())
+    })
+    .await
 }
 
 #[derive(Deserialize)]
@@ -139,18 +142,18 @@ impl Drawn {
     }
 }
 
-async fn tiles(State(shared): App, Query(asked): Query<Drawn>) -> Result<Response, Refused> {
-    let bytes = read(shared, move |shared| {
+async fn tiles(State(shared): App, Query(asked): Query<Drawn>) -> Answer {
+    let work: Work<_> = Box::new(move |shared| {
         let loaded = asked.of(shared)?;
         let names: Vec<&str> = asked.channels.split(',').collect();
         let part = (asked.from, asked.to);
         logs::tiles(&loaded.series, &names, part, asked.pixels)
     });
-    Ok(binary(bytes.await?))
+    in_turn(shared, work).await.map(binary)
 }
 
-async fn map(State(shared): App, Query(asked): Query<Drawn>) -> Result<Response, Refused> {
-    let bytes = read(shared, move |shared| {
+async fn map(State(shared): App, Query(asked): Query<Drawn>) -> Answer {
+    let work: Work<_> = Box::new(move |shared| {
         let loaded = asked.of(shared)?;
         let names: Vec<&str> = match asked.channels.as_str() {
             "" => logs::MAPPED.into(),
@@ -158,7 +161,7 @@ async fn map(State(shared): App, Query(asked): Query<Drawn>) -> Result<Response,
         };
         Ok(logs::map(&loaded.series, &names, (asked.from, asked.to)))
     });
-    Ok(binary(bytes.await?))
+    in_turn(shared, work).await.map(binary)
 }
 
 #[derive(Deserialize)]
@@ -169,28 +172,27 @@ struct Table {
     run: usize,
 }
 
-async fn table(State(shared): App, Query(asked): Query<Table>) -> Answer<serde_json::Value> {
-    let found = read(shared, move |shared| {
+async fn table(State(shared): App, Query(asked): Query<Table>) -> Answer {
+    read(shared, move |shared| {
         let Table { name, run } = &asked;
         let found = shared.logs.table(&shared.workspace, name, *run)?;
         let runs = logs::runs(&shared.workspace.file(name)?)?;
-        Ok((found, runs))
-    });
-    let (found, runs) = found.await?;
-    let time = &found.series.time;
-    Ok(Json(serde_json::json!({
-        "from": time.first(),
-        "to": time.last(),
-        "channels": found.about.channels,
-        "runs": runs.iter().map(|keys| keys.join(" · ")).collect::<Vec<_>>(),
-    })))
+        let time = &found.series.time;
+        Ok(serde_json::json!({
+            "from": time.first(),
+            "to": time.last(),
+            "channels": found.about.channels,
+            "runs": runs.iter().map(|keys| keys.join(" · ")).collect::<Vec<_>>(),
+        }))
+    })
+    .await
 }
 
-async fn correct(State(shared): App, Json(asked): Json<Correction>) -> Answer<Vec<String>> {
-    let changes = read(shared, move |shared| {
+async fn correct(State(shared): App, Json(asked): Json<Correction>) -> Answer {
+    read(shared, move |shared| {
         shared.alone(|| logs::correct(&shared.logs, &shared.workspace, &asked))
-    });
-    changes.await.map(Json)
+    })
+    .await
 }
 
 /// A target of the export.
@@ -214,37 +216,58 @@ async fn command(Json(asked): Json<Asked>) -> Json<String> {
     Json(asked.command())
 }
 
-async fn begin(State(shared): App, Json(asked): Json<Asked>) -> Answer<u64> {
-    shared.jobs.begin(&shared.workspace, asked).map(Json)
+async fn begin(State(shared): App, Json(asked): Json<Asked>) -> Answer {
+    let begun = shared.jobs.begin(&shared.workspace, asked)?;
+    Ok(Json(begun).into_response())
 }
 
 async fn jobs(State(shared): App) -> Json<Vec<View>> {
     Json(shared.jobs.all())
 }
 
-async fn stop(State(shared): App, Path(id): Path<u64>) -> Answer<()> {
-    shared.jobs.stop(id).map(Json)
+async fn stop(State(shared): App, Path(id): Path<u64>) -> Answer {
+    shared.jobs.stop(id)?;
+    Ok(Json(()).into_response())
 }
 
 fn binary(bytes: Vec<u8>) -> Response {
     ([(CONTENT_TYPE, "application/octet-stream")], bytes).into_response()
 }
 
-/// Does what reads or writes files away from the threads that answer.
-async fn blocking<T: Send + 'static>(
+/// Answers with what work finds that reads or writes files.
+fn blocking<T: Serialize>(
     shared: Arc<Shared>,
     work: impl FnOnce(&Shared) -> Result<T, Refused> + Send + 'static,
-) -> Result<T, Refused> {
-    tokio::task::spawn_blocking(move || work(&shared)).await?
+) -> impl Future<Output = Answer> {
+    answered(away(shared, as_json(work)))
 }
 
 /// The same for what may need much memory or time: two at once, the others wait.
-async fn read<T: Send + 'static>(
+fn read<T: Serialize>(
     shared: Arc<Shared>,
     work: impl FnOnce(&Shared) -> Result<T, Refused> + Send + 'static,
-) -> Result<T, Refused> {
+) -> impl Future<Output = Answer> {
+    answered(in_turn(shared, as_json(work)))
+}
+
+/// What is found is written as JSON where it is found, and not by the thread that answers.
+fn as_json<T: Serialize>(
+    work: impl FnOnce(&Shared) -> Result<T, Refused> + Send + 'static,
+) -> Work<Vec<u8>> {
+    Box::new(move |shared| written(&work(shared)?))
+}
+
+async fn answered(bytes: impl Future<Output = Result<Vec<u8>, Refused>>) -> Answer {
+    bytes.await.map(sent)
+}
+
+async fn away<T: Send + 'static>(shared: Arc<Shared>, work: Work<T>) -> Result<T, Refused> {
+    tokio::task::spawn_blocking(move || work(&shared)).await?
+}
+
+async fn in_turn<T: Send + 'static>(shared: Arc<Shared>, work: Work<T>) -> Result<T, Refused> {
     let own = shared.clone();
     let one = own.readers.acquire().await;
     let _one = one.map_err(|_| Refused::internal("a lock"))?;
-    blocking(shared, work).await
+    away(shared, work).await
 }

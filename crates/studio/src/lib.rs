@@ -7,6 +7,7 @@
 mod api;
 mod asked;
 mod assets;
+mod given;
 mod guard;
 mod jobs;
 mod listen;

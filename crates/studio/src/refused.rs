@@ -1,7 +1,7 @@
 //! What is said to the page where something cannot be done: what was found, and what is allowed; an error of the engine with its
 //! code.
 
-use axum::Json;
+use crate::given::Json;
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 
@@ -15,40 +15,46 @@ pub struct Refused {
 impl Refused {
     /// A request that is wrong in itself.
     pub fn bad(message: impl Into<String>) -> Self {
-        Self::new(StatusCode::BAD_REQUEST, message)
+        Self::with(StatusCode::BAD_REQUEST, message)
     }
 
     /// A request that may not be made.
     pub fn forbidden(message: impl Into<String>) -> Self {
-        Self::new(StatusCode::FORBIDDEN, message)
+        Self::with(StatusCode::FORBIDDEN, message)
     }
 
     /// Something that is not there.
     pub fn missing(message: impl Into<String>) -> Self {
-        Self::new(StatusCode::NOT_FOUND, message)
+        Self::with(StatusCode::NOT_FOUND, message)
     }
 
     /// Something that is there already, or has changed since it was read.
     pub fn conflict(message: impl Into<String>) -> Self {
-        Self::new(StatusCode::CONFLICT, message)
+        Self::with(StatusCode::CONFLICT, message)
     }
 
     /// More than is taken at once.
     pub fn busy(message: impl Into<String>) -> Self {
-        Self::new(StatusCode::SERVICE_UNAVAILABLE, message)
+        Self::with(StatusCode::SERVICE_UNAVAILABLE, message)
     }
 
     /// More bytes than are taken.
     pub fn too_large(message: impl Into<String>) -> Self {
-        Self::new(StatusCode::PAYLOAD_TOO_LARGE, message)
+        Self::with(StatusCode::PAYLOAD_TOO_LARGE, message)
     }
 
     /// A fault of ours.
     pub fn internal(message: impl Into<String>) -> Self {
-        Self::new(StatusCode::INTERNAL_SERVER_ERROR, message)
+        Self::with(StatusCode::INTERNAL_SERVER_ERROR, message)
     }
 
-    fn new(status: StatusCode, message: impl Into<String>) -> Self {
+    /// A body of another kind than is taken.
+    pub fn media(message: impl Into<String>) -> Self {
+        Self::with(StatusCode::UNSUPPORTED_MEDIA_TYPE, message)
+    }
+
+    /// With a status of its own.
+    pub fn with(status: StatusCode, message: impl Into<String>) -> Self {
         Self {
             status,
             message: message.into(),
@@ -72,7 +78,7 @@ impl Refused {
 impl From<stiction::Error> for Refused {
     fn from(e: stiction::Error) -> Self {
         let message = format!("[{}] {e}", e.code());
-        Self::new(StatusCode::UNPROCESSABLE_ENTITY, message)
+        Self::with(StatusCode::UNPROCESSABLE_ENTITY, message)
     }
 }
 

@@ -93,8 +93,8 @@ impl Studio {
     /// # Errors
     /// Where the port is taken, or no thread can be started.
     pub fn serve(self, listening: impl FnOnce(&str)) -> std::io::Result<()> {
-        let runtime = tokio::runtime::Builder::new_multi_thread()
-            .worker_threads(2)
+        // One thread answers: whatever reads, writes or computes does so on others.
+        let runtime = tokio::runtime::Builder::new_current_thread()
             .enable_all()
             .build()?;
         runtime.block_on(async {

@@ -2,11 +2,11 @@
 //! named after it: `slide.csv` has `slide.axis.toml`.
 
 use super::{Answer, App, blocking, read};
+use crate::given::{Json, Query};
 use crate::named::read_axis;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
-use axum::Json;
-use axum::extract::{Query, State};
+use axum::extract::State;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 use stiction::Axis;
@@ -31,8 +31,8 @@ pub struct Which {
 }
 
 /// Which axis file a log is read with: its own, one that lists it, or that of the folder where the log has the columns of it.
-pub async fn which(State(shared): App, Query(asked): Query<Named>) -> Answer<Which> {
-    let found = read(shared, move |shared| {
+pub async fn which(State(shared): App, Query(asked): Query<Named>) -> Answer {
+    read(shared, move |shared| {
         let (workspace, log) = (&shared.workspace, asked.log.as_str());
         let path = workspace.file(log)?;
         let there = |name: &str| workspace.file(name).is_ok();
@@ -55,13 +55,13 @@ pub async fn which(State(shared): App, Query(asked): Query<Named>) -> Answer<Whi
                 not: Some(USUAL.into()),
             },
         })
-    });
-    found.await.map(Json)
+    })
+    .await
 }
 
 /// Begins an axis file for a log alone, as `stiction check --init` does, and says its name.
-pub async fn begin(State(shared): App, Json(asked): Json<Named>) -> Answer<String> {
-    let done = blocking(shared, move |shared| {
+pub async fn begin(State(shared): App, Json(asked): Json<Named>) -> Answer {
+    blocking(shared, move |shared| {
         let log = shared.workspace.file(&asked.log)?;
         let own = own_of(&asked.log);
         shared.alone(|| {
@@ -75,8 +75,8 @@ pub async fn begin(State(shared): App, Json(asked): Json<Named>) -> Answer<Strin
             write_atomic(&file, visible::toml(text).as_bytes())?;
             Ok(own)
         })
-    });
-    done.await.map(Json)
+    })
+    .await
 }
 
 impl Which {

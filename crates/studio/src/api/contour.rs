@@ -1,11 +1,11 @@
 //! A run of a study on a contour beside that without compensation: in the plane, its deviations magnified, and over the time.
 
 use super::{Answer, App, read};
+use crate::given::Query;
 use crate::logs::{self, Series};
 use crate::refused::Refused;
 use crate::workspace::Workspace;
-use axum::Json;
-use axum::extract::{Query, State};
+use axum::extract::State;
 use serde::{Deserialize, Serialize};
 use stiction::commands::contour::{ContourTrace, Plane};
 use stiction::commands::study::result::StudyFile;
@@ -40,8 +40,8 @@ pub struct Run {
 }
 
 /// What is drawn of a run, from where its samples count.
-pub async fn contour(State(shared): App, Query(asked): Query<Asked>) -> Answer<Drawn> {
-    let drawn = read(shared, move |shared| {
+pub async fn contour(State(shared): App, Query(asked): Query<Asked>) -> Answer {
+    read(shared, move |shared| {
         let file = format!("{}/contours.csv", asked.folder);
         let keys = logs::runs(&shared.workspace.file(&file)?)?;
         let places = beside(&keys, asked.run).ok_or_else(|| {
@@ -79,8 +79,8 @@ pub async fn contour(State(shared): App, Query(asked): Query<Asked>) -> Answer<D
             plane,
             runs: runs.collect(),
         })
-    });
-    drawn.await.map(Json)
+    })
+    .await
 }
 
 /// The places of the run without compensation on the same contour under the same controller, and of a run.

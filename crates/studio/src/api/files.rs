@@ -2,11 +2,11 @@
 
 use super::{Answer, App, blocking};
 use crate::asked::Words;
+use crate::given::{Json, Query};
 use crate::named::read_as;
 use crate::refused::Refused;
 use crate::workspace::{Workspace, kind_of_file};
-use axum::Json;
-use axum::extract::{Query, State};
+use axum::extract::State;
 use serde::{Deserialize, Serialize};
 use std::io::Read;
 use std::path::Path;
@@ -29,11 +29,12 @@ pub struct Text {
 }
 
 /// Reads a text file.
-pub async fn read(State(shared): App, Query(asked): Query<Named>) -> Answer<Text> {
-    let text = blocking(shared, move |shared| {
-        text(&shared.workspace.file(&asked.name)?)
-    });
-    text.await.map(|text| Json(Text { text }))
+pub async fn read(State(shared): App, Query(asked): Query<Named>) -> Answer {
+    blocking(shared, move |shared| {
+        let text = text(&shared.workspace.file(&asked.name)?)?;
+        Ok(Text { text })
+    })
+    .await
 }
 
 #[derive(Deserialize)]
@@ -46,11 +47,11 @@ pub struct Written {
 }
 
 /// Writes a TOML file: one that the engine can read, over what the page has seen.
-pub async fn write(State(shared): App, Json(asked): Json<Written>) -> Answer<()> {
-    let done = blocking(shared, move |shared| {
+pub async fn write(State(shared): App, Json(asked): Json<Written>) -> Answer {
+    blocking(shared, move |shared| {
         shared.alone(|| written(&shared.workspace, &asked))
-    });
-    done.await.map(Json)
+    })
+    .await
 }
 
 fn written(workspace: &Workspace, asked: &Written) -> Result<(), Refused> {
@@ -127,8 +128,8 @@ pub async fn study_command(Json(asked): Json<Begun>) -> Json<String> {
 }
 
 /// Begins a study as `stiction simulate --init` does.
-pub async fn study(State(shared): App, Json(asked): Json<Begun>) -> Answer<()> {
-    let done = blocking(shared, move |shared| {
+pub async fn study(State(shared): App, Json(asked): Json<Begun>) -> Answer {
+    blocking(shared, move |shared| {
         let Begun {
             model,
             second,
@@ -151,8 +152,8 @@ pub async fn study(State(shared): App, Json(asked): Json<Begun>) -> Answer<()> {
         let started = study::start(model.as_deref(), second.as_deref(), &path)?;
         write_atomic(&path, visible::toml(started.text).as_bytes())?;
         Ok(())
-    });
-    done.await.map(Json)
+    })
+    .await
 }
 
 fn text(path: &Path) -> Result<String, Refused> {

@@ -1,10 +1,10 @@
 //! What a fit leaves: in a stretch that is brushed, and about the reversal that shows most of presliding.
 
 use super::{Answer, App, read};
+use crate::given::Query;
 use crate::logs::{Channel, Drawable, Series};
 use crate::refused::Refused;
-use axum::Json;
-use axum::extract::{Query, State};
+use axum::extract::State;
 use serde::{Deserialize, Serialize};
 use stiction::ModelFile;
 use stiction::commands::{Quality, presliding_length, slowest_turn};
@@ -39,8 +39,8 @@ pub struct Pairs {
 }
 
 /// What can be drawn of a fit.
-pub async fn fit(State(shared): App, Query(asked): Query<Named>) -> Answer<Fit> {
-    let found = read(shared, move |shared| {
+pub async fn fit(State(shared): App, Query(asked): Query<Named>) -> Answer {
+    read(shared, move |shared| {
         let result = &asked.result;
         let loaded = shared
             .logs
@@ -59,8 +59,8 @@ pub async fn fit(State(shared): App, Query(asked): Query<Named>) -> Answer<Fit> 
             over_position: pairs(series, "position"),
             curve: pairs(series, "velocity"),
         })
-    });
-    found.await.map(Json)
+    })
+    .await
 }
 
 /// Times of the samples about the slowest reversal.
@@ -121,8 +121,8 @@ pub struct Left {
 }
 
 /// What is left in a stretch.
-pub async fn left(State(shared): App, Query(asked): Query<Stretch>) -> Answer<Left> {
-    let found = read(shared, move |shared| {
+pub async fn left(State(shared): App, Query(asked): Query<Stretch>) -> Answer {
+    read(shared, move |shared| {
         let name = format!("{}/fit.csv", asked.result);
         let loaded = shared.logs.table(&shared.workspace, &name, 0)?;
         let series = &loaded.series;
@@ -144,6 +144,6 @@ pub async fn left(State(shared): App, Query(asked): Query<Stretch>) -> Answer<Le
             rms: quality.rmse,
             percent: quality.relative_error_percent,
         })
-    });
-    found.await.map(Json)
+    })
+    .await
 }

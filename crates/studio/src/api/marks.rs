@@ -1,10 +1,10 @@
 //! Stretches of a log that were brushed: kept, fitted, validated on or left out, written into the axis file.
 
 use super::{Answer, App, blocking};
+use crate::given::Json;
 use crate::logs::Stretches;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
-use axum::Json;
 use axum::extract::State;
 use serde::Deserialize;
 use std::path::Path;
@@ -45,11 +45,11 @@ pub struct Asked {
 type Stretch = (f64, f64);
 
 /// Marks a stretch, and says what is marked then.
-pub async fn mark(State(shared): App, Json(asked): Json<Asked>) -> Answer<Stretches> {
-    let done = blocking(shared, move |shared| {
+pub async fn mark(State(shared): App, Json(asked): Json<Asked>) -> Answer {
+    blocking(shared, move |shared| {
         shared.alone(|| marked_in(&shared.workspace, &asked))
-    });
-    done.await.map(Json)
+    })
+    .await
 }
 
 /// Marks a stretch in the axis file, which is begun where there is none.

@@ -1,16 +1,16 @@
 //! Files that a browser opens in a tab or saves.
 
-use super::{Answer, App};
+use super::{Answer, App, Work, in_turn};
+use crate::given::Json;
 use crate::guard::SHOWN;
 use crate::refused::Refused;
 use crate::server::Shared;
 use crate::tickets::Opened;
-use axum::Json;
 use axum::body::Body;
 use axum::extract::{Path, State};
 use axum::http::HeaderValue;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_SECURITY_POLICY, CONTENT_TYPE};
-use axum::response::{IntoResponse, Response};
+use axum::response::IntoResponse;
 use futures_core::Stream;
 use serde::Deserialize;
 use std::convert::Infallible;
@@ -38,7 +38,7 @@ pub struct Asked {
 }
 
 /// The address under which a browser opens a file, or saves it or a folder.
-pub async fn ticket(State(shared): App, Json(asked): Json<Asked>) -> Answer<String> {
+pub async fn ticket(State(shared): App, Json(asked): Json<Asked>) -> Answer {
     let Asked { name, how } = asked;
     let last = name.rsplit('/').next().unwrap_or_default().to_string();
     let (opened, last) = match how.as_str() {
@@ -56,7 +56,7 @@ pub async fn ticket(State(shared): App, Json(asked): Json<Asked>) -> Answer<Stri
         Opened::Shown(name) | Opened::Saved(name) => shared.workspace.file(name)?,
     };
     let ticket = shared.tickets.give(opened)?;
-    Ok(Json(format!("/open/{ticket}/{}", escaped(&last))))
+    Ok(Json(format!("/open/{ticket}/{}", escaped(&last))).into_response())
 }
 
 /// What stands in an address as it is.
@@ -70,16 +70,14 @@ fn escaped(text: &str) -> String {
 }
 
 /// What an address stands for.
-pub async fn open(
-    State(shared): App,
-    Path((ticket, _)): Path<(String, String)>,
-) -> Result<Response, Refused> {
+pub async fn open(State(shared): App, Path((ticket, _)): Path<(String, String)>) -> Answer {
     let opened = shared.tickets.take(&ticket);
     let opened = opened.ok_or_else(|| {
         Refused::missing("this address is of an earlier run of stiction studio, or too old")
     })?;
     let own = opened.clone();
-    let file = super::read(shared, move |shared| file_of(shared, &own)).await?;
+    let work: Work<File> = Box::new(move |shared| file_of(shared, &own));
+    let file = in_turn(shared, work).await?;
     let (kind, shown) = match &opened {
         Opened::Shown(_) => ("text/html; charset=utf-8", "inline"),
         Opened::Saved(_) => ("application/octet-stream", "attachment"),

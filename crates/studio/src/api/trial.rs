@@ -1,13 +1,13 @@
 //! The axis of a study with parameters that somebody moves: a short simulation for each change.
 
 use super::{Answer, App, read};
+use crate::given::Json;
 use crate::named::read_study;
 use crate::refused::Refused;
-use axum::Json;
 use axum::extract::State;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use stiction::commands::trial::{Tried, Which, trial};
+use stiction::commands::trial::{Which, trial};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -28,8 +28,8 @@ pub struct Moved {
 }
 
 /// Tries it.
-pub async fn tried(State(shared): App, Json(asked): Json<Moved>) -> Answer<Tried> {
-    let done = read(shared, move |shared| {
+pub async fn tried(State(shared): App, Json(asked): Json<Moved>) -> Answer {
+    read(shared, move |shared| {
         let study = read_study(&shared.workspace, &asked.study)?;
         let which = Which {
             path: asked.path,
@@ -39,6 +39,6 @@ pub async fn tried(State(shared): App, Json(asked): Json<Moved>) -> Answer<Tried
             second_values: asked.second_values.into_iter().collect(),
         };
         trial(study, &which).map_err(|e| Refused::bad(e.to_string()))
-    });
-    done.await.map(Json)
+    })
+    .await
 }

@@ -1,11 +1,11 @@
 //! A log that was dropped on the page, streamed into the folder: under its name only once it is whole.
 
 use super::App;
+use crate::given::{Json, Query};
 use crate::refused::Refused;
 use crate::workspace::UNFINISHED;
-use axum::Json;
 use axum::body::Body;
-use axum::extract::{Query, State};
+use axum::extract::State;
 use axum::http::HeaderMap;
 use axum::http::header::CONTENT_LENGTH;
 use futures_core::Stream;

@@ -1,6 +1,6 @@
 //! What the page asks of the engine.
 
-use crate::client::{Served, open};
+use crate::client::{Answer, Served, open};
 use std::time::{Duration, Instant};
 
 /// A log of an axis that moves to and fro, with Coulomb and viscous friction.
@@ -513,4 +513,36 @@ fn a_zip_has_the_files_of_a_folder() {
         served.send("GET", ticket, &served.own(), b"").body,
         answer.body
     );
+}
+
+#[test]
+fn what_the_page_would_not_write_is_refused_in_its_words() {
+    let served = open();
+    let refused = |answer: Answer, status: u16, said: &str| {
+        assert_eq!(answer.status, status, "{}", answer.text());
+        let message = answer.json()["error"]["message"].clone();
+        let message = message.as_str().unwrap();
+        assert!(message.contains(said), "{message}");
+    };
+    refused(
+        served.ask("POST", "/api/jobs", "{\"kind\":"),
+        400,
+        "line 1 column 8",
+    );
+    refused(
+        served.ask("POST", "/api/axis", "{\"lug\": 1}"),
+        400,
+        "unknown field `lug`",
+    );
+    refused(
+        served.ask("GET", "/api/axis?lug=1", ""),
+        400,
+        "unknown field `lug`",
+    );
+    let long = format!("{{\"log\": \"{}\"}}", "a".repeat(300 << 10));
+    refused(served.ask("POST", "/api/axis", &long), 413, "limit");
+    let mut headers = served.own();
+    headers.push("content-type: text/plain".into());
+    let unasked = served.send("POST", "/api/axis", &headers, b"{\"log\": \"a.csv\"}");
+    refused(unasked, 415, "application/json");
 }
