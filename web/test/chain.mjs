@@ -258,7 +258,8 @@ try {
 
   // The code is taken.
   await page.getByRole("button", { name: "Export" }).first().click();
-  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction export"));
+  await page.getByLabel("mass", { exact: true }).check();
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.includes("--feedforward friction,mass"));
   const line = await shown();
   await page.getByRole("button", { name: "Export", exact: true }).last().click();
   const save = page.getByRole("button", { name: "Download as zip" });

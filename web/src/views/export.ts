@@ -13,6 +13,9 @@ const WORDS: Record<string, string> = {
   fmu: "FMU 2.0 and 3.0", matlab: "MATLAB, Octave and Simulink", tf5200: "TwinCAT CNC friction table", "drive-table": "Numbers for a drive's own compensation",
 };
 
+/** What may be fed forward beside friction. */
+const BESIDE = ["mass", "gravity", "cogging"];
+
 interface Exported { warnings: { code: string; message: string }[]; written: string[]; trustworthy: boolean }
 
 export class ExportView {
@@ -30,6 +33,7 @@ export class ExportView {
   private limit = "";
   private rated = "";
   private adapt = false;
+  private beside: string[] = [];
   private replace = false;
   private out = "";
 
@@ -50,9 +54,16 @@ export class ExportView {
 
   end(): void { this.stop(); }
 
+  /** Whether the target is code that runs on a controller, and no table or joint of a simulator. */
+  private get runs(): boolean {
+    const simulated = this.targets.find((own) => own.name === this.target)?.simulated ?? false;
+    return !simulated && !["tf5200", "drive-table"].includes(this.target);
+  }
+
   private asked() {
     const number = (text: string) => (text === "" ? null : Number(text));
-    return { kind: "export", model: this.model, target: this.target, cycle_time: Number(this.cycle), gain: number(this.gain), limit: number(this.limit), rated_force: number(this.rated), adapt: this.adapt, out: this.out, force: this.replace };
+    const { runs } = this;
+    return { kind: "export", model: this.model, target: this.target, cycle_time: Number(this.cycle), gain: number(this.gain), limit: number(this.limit), rated_force: number(this.rated), adapt: runs && this.adapt, beside: runs ? this.beside : [], out: this.out, force: this.replace };
   }
 
   private drawForm(): void {
@@ -74,6 +85,13 @@ export class ExportView {
     const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); again(); } });
     const adapt = h("input", { type: "checkbox", checked: this.adapt, onchange: () => { this.adapt = adapt.checked; again(); } });
     const replace = h("input", { type: "checkbox", checked: this.replace, onchange: () => { this.replace = replace.checked; again(); } });
+    const part = (name: string) => {
+      const own = h("input", { type: "checkbox", checked: this.beside.includes(name), onchange: () => {
+        this.beside = BESIDE.filter((each) => (each === name ? own.checked : this.beside.includes(each)));
+        again();
+      } });
+      return h("label", {}, own, ` ${name}`);
+    };
     const simulated = this.targets.find((own) => own.name === this.target)?.simulated ?? false;
     put(
       this.form,
@@ -83,7 +101,8 @@ export class ExportView {
       simulated || this.target === "drive-table" ? null : field("Share that is compensated", number(this.gain, "0.75", (value) => { this.gain = value; }), "0 to 1; what is left keeps the loop calm"),
       simulated || this.target === "drive-table" ? null : field("Largest force", number(this.limit, "from the law", (value) => { this.limit = value; })),
       this.target === "tf5200" ? field("Rated force of the motor", number(this.rated, "", (value) => { this.rated = value; })) : null,
-      simulated || ["tf5200", "drive-table"].includes(this.target) ? null : h("label", { class: "check" }, adapt, " levels follow the machine"),
+      this.runs ? h("label", { class: "check" }, adapt, " levels follow the machine") : null,
+      this.runs ? h("fieldset", {}, h("legend", {}, "Fed forward beside friction"), h("div", { class: "row" }, ...BESIDE.map(part))) : null,
       field("Folder for the files", out),
       h("label", { class: "check" }, replace, " replace files of the same names"),
       h("button", { class: "primary wide", onclick: () => void begin(this.asked()) }, "Export"),

@@ -5,7 +5,7 @@ use crate::refused::Refused;
 use serde::Deserialize;
 use std::path::Path;
 use stiction::commands::text;
-use stiction::{ExportOptions, Target};
+use stiction::{ExportOptions, Feedforward, Target};
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -19,9 +19,19 @@ pub struct Export {
     rated_force: Option<f64>,
     #[serde(default)]
     adapt: bool,
+    /// Of mass, gravity and cogging, what is fed forward beside friction.
+    #[serde(default)]
+    beside: Vec<String>,
     out: String,
     #[serde(default)]
     force: bool,
+}
+
+impl Export {
+    /// The names of all that is fed forward.
+    fn fed(&self) -> impl Iterator<Item = &str> {
+        std::iter::once("friction").chain(self.beside.iter().map(String::as_str))
+    }
 }
 
 impl Work for Export {
@@ -45,6 +55,10 @@ impl Work for Export {
         words.number("--limit", self.limit);
         words.number("--rated-force", self.rated_force);
         words.flag("--adapt", self.adapt);
+        if !self.beside.is_empty() {
+            let parts: Vec<&str> = self.fed().collect();
+            words.option("--feedforward", Some(&parts.join(",")));
+        }
         words.flag("--force", self.force);
     }
 
@@ -59,6 +73,7 @@ impl Work for Export {
         options.limit = self.limit;
         options.rated_force = self.rated_force;
         options.adapt = self.adapt;
+        options.feedforward = Feedforward::from_names(self.fed())?;
         let exported = stiction::export_file(run.workspace.file(&self.model)?, &options)?;
         match self.force {
             true => exported.write_over(&dir)?,
