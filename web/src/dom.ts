@@ -26,10 +26,16 @@ export function h<K extends keyof HTMLElementTagNameMap>(
 
 /** Replaces what is in an element. Where it is the same already nothing is touched: a button that is put anew while it is pressed loses the click. */
 export function put(element: Element, ...children: Child[]): void {
-  const wanted = children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false);
+  const there = children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false);
+  const wanted = there.map((child) => (typeof child === "string" ? cleaned(child) : child));
   const own = element.childNodes;
   if (wanted.length === own.length && wanted.every((child, place) => child === own[place])) return;
   element.replaceChildren(...wanted);
+}
+
+/** Text as it is: names from files may hold marks that turn the text around them, or control it. */
+export function cleaned(text: string): string {
+  return text.replace(/[\p{Bidi_Control}\x00-\x08\x0b-\x1f\x7f-\x9f]/gu, "\ufffd");
 }
 
 let ids = 0;

@@ -1,7 +1,7 @@
 // Work as it goes: how far it is, how to stop it, and what it printed.
 
 import { post, type Job } from "./api";
-import { attempt, h, put } from "./dom";
+import { attempt, cleaned, h, put } from "./dom";
 import { seconds, short } from "./numbers";
 import { state } from "./state";
 
@@ -54,7 +54,7 @@ export class Working {
       own = { about, far, root: h("div", { class: "row" }, about, far, stop) };
       this.lines.set(job.id, own);
     }
-    own.about.textContent = `${job.kind} ${job.about}`;
+    own.about.textContent = cleaned(`${job.kind} ${job.about}`);
     own.far.textContent = job.state === "stopping" ? "stopping …" : `${Math.round(100 * job.fraction)} %`;
     return own.root;
   }

@@ -95,7 +95,7 @@ export class LogView {
   private draw(log: string, about: About): void {
     this.clear();
     const facts = about.refused ? "columns to decide" : `${about.samples.toLocaleString("en").replaceAll(",", " ")} samples · ${short(about.rate_hz)} Hz · ${short(about.seconds)} s · ${about.motion}`;
-    put(this.head, h("h2", {}, log), h("span", { class: "muted" }, facts), h("button", { class: "primary next", disabled: Boolean(about.refused) || !about.channels.some((own) => own.name === "force"), title: about.refused || about.channels.some((own) => own.name === "force") ? null : "No column is the force: click the one that holds force, torque or current.", onclick: () => choose({ view: "identify" }) }, "Identify friction →"));
+    put(this.head, h("h2", { title: log }, log), h("span", { class: "muted" }, facts), h("button", { class: "primary next", disabled: Boolean(about.refused) || !about.channels.some((own) => own.name === "force"), title: about.refused || about.channels.some((own) => own.name === "force") ? null : "No column is the force: click the one that holds force, torque or current.", onclick: () => choose({ view: "identify" }) }, "Identify friction →"));
     put(this.right, this.columns(about), this.findings(about));
     this.drawChecked();
     if (about.refused) {
