@@ -299,7 +299,7 @@ fn nothing_fits(lines: &[Line], skip: usize, options: &TextOptions) -> Error {
     let shown = below.iter().rfind(|l| !l.is_blank());
     let (mut found, mut allowed) = (
         format!("no row of numbers in the first {count}{with}"),
-        "a text table with one sample in each row, as numbers",
+        "a text table with one sample in each row, as numbers: position or velocity, force, and time unless the rate is known",
     );
     if let Some(line) = shown {
         let text = line.text.trim_ascii();

@@ -124,8 +124,8 @@ pub(super) fn read(
                 problem::show(lines[last].text.trim_ascii())
             ),
             format!(
-                "names only, or numbers only; else one line under [text] of the axis file: header = true if these are names, \
-                 header = false if they are a sample, preamble = {} if they are neither",
+                "names only, or numbers, empty cells and NaN only; else one line under [text] of the axis file: header = true if \
+                 these are the names, preamble = {} to begin below them",
                 lines[last].number
             ),
         )

@@ -158,7 +158,13 @@ fn broken(found: impl std::fmt::Display) -> Error {
 impl Error {
     /// The same error, in this sheet.
     fn in_sheet(mut self, name: &str) -> Self {
-        self.found = format!("sheet {name}: {}", self.found);
+        // How its rows are handed to the text reader is none of its user's business.
+        let found = self.found.replace(" with separator TAB, decimal point", "");
+        self.found = format!("sheet {name}: {}", found.replace("\\t", " | "));
+        self.allowed = self
+            .allowed
+            .replace(", as stated", "")
+            .replace(" (separator TAB)", "");
         self
     }
 }
