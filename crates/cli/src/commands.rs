@@ -156,7 +156,9 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         ));
     }
     let (logs, axis) = match command {
-        Command::Check(check) if check.init.is_none() => (&check.logs, &check.axis),
+        Command::Check(check) if check.init.is_none() || axis_is_no_way_out(error) => {
+            (&check.logs, &check.axis)
+        }
         Command::Identify(identify) => (&identify.logs, &identify.axis),
         _ => return None,
     };
@@ -164,12 +166,47 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         error.code(),
         Code::LogMissing | Code::LogAmbiguous | Code::LogUnit
     );
+    if let Error::File(FileError::Log(e)) = error
+        && e.file.as_ref().is_some_and(|file| logs.contains(file))
+        && (e.place.row.is_some() || error.code() == Code::LogFormat)
+    {
+        return Some(unread(e, logs, axis.as_deref()));
+    }
     let log = faulty(logs, error).filter(|_| unclear && axis.is_none())?;
     Some(format!(
         "next, for an axis file with the columns that are clear filled in: stiction check {} --init {}",
         typed(log),
         stiction::commands::text::axis_file(&path_text(log))
     ))
+}
+
+/// Whether a log could not be read at all, so that no axis file can be made of it either.
+fn axis_is_no_way_out(error: &Error) -> bool {
+    let read = |e: &stiction::commands::LogError| e.place.row.is_none();
+    error.code() == Code::LogFormat || matches!(error, Error::File(FileError::Log(e)) if !read(e))
+}
+
+/// What leads on from a text whose rows cannot be read: the line of the axis file that says how, else the same again once the
+/// file is mended.
+fn unread(error: &stiction::commands::LogError, logs: &[PathBuf], axis: Option<&Path>) -> String {
+    let mut check = String::from("stiction check");
+    for log in logs {
+        check.push_str(&format!(" {}", typed(log)));
+    }
+    if error.allowed.contains("[text]") {
+        let file = axis.map_or_else(
+            || {
+                let log = error.file.as_deref().unwrap_or(Path::new("log"));
+                stiction::commands::text::axis_file(&path_text(log))
+            },
+            typed,
+        );
+        return format!("next, with [text] and that line in {file}: {check} --axis {file}");
+    }
+    if let Some(axis) = axis {
+        check.push_str(&format!(" --axis {}", typed(axis)));
+    }
+    format!("next, once the file is mended: {check}")
 }
 
 /// The log that an error begins with, and else the first.

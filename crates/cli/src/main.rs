@@ -9,6 +9,7 @@ mod exit;
 mod interrupt;
 mod large;
 mod looking;
+mod misplaced;
 mod next;
 mod output;
 mod panics;
@@ -32,7 +33,7 @@ static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
 /// What leads on from arguments that are missing.
 fn led_on(error: &clap::Error) -> String {
     let is_missing = error.kind() == ErrorKind::MissingRequiredArgument;
-    let Some((refused, next)) = is_missing.then(next::incomplete_export).flatten() else {
+    let Some((refused, next)) = is_missing.then(next::incomplete).flatten() else {
         return String::new();
     };
     let mut text = String::from("\n");

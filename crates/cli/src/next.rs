@@ -1,15 +1,23 @@
 //! What to type next where a file is not there, is another one, or cannot be written.
 
 use crate::arguments::{Arguments, Target};
+use crate::misplaced;
 use clap::{CommandFactory, ValueEnum};
 use std::path::{Path, PathBuf};
 use stiction::commands::shell::{quoted_path, text as path_text};
 use stiction::commands::{FileError, has_runs};
-use stiction::{Code, Error, ModelFile};
+use stiction::{Axis, Code, Error, ModelFile};
 
 /// What leads on from an input that is not there: the same command with the file that was probably meant, or a look at the folder.
 pub fn missing(error: &Error) -> Option<String> {
+    let listed;
     let path = match error {
+        Error::File(FileError::Misfit { file, code, .. }) if *code == Code::LogIo => {
+            let axis = Axis::read(file).ok()?;
+            let mut logs = axis.logs.into_iter().map(|log| log.file);
+            listed = logs.find(|log| log.symlink_metadata().is_err())?;
+            &listed
+        }
         Error::File(FileError::Log(e)) if e.kind.code() == Code::LogIo => e.file.as_deref()?,
         Error::File(FileError::Config { file, .. }) => file,
         _ => return None,
@@ -34,15 +42,15 @@ pub fn missing(error: &Error) -> Option<String> {
     ))
 }
 
-/// What leads on from a file that is something else than what is read: the same command with the one that is wanted.
+/// What leads on from a file that is something else than what is read: the same command with the one that is wanted, or what
+/// makes one.
 pub fn other_form(error: &Error) -> Option<String> {
-    let Error::File(FileError::OtherForm {
-        file,
-        instead: Some(instead),
-        ..
-    }) = error
-    else {
+    let Error::File(FileError::OtherForm { file, instead, .. }) = error else {
         return None;
+    };
+    let Some(instead) = instead else {
+        let (takes, typed) = misplaced::typed()?;
+        return misplaced::next(takes, typed.iter().find(|typed| *typed == file)?);
     };
     let arguments = with(file, instead);
     Some(format!(
@@ -61,9 +69,20 @@ fn with(file: &Path, instead: &Path) -> Vec<String> {
     arguments.collect()
 }
 
+/// What is wrong with the file of a command of which another argument is missing, and what leads on.
+pub fn incomplete() -> Option<(Option<Error>, String)> {
+    incomplete_export().or_else(|| {
+        let (takes, typed) = misplaced::typed()?;
+        let (error, next) = typed
+            .iter()
+            .find_map(|file| misplaced::refused(takes, file))?;
+        Some((Some(error), next))
+    })
+}
+
 /// What leads on from an export without its target or its folder: the whole command, and before it what is wrong with the file that
 /// it names.
-pub fn incomplete_export() -> Option<(Option<Error>, String)> {
+fn incomplete_export() -> Option<(Option<Error>, String)> {
     let optional = |export: clap::Command| export.mut_args(|argument| argument.required(false));
     let command = Arguments::command().mut_subcommand("export", optional);
     let typed = command.try_get_matches().ok()?;

@@ -17,6 +17,7 @@ mod table;
 mod typed;
 
 pub(crate) use form::Form;
+pub use form::{Looks, looks, refuse_as_log};
 pub(crate) use given::{ANY_COUNT, Given, LARGEST_SI};
 pub(crate) use places::Places;
 pub(crate) use source::Source;

@@ -40,6 +40,7 @@ pub mod symbols;
 pub mod visible;
 
 pub use axis::Axis;
+pub use config::{Looks, looks, refuse_as_log};
 pub use error::{Error, Remedy, Warning};
 pub use hash::{Hash, sha256, sha256_of};
 pub use model::ModelFile;

@@ -65,7 +65,7 @@ pub use mapping::{
     Assumed, Channel, Detected, Drive, Enable, Mapping, Motion, OwnStamps, Parts, Rests, Role,
     Selector, Understood, Wrap,
 };
-pub use open::{ReadOptions, read_table, read_table_with, read_wanted};
+pub use open::{ReadOptions, is_binary_recording, read_table, read_table_with, read_wanted};
 #[cfg(feature = "parquet")]
 pub use parquet::{Cells, read_cells};
 pub use stiction_codes::Code;

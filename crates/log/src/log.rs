@@ -98,7 +98,7 @@ pub struct Log {
     pub load_unit: String,
     /// Force that acts on the axis from outside in `force_unit`, positive where it drives towards positive position.
     pub external: Option<Vec<f64>>,
-    /// Rate of the median time step, Hz, to nine digits.
+    /// Rate of the median time step, Hz, to nine digits; where steps are rounded to one of two, of their mean.
     pub rate_hz: f64,
     /// Encoder step, m or rad: as given, or as detected in the data.
     pub quantum: Option<f64>,
@@ -492,10 +492,27 @@ fn without(mut columns: Vec<Understood>, left_out: &[LeftOut]) -> Vec<Understood
     columns
 }
 
-/// Rate of the median step, to nine digits: time stamps are decimal, their differences are not.
+/// Rate of the median step, to nine digits: time stamps are decimal, their differences are not. Stamps that are rounded to the step
+/// of a clock, or as seconds since 1970 to what 64 bits resolve, have two steps, of which neither is the time between samples: it is
+/// their mean.
 fn rate(time: &[f64]) -> f64 {
+    /// Most that rounding moves a step, of the step; beyond it the rows are not at one rate.
+    const ROUNDED: f64 = 0.1;
+    /// Steps from which on samples are missing, in median steps.
+    const MISSING: f64 = 1.5;
+    /// What is left of a step by the arithmetic of decimal numbers, of the step.
+    const SAME: f64 = 1e-3;
     let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
     let step = findings::median(&mut steps).unwrap_or(1.0);
+    let whole = || steps.iter().copied().filter(|s| *s < MISSING * step);
+    let (least, most) = whole().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(s), b.max(s)));
+    let apart = most - least;
+    let of_two = |s: f64| (s - least).min(most - s) <= SAME * step.min(apart);
+    let is_rounded = apart > 1e-6 * step && apart <= ROUNDED * step && whole().all(of_two);
+    let step = match is_rounded {
+        true => whole().sum::<f64>() / whole().count() as f64,
+        false => step,
+    };
     let rate = 1.0 / step;
     format!("{rate:.8e}").parse().unwrap_or(rate)
 }

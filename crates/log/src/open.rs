@@ -62,6 +62,21 @@ pub fn read_wanted(
     opened(path, options, Some(&mut bytes), wanted)
 }
 
+/// Whether a file is a recording by its first bytes: MATLAB, HDF5, Parquet and the like. A text or JSON may be anything, and is none.
+pub fn is_binary_recording(path: &Path) -> bool {
+    let about = std::fs::metadata(path)
+        .ok()
+        .filter(std::fs::Metadata::is_file);
+    let format = about.and_then(|about| {
+        let mut file = File::open(path).ok()?;
+        sniff(&mut file, about.len()).ok()
+    });
+    !matches!(
+        format,
+        None | Some(Format::Text | Format::Json | Format::Foreign(..))
+    )
+}
+
 /// Which columns of a table are to be kept, of which names and units are known.
 pub(crate) type Wanted<'a> = &'a dyn Fn(&Table) -> Vec<bool>;
 

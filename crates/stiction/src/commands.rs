@@ -24,6 +24,9 @@ pub mod recording {
     pub use stiction_log::{Channel, Log, Mapping, Role, Selector, Understood};
 }
 
+/// Why a recording was refused.
+pub use stiction_log::Error as LogError;
+
 /// A table as its file has it.
 pub mod log_table {
     pub use stiction_log::Table;
@@ -31,9 +34,9 @@ pub mod log_table {
 
 /// Forms of files, and how they are written.
 pub use stiction_files::{
-    Bundle, Error as FileError, Kept, Remedy, Runs, axis, check_folder, check_folder_of,
-    check_inputs, compare_file, has_runs, plan, reproduce_file, shell, study, visible,
-    write_atomic,
+    Bundle, Error as FileError, Kept, Looks, Remedy, Runs, axis, check_folder, check_folder_of,
+    check_inputs, compare_file, has_runs, looks, plan, refuse_as_log, reproduce_file, shell, study,
+    visible, write_atomic,
 };
 /// What is being done, in the words of the terminal.
 pub fn stage(stage: stiction_identify::Stage) -> &'static str {

@@ -10,7 +10,7 @@ use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, JoinedEntry, No
 use stiction_files::{Axis, Hash};
 use stiction_identify::{Samples, Terms};
 use stiction_log::{
-    Column, Joined, Log, Mapping, ReadOptions, Role, Table, read_table, read_wanted,
+    Column, Joined, Kind, Log, Mapping, ReadOptions, Role, Table, read_table, read_wanted,
 };
 
 /// Beginning of an entry of `detected` about a column that was not read.
@@ -38,7 +38,20 @@ pub struct Source {
 /// # Errors
 /// With file, place, what was found and what is allowed.
 pub fn table(path: impl AsRef<Path>, axis: &Axis) -> Result<Table, Error> {
-    read_table(path.as_ref(), &options(axis)).map_err(|e| axis.at_key(e).into())
+    let path = path.as_ref();
+    stiction_files::refuse_as_log(path)?;
+    read_table(path, &options(axis)).map_err(|e| at_entry(path, axis, e))
+}
+
+/// The refusal of a recording, at the key of the axis file that it is about, or that lists a file which is not there.
+fn at_entry(path: &Path, axis: &Axis, mut error: stiction_log::Error) -> Error {
+    let listed = axis.listed(path);
+    if let Some(log) = listed.filter(|_| error.kind == Kind::Io) {
+        let allowed = "a recording that is there, from the folder of the axis file";
+        error.allowed = allowed.into();
+        return axis.at(&format!("{}.file", log.key), error).into();
+    }
+    axis.at_key(error).into()
 }
 
 fn options(axis: &Axis) -> ReadOptions {
@@ -67,7 +80,8 @@ fn hashed(path: &Path, axis: &Axis) -> Result<(Table, String), Error> {
             .for_each(|(all, own)| *all |= own);
         wanted
     };
-    hashed_of(path, axis, &wanted).map_err(|e| axis.at_key(e).into())
+    stiction_files::refuse_as_log(path)?;
+    hashed_of(path, axis, &wanted).map_err(|e| at_entry(path, axis, e))
 }
 
 /// The same of the columns of a file that are wanted.

@@ -262,6 +262,111 @@ fn a_folder_that_cannot_be_made_is_refused_first() {
     assert!(code < 2, "{err}");
 }
 
+/// A log where a model, a study, an axis file or a table is wanted, and what stiction wrote where a log is.
+#[test]
+fn a_file_in_the_wrong_place_leads_to_commands_that_work() {
+    let bench = Bench::new();
+    let (code, _, err) = bench.run(&["identify", "log.csv", "--law=lugre", "--out", "fit"]);
+    assert!(code < 2, "{err}");
+    bench.write(
+        "axis.toml",
+        "kind = \"linear\"\n[[log]]\nfile = \"log.csv\"\n",
+    );
+    let mut said = String::new();
+    for (arguments, works) in [
+        (
+            &["export", "log.csv", "--target", "c", "--out", "c"][..],
+            true,
+        ),
+        (&["export", "log.csv"], true),
+        (&["simulate", "log.csv", "--out", "out"], true),
+        (&["simulate", "log.csv"], true),
+        (&["plan", "log.csv", "--out", "out"], false),
+        (&["plan", "log.csv"], false),
+        (&["drift", "log.csv"], true),
+        (&["identify", "fit/result.json", "--out", "out"], true),
+        (&["check", "fit/model.toml"], true),
+        (&["check", "fit/report.html"], false),
+        (&["check", "axis.toml"], true),
+        (
+            &[
+                "identify",
+                "log.csv",
+                "--axis",
+                "fit/model.toml",
+                "--out",
+                "out",
+            ],
+            false,
+        ),
+    ] {
+        let err = bench.refused(arguments);
+        said += &err;
+        let Some(next) = err.lines().find_map(|line| line.split_once("next")) else {
+            continue;
+        };
+        for command in next.1.split("stiction ").skip(1).filter(|_| works) {
+            let words: Vec<&str> = command.trim_end_matches(", then: ").split(' ').collect();
+            let (code, _, err) = bench.run(&words);
+            assert!(code < 2, "{words:?}: {err}");
+        }
+    }
+    insta::assert_snapshot!(said);
+}
+
+/// A log that the axis file lists and that is not there.
+#[test]
+fn a_listed_log_that_is_not_there_is_named_with_its_line() {
+    let bench = Bench::new();
+    bench.write(
+        "axis.toml",
+        "kind = \"linear\"\n[[log]]\nfile = \"log.csv\"\n[[log]]\nfile = \"lgo.csv\"\n",
+    );
+    let mut said = String::new();
+    for arguments in [
+        &["check", "--axis", "axis.toml"][..],
+        &["identify", "--axis", "axis.toml", "--out", "out"],
+    ] {
+        said += &bench.refused(arguments);
+    }
+    insta::assert_snapshot!(said);
+}
+
+/// Texts that cannot be read lead to a line of the axis file that works, or to a file to mend, and to no axis file of theirs.
+#[test]
+fn a_text_that_cannot_be_read_leads_on() {
+    let bench = Bench::new();
+    let numbers = "1,2\n2,3\n3,4\n";
+    let mut said = String::new();
+    for (name, text) in [
+        ("text.csv", "name;phase\na;hold\nb;go\n".to_string()),
+        (
+            "units.csv",
+            "time;position;force\n0 s;1.5 mm;2 N\n1 s;1.6 mm;3 N\n".to_string(),
+        ),
+        ("header.csv", "time,position,force\n".to_string()),
+        ("either.csv", numbers.to_string()),
+        (
+            "word.csv",
+            "time,position\n0,1.5\nlate,1.6\n2,1.7\n".to_string(),
+        ),
+    ] {
+        bench.write(name, &text);
+        for arguments in [
+            &["check", name][..],
+            &["check", name, "--init", "new.toml"],
+            &["identify", name, "--out", "out"],
+        ] {
+            said += &format!("{arguments:?}\n{}", bench.refused(arguments));
+        }
+    }
+    insta::assert_snapshot!(said);
+    // The line that is named reads the text: what is missing next is which column is which.
+    bench.write("either.axis.toml", "[text]\nseparator = \"comma\"\n");
+    let err = bench.refused(&["check", "either.csv", "--axis", "either.axis.toml"]);
+    assert!(err.contains("[log-missing]"), "{err}");
+}
+
 /// A file that is something else than what a command reads is named as what it is, with the one that is meant.
 #[test]
 fn another_kind_of_file_leads_on() {

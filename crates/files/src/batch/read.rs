@@ -42,6 +42,20 @@ fn tables(path: &Path) -> Result<Vec<PathBuf>, Error> {
     Ok(all)
 }
 
+/// Refuses a file that is no table of a batch by its first bytes.
+fn refuse_other(file: &Path) -> Result<(), Error> {
+    let is_text = || crate::looks(file).filter(|_| !stiction_log::is_binary_recording(file));
+    let Some(looks) = is_text() else {
+        return Ok(());
+    };
+    Err(Error::OtherForm {
+        file: file.to_path_buf(),
+        found: looks.what().into(),
+        wanted: "the results.parquet of stiction batch",
+        instead: None,
+    })
+}
+
 /// Reads the table of an earlier batch, or those of a folder, and hands on their logs in their order; gives the SHA-256 of what
 /// was read, of a folder of tables that of theirs, one after the other.
 ///
@@ -65,6 +79,7 @@ pub fn read_results_while(
 ) -> Result<Option<String>, Error> {
     let mut hashes = String::new();
     for table in tables(path)? {
+        refuse_other(&table)?;
         let mut hash = Hash::default();
         let bytes = |bytes: &[u8]| hash.take(bytes);
         let columns = read_cells(&table, &COLUMNS, Limits::default(), &mut goes_on, bytes)?;

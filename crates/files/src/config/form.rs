@@ -32,6 +32,120 @@ const WRITTEN: [(&str, &str); 6] = [
     ("drift", "the alarms of a fleet"),
 ];
 
+/// What a text is called whose lines have as many cells as each other.
+const TABLE: &str = "a table, such as a log";
+/// What a file is called that is a recording by its first bytes.
+const RECORDING: &str = "a recording, such as a log";
+
+/// What a file is that is given in place of another, so far as it leads somewhere.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Looks {
+    /// A recording, or a table that may be one.
+    Log,
+    /// `axis.toml`.
+    Axis,
+    /// `model.toml`.
+    Model,
+    /// `study.toml`.
+    Study,
+    /// `plan.toml`.
+    Plan,
+    /// `result.json`.
+    Result,
+}
+
+impl Looks {
+    /// What it is called in messages.
+    pub fn what(self) -> &'static str {
+        match self {
+            Looks::Log => TABLE,
+            Looks::Axis => Form::Axis.what(),
+            Looks::Model => Form::Model.what(),
+            Looks::Study => Form::Study.what(),
+            Looks::Plan => Form::Plan.what(),
+            Looks::Result => "the result of an identification (result.json)",
+        }
+    }
+}
+
+/// What a file looks like by its first lines; `None` where nothing tells it.
+pub fn looks(file: &Path) -> Option<Looks> {
+    if stiction_log::is_binary_recording(file) {
+        return Some(Looks::Log);
+    }
+    let text = head(file)?;
+    match of_text(&text).as_deref() {
+        Some(TABLE) => return Some(Looks::Log),
+        Some(found) if found == Looks::Result.what() => return Some(Looks::Result),
+        Some(_) => return None,
+        None => {}
+    }
+    Some(match typed_form(file, &text)? {
+        Form::Axis => Looks::Axis,
+        Form::Model => Looks::Model,
+        Form::Study => Looks::Study,
+        Form::Plan => Looks::Plan,
+    })
+}
+
+/// Refuses a file where a log is wanted that is one that stiction wrote, or one that a user types.
+///
+/// # Errors
+/// [`Error::OtherForm`], with what the file is.
+pub fn refuse_as_log(file: &Path) -> Result<(), Error> {
+    let Some(text) = head(file) else {
+        return Ok(());
+    };
+    // Other JSON may be a log.
+    let written = of_text(&text).filter(|found| found != TABLE && found != "JSON");
+    let found = match written {
+        Some(found) => found,
+        None => match typed_form(file, &text) {
+            Some(form) => form.what().into(),
+            None => return Ok(()),
+        },
+    };
+    Err(Error::OtherForm {
+        file: file.to_path_buf(),
+        found,
+        wanted: "a log",
+        instead: None,
+    })
+}
+
+/// The beginning of a file, as text; `None` where it is none.
+fn head(file: &Path) -> Option<String> {
+    // To open a pipe would wait for who writes into it.
+    if !file.is_file() {
+        return None;
+    }
+    let mut head = Vec::new();
+    let open = std::fs::File::open(file).ok()?;
+    open.take(HEAD as u64).read_to_end(&mut head).ok()?;
+    Some(String::from_utf8_lossy(&head).into_owned())
+}
+
+/// The form of a file in TOML, which is read whole only where its beginning could be that.
+fn typed_form(file: &Path, head: &str) -> Option<Form> {
+    let mut lines = head.trim_start_matches('\u{feff}').lines().map(str::trim);
+    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'))?;
+    let key = first.split_once('=').map(|(key, _)| key.trim());
+    let is_key = |key: &str| {
+        key.chars()
+            .all(|c| c.is_ascii_alphanumeric() || "_-.\"".contains(c))
+    };
+    let may_be = key.is_some_and(is_key) || (first.starts_with('[') && first.ends_with(']'));
+    let short = file
+        .metadata()
+        .is_ok_and(|about| about.len() <= super::typed::MAX_BYTES);
+    if !may_be || !short {
+        return None;
+    }
+    let text = std::fs::read_to_string(file).ok()?;
+    let tables = DeTable::parse(&text).ok()?;
+    of_tables(tables.get_ref())
+}
+
 impl Form {
     /// What it is called in messages.
     pub fn what(self) -> &'static str {
@@ -127,9 +241,11 @@ pub(super) fn of_text(text: &str) -> Option<String> {
         return Some("a page for a browser".into());
     }
     let is_toml = line.contains('=') || line.starts_with(['[', '#']);
-    let cells = |line: &str| line.matches([',', ';', '\t']).count();
-    let is_table = cells(line) > 0 && cells(line) == cells(next);
-    (is_table && !is_toml).then(|| "a table, such as a log".into())
+    let is_table = [',', ';', '\t'].into_iter().any(|mark| {
+        let cells = |line: &str| line.matches(mark).count();
+        cells(line) > 0 && cells(line) == cells(next)
+    });
+    (is_table && !is_toml).then(|| TABLE.into())
 }
 
 /// What a file is that cannot be read as a text, or is too long for one that a user types.
@@ -137,12 +253,8 @@ pub(super) fn of_file(file: &Path) -> Option<String> {
     if file.is_dir() {
         return Some("a folder".into());
     }
-    // To open a pipe would wait for who writes into it.
-    if !file.is_file() {
-        return None;
+    if stiction_log::is_binary_recording(file) {
+        return Some(RECORDING.into());
     }
-    let mut head = Vec::new();
-    let open = std::fs::File::open(file).ok()?;
-    open.take(HEAD as u64).read_to_end(&mut head).ok()?;
-    of_text(&String::from_utf8_lossy(&head))
+    of_text(&head(file)?)
 }

@@ -6,7 +6,7 @@ use crate::output::settle;
 use std::path::Path;
 
 /// Largest file that is read, bytes.
-const MAX_BYTES: u64 = 1 << 20;
+pub(super) const MAX_BYTES: u64 = 1 << 20;
 
 /// Why a file has no text to be read.
 pub(super) enum NotRead {
@@ -53,6 +53,9 @@ pub(super) fn text(file: &Path, form: Form) -> Result<String, NotRead> {
         return Err(other().unwrap_or(NotRead::Faulty(found, allowed)));
     }
     let bytes = std::fs::read(file).map_err(unreadable)?;
+    if stiction_log::is_binary_recording(file) {
+        return Err(other().unwrap_or(NotRead::Faulty("a recording".into(), what.into())));
+    }
     String::from_utf8(bytes)
         .map_err(|_| NotRead::Faulty("is not UTF-8 text".into(), "save it as UTF-8".into()))
 }

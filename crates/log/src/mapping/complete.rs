@@ -3,7 +3,7 @@
 use super::channel::{Channel, Motion, Role};
 use super::convert::{Source, is_force};
 use super::select::select;
-use super::{Detected, Mapping, choose, describe, endings, motion, names, understood};
+use super::{Detected, Mapping, choose, describe, endings, motion, names, rate, understood};
 use crate::findings::{Finding, Severity};
 use crate::{Column, Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -335,7 +335,15 @@ fn seconds(table: &Table, part: &Part) -> Result<Unit, Error> {
     if units.is_empty() {
         units = vec!["ms", "s"];
     }
-    let lines: Vec<String> = units.into_iter().map(line).collect();
+    let lines: Vec<String> = match rate::are_ticks(values) {
+        true => vec![describe::line_with(
+            table,
+            part.column,
+            Role::Time,
+            rate::TICKS,
+        )],
+        false => units.into_iter().map(line).collect(),
+    };
     Err(Error::new(
         Kind::Unit,
         format!("time has no unit and {median}, which is implausible in seconds for a motion log"),

@@ -38,11 +38,25 @@ pub(super) fn compare(
 pub(super) fn time_line(table: &Table, column: usize) -> Option<String> {
     let values = &table.columns[column].values;
     let steps = Steps::of(table, column).filter(|_| values.is_sorted())?;
+    if are_ticks(values) {
+        return Some(describe::line_with(table, column, Role::Time, TICKS));
+    }
     let fits = |unit: &Unit| PLAUSIBLE_SPACING.contains(&(unit.factor() * steps.usual));
     let mut units = UNITS.iter().filter_map(|unit| Unit::parse(unit).ok());
     let unit = units.find(fits).filter(|_| steps.usual != 1.0)?;
     let named = format!("unit = \"{unit}\"");
     Some(describe::line_with(table, column, Role::Time, &named))
+}
+
+/// What makes seconds of ticks, in a line of the axis file.
+pub(super) const TICKS: &str = "scale = \"100 ns/count\"";
+
+/// Whether these are counts of 100 ns since 1601 or since the year 1, of 1970 to 2100: no other stamps are so large.
+pub(super) fn are_ticks(values: &[f64]) -> bool {
+    const SINCE_1601: std::ops::Range<f64> = 1.164e17..1.575e17;
+    const SINCE_1: std::ops::Range<f64> = 6.213e17..6.624e17;
+    let first = values.iter().find(|value| !value.is_nan());
+    first.is_some_and(|first| SINCE_1601.contains(first) || SINCE_1.contains(first))
 }
 
 /// Steps of time stamps, in their own unit.

@@ -1,6 +1,7 @@
 //! What one cell says: a number, a missing value, a moment, or text.
 
 use super::clock::{self, Moment};
+use super::local::{self, Local};
 use super::options::Decimal;
 
 /// What a cell holds, and for a number which decimal mark it shows.
@@ -14,14 +15,25 @@ pub(crate) enum Cell {
     Number(f64, Option<Decimal>),
     /// A date with time, or a time of day.
     Moment(Moment),
+    /// A date with time whose order of day and month other cells may have to tell.
+    Local(Local),
     /// Anything else.
     Text,
 }
 
 impl Cell {
-    /// Whether the cell holds a number or a moment.
+    /// Whether the cell holds a number or a point in time.
     pub(super) fn is_sample(self) -> bool {
-        matches!(self, Cell::Number(..) | Cell::Moment(_))
+        matches!(self, Cell::Number(..) | Cell::Moment(_) | Cell::Local(_))
+    }
+
+    /// Whether the cell holds a point in time without a fraction of a second.
+    pub(super) fn is_whole_second(self) -> bool {
+        match self {
+            Cell::Moment(moment) => !moment.fraction,
+            Cell::Local(date) => !date.fraction,
+            _ => false,
+        }
     }
 
     /// Whether the cell holds no value.
@@ -32,6 +44,9 @@ impl Cell {
 
 /// Longest number that is parsed; the decimal expansion of the smallest f64 has 1077 characters.
 const LONGEST_NUMBER: usize = 2048;
+
+/// The minus of typesetting, U+2212, which spreadsheets and programs of Python show.
+const MINUS: &[u8] = "\u{2212}".as_bytes();
 
 /// Understands a cell without knowing the decimal mark: `1,5` and `1.5` are numbers, `1.234,5` and
 /// `1,234,567` are not.
@@ -46,6 +61,9 @@ pub(crate) fn classify(cell: &[u8]) -> Cell {
     if !cell.iter().any(u8::is_ascii_digit) {
         return Cell::Text;
     }
+    if let Some(at) = memchr::memmem::find(cell, MINUS) {
+        return classify(&[&cell[..at], b"-", &cell[at + MINUS.len()..]].concat());
+    }
     if let Some(value) = number(cell, Decimal::Point) {
         let mark = cell.contains(&b'.').then_some(Decimal::Point);
         return Cell::Number(value, mark);
@@ -53,7 +71,10 @@ pub(crate) fn classify(cell: &[u8]) -> Cell {
     if let Some(value) = number(cell, Decimal::Comma) {
         return Cell::Number(value, Some(Decimal::Comma));
     }
-    clock::moment(cell).map_or(Cell::Text, Cell::Moment)
+    if let Some(moment) = clock::moment(cell) {
+        return Cell::Moment(moment);
+    }
+    local::read(cell).map_or(Cell::Text, Cell::Local)
 }
 
 /// The correctly rounded value of a cell written with this decimal mark.
@@ -95,7 +116,7 @@ pub(super) fn with_point(cell: &[u8], copy: &mut [u8]) -> Option<()> {
 
 /// Words that stand for a value or for its absence, in any case.
 fn word(cell: &[u8]) -> Option<Cell> {
-    const MISSING: [&str; 17] = [
+    const MISSING: [&str; 23] = [
         "nan",
         "na",
         "n/a",
@@ -113,6 +134,13 @@ fn word(cell: &[u8]) -> Option<Cell> {
         "nan(ind)",
         "nan(snan)",
         "(null)",
+        // What a spreadsheet shows where a formula has no value.
+        "#value!",
+        "#div/0!",
+        "#ref!",
+        "#num!",
+        "#name?",
+        "#null!",
     ];
     // The longest word is eleven characters with its sign.
     if cell.len() > 12
@@ -155,6 +183,8 @@ mod tests {
         let comma = |v| Cell::Number(v, Some(Decimal::Comma));
         assert_eq!(classify(b" +1.5 "), point(1.5));
         assert_eq!(classify(b"-,5e-3"), comma(-0.0005));
+        assert_eq!(classify("\u{2212}1.5e\u{2212}3".as_bytes()), point(-0.0015));
+        assert_eq!(classify("1\u{2212}5".as_bytes()), Cell::Text);
         assert_eq!(classify(b"12"), Cell::Number(12.0, None));
         for text in [
             "1.234,5",
@@ -179,7 +209,17 @@ mod tests {
             Cell::Number(f64::NEG_INFINITY, None)
         );
         assert_eq!(classify(b"-1,#INF"), Cell::Number(f64::NEG_INFINITY, None));
-        for missing in ["NaN", "-nan(ind)", "N/A", "null", "1.#QNAN", "-", "<NA>"] {
+        for missing in [
+            "#VALUE!",
+            "#DIV/0!",
+            "NaN",
+            "-nan(ind)",
+            "N/A",
+            "null",
+            "1.#QNAN",
+            "-",
+            "<NA>",
+        ] {
             assert_eq!(classify(missing.as_bytes()), Cell::Missing, "{missing}");
         }
         for text in ["-true", "hold", "nano", "i", "infinit"] {

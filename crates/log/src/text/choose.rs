@@ -1,7 +1,7 @@
 //! How a file is written, decided from its head.
 
 use super::cell::{self, Cell};
-use super::fit::Fit;
+use super::fit::{Fit, Row};
 use super::header::Title;
 use super::limits::{MAX_COLUMNS, MAX_PREAMBLE_LINES};
 use super::lines::{self, Line};
@@ -67,7 +67,10 @@ impl Layout {
         let roles = self.state.roles.iter();
         let needed = roles.enumerate().map(|(column, role)| {
             // Times of day run on over midnight; halsampler numbers its samples.
-            let stamps = matches!(role, Role::Moment { .. } | Role::FileTime { .. });
+            let stamps = matches!(
+                role,
+                Role::Moment { .. } | Role::Local(_) | Role::FileTime { .. }
+            );
             let numbers = column == 0 && self.rule.overruns;
             stamps || numbers || wanted.get(column).copied().unwrap_or(true)
         });
@@ -184,28 +187,20 @@ fn first_line(lines: &[Line], fit: &Fit) -> u64 {
     fit.rows.first().map_or(1, |r| lines[r.index].number)
 }
 
-/// The first cell of each text column.
+/// The first cell of each text column that is a text.
 fn first_texts(lines: &[Line], fit: &Fit, ends: &Ends) -> Vec<Option<Seen>> {
-    let Some(first) = fit.rows.first() else {
-        return Vec::new();
-    };
-    let line = &lines[first.index];
-    let cells = split::fields(line.text, ends, fit.width);
+    let is_text = |row: &Row, c: usize| row.cells.get(c) == Some(&Cell::Text);
     fit.roles
         .iter()
         .enumerate()
         .map(|(c, role)| {
-            let cell = cells.get(c).filter(|_| *role == Role::Text)?;
-            let local = super::clock::is_local_date(&cell.text);
-            let order = if local {
-                ", with day and month in unknown order"
-            } else {
-                ""
-            };
-            let text = format!("{}{order}", problem::show(&cell.text));
+            let first = fit.rows.first().filter(|_| *role == Role::Text)?;
+            let row = fit.rows.iter().find(|row| is_text(row, c)).unwrap_or(first);
+            let line = &lines[row.index];
+            let cells = split::fields(line.text, ends, fit.width);
             Some(Seen {
                 line: line.number,
-                text,
+                text: problem::text_cell(&cells.get(c)?.text),
             })
         })
         .collect()
@@ -244,6 +239,10 @@ fn best(lines: &[Line], skip: usize, row_end: u8, options: &TextOptions) -> Resu
         Some(Decimal::Comma) => None,
         _ => fit(Separator::Comma).filter(|f| f.width > 1 || f.trailing),
     };
+    // Numbers between words that a separator keeps apart: `0.5 mm;2 N` is two cells, not three.
+    if are_apart(lines, skip) {
+        return Err(nothing_fits(lines, skip, options));
+    }
     let (comma, blanks) = match (comma, blanks) {
         (Some(comma), Some(blanks)) => (comma, blanks),
         (Some(only), None) | (None, Some(only)) => return Ok(only),
@@ -262,11 +261,28 @@ fn best(lines: &[Line], skip: usize, row_end: u8, options: &TextOptions) -> Resu
                     "{} can be split at commas or at blanks",
                     problem::show(lines[row].text.trim_ascii())
                 ),
-                "state the separator",
+                "separator = \"comma\" or separator = \"blanks\" under [text] of the axis file",
             )
             .at_row(lines[row].number))
         }
     }
+}
+
+/// Whether nearly all lines have as many TABs, `;` or `|` as each other.
+fn are_apart(lines: &[Line], skip: usize) -> bool {
+    let below = lines.get(skip..).unwrap_or_default();
+    let filled = || below.iter().filter(|line| !line.is_blank());
+    let all = filled().count();
+    let strong = [Separator::Tab, Separator::Semicolon, Separator::Pipe];
+    strong.into_iter().any(|separator| {
+        let marks = |line: &Line| {
+            let byte = separator.byte().unwrap_or_default();
+            memchr::memchr_iter(byte, line.text.trim_ascii()).count()
+        };
+        let most = filled().map(marks).max().unwrap_or(0);
+        let alike = filled().filter(|line| marks(line) == most).count();
+        most > 0 && alike > 1 && alike * 10 >= all * 9
+    })
 }
 
 fn nothing_fits(lines: &[Line], skip: usize, options: &TextOptions) -> Error {
@@ -281,19 +297,22 @@ fn nothing_fits(lines: &[Line], skip: usize, options: &TextOptions) -> Error {
     let count = problem::count(lines.len(), "line");
     let below = lines.get(skip..).unwrap_or_default();
     let shown = below.iter().rfind(|l| !l.is_blank());
-    let found = match shown {
-        Some(line) => format!(
-            "no row of numbers in the first {count}{with}; line {} is {}",
-            line.number,
-            problem::show(line.text.trim_ascii())
-        ),
-        None => format!("no row of numbers in the first {count}{with}"),
-    };
-    let error = Error::new(
-        Kind::Format,
-        found,
-        "a text table with one sample in each row",
+    let (mut found, mut allowed) = (
+        format!("no row of numbers in the first {count}{with}"),
+        "a text table with one sample in each row, as numbers: position or velocity, force, and time unless the rate is known",
     );
+    if let Some(line) = shown {
+        let text = line.text.trim_ascii();
+        found += &format!("; line {} is {}", line.number, problem::show(text));
+        if below.iter().filter(|l| !l.is_blank()).count() == 1 && !text.is_empty() {
+            allowed =
+                "rows of numbers below the names; was the recording exported without its samples?";
+        } else if has_units(text) {
+            allowed =
+                "numbers alone in the cells, with their unit in the header, as `position [mm]`";
+        }
+    }
+    let error = Error::new(Kind::Format, found, allowed);
     match options {
         TextOptions {
             preamble: Some(1..),
@@ -307,4 +326,18 @@ fn nothing_fits(lines: &[Line], skip: usize, options: &TextOptions) -> Error {
         } => error.of_setting("text.decimal"),
         _ => error,
     }
+}
+
+/// Whether a line has numbers with their unit: `0.5 mm`, `0,5mm`.
+fn has_units(line: &[u8]) -> bool {
+    line.split(|b| b";|\t".contains(b)).any(|cell| {
+        let cell = cell.trim_ascii();
+        let number = cell
+            .iter()
+            .take_while(|b| b.is_ascii_digit() || b"+-.,".contains(b))
+            .count();
+        let (number, unit) = cell.split_at(number);
+        let unit = String::from_utf8_lossy(unit.trim_ascii()).into_owned();
+        number.iter().any(u8::is_ascii_digit) && super::unit::is_known(&unit)
+    })
 }

@@ -1,4 +1,4 @@
-//! Date-times whose order of day and month is beyond doubt: ISO 8601, and times of day.
+//! Date-times whose order of day and month is beyond doubt: ISO 8601, and times of day. Others: [`super::local`].
 
 /// A point in time: nanoseconds since 1970-01-01 for a date, since midnight for a time of day.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,8 +11,10 @@ pub(crate) struct Moment {
     pub fraction: bool,
 }
 
+/// ns.
 const SECOND: i64 = 1_000_000_000;
-const DAY: i64 = 86_400;
+/// s.
+pub(super) const DAY: i64 = 86_400;
 
 /// Reads `2024-05-01T12:00:00.001`, with `T` or a blank, `.` or `,`, an optional zone; or
 /// `12:00:00.001`. Seconds are needed in a time of day, so that `12:00` stays text.
@@ -22,64 +24,35 @@ pub(super) fn moment(cell: &[u8]) -> Option<Moment> {
     if date.is_some() && !matches!(text.next(), Some(b'T' | b't' | b' ')) {
         return None;
     }
-    let hour = text.digits(1, 2)?;
-    text.expect(b':')?;
-    let minute = text.digits(2, 2)?;
-    let second = match text.expect(b':') {
-        Some(()) => text.digits(2, 2)?,
-        None if date.is_some() => 0,
-        None => return None,
-    };
-    let fraction = match text.0.first() {
-        Some(b'.' | b',') => {
-            text.next();
-            Some(text.nanoseconds()?)
-        }
-        _ => None,
-    };
+    let (of_day, fraction) = text.time_of_day(date.is_none())?;
     let zone = if date.is_some() { text.zone()? } else { 0 };
-    if !text.0.is_empty() || hour > 23 || minute > 59 || second > 59 {
+    if !text.0.is_empty() {
         return None;
     }
-    let seconds = date.unwrap_or(0) * DAY + hour * 3600 + minute * 60 + second - zone;
-    let ns = seconds
-        .checked_mul(SECOND)?
-        .checked_add(fraction.unwrap_or(0))?;
+    let midnight = (date.unwrap_or(0) * DAY - zone).checked_mul(SECOND)?;
     Some(Moment {
-        ns,
+        ns: midnight.checked_add(of_day)?,
         dated: date.is_some(),
-        fraction: fraction.is_some(),
+        fraction,
     })
 }
 
-/// Whether a cell is a date with time in an order that differs from place to place, such as
-/// `01/02/2024 10:00:00`.
-pub(super) fn is_local_date(cell: &[u8]) -> bool {
-    let mut text = Cursor(cell);
-    let mut part = |least, most| text.digits(least, most);
-    part(1, 2).is_some()
-        && matches!(text.next(), Some(b'/' | b'.' | b'-'))
-        && text.digits(1, 2).is_some()
-        && matches!(text.next(), Some(b'/' | b'.' | b'-'))
-        && text.digits(2, 4).is_some()
-}
-
 /// What is left of a cell.
-struct Cursor<'a>(&'a [u8]);
+pub(super) struct Cursor<'a>(pub &'a [u8]);
 
 impl Cursor<'_> {
-    fn next(&mut self) -> Option<u8> {
+    pub fn next(&mut self) -> Option<u8> {
         let (&first, rest) = self.0.split_first()?;
         self.0 = rest;
         Some(first)
     }
 
-    fn expect(&mut self, byte: u8) -> Option<()> {
+    pub fn expect(&mut self, byte: u8) -> Option<()> {
         self.0 = self.0.strip_prefix(&[byte])?;
         Some(())
     }
 
-    fn digits(&mut self, least: usize, most: usize) -> Option<i64> {
+    pub fn digits(&mut self, least: usize, most: usize) -> Option<i64> {
         let count = self
             .0
             .iter()
@@ -98,6 +71,53 @@ impl Cursor<'_> {
         )
     }
 
+    /// Nanoseconds since midnight, and whether a fraction of a second is among them: `9:00`, `09:00:00.25`, `09:00:00,25`,
+    /// `09:00:00:250`, `9:00:00 PM`. Seconds may be left out unless they are needed.
+    pub fn time_of_day(&mut self, seconds_needed: bool) -> Option<(i64, bool)> {
+        let mut hour = self.digits(1, 2)?;
+        self.expect(b':')?;
+        let minute = self.digits(2, 2)?;
+        let second = match self.expect(b':') {
+            Some(()) => self.digits(2, 2)?,
+            None if seconds_needed => return None,
+            None => 0,
+        };
+        let fraction = match self.0.first() {
+            Some(b'.' | b',') => {
+                self.next();
+                Some(self.nanoseconds()?)
+            }
+            // Drives write milliseconds so; fewer digits could be any part of a second.
+            Some(b':') => {
+                self.next();
+                Some(self.digits(3, 3)? * 1_000_000)
+            }
+            _ => None,
+        };
+        if let Some(after_noon) = self.half_of_day() {
+            if !(1..=12).contains(&hour) {
+                return None;
+            }
+            hour = hour % 12 + if after_noon { 12 } else { 0 };
+        }
+        if hour > 23 || minute > 59 || second > 59 {
+            return None;
+        }
+        let whole = (hour * 3600 + minute * 60 + second) * SECOND;
+        Some((whole + fraction.unwrap_or(0), fraction.is_some()))
+    }
+
+    /// Whether `PM` follows, or `AM`; nothing is taken where neither does.
+    fn half_of_day(&mut self) -> Option<bool> {
+        let rest = self.0.strip_prefix(b" ").unwrap_or(self.0);
+        let (half, rest) = rest.split_at_checked(2)?;
+        let after_noon = [&b"AM"[..], b"PM"]
+            .iter()
+            .position(|word| half.eq_ignore_ascii_case(word))?;
+        self.0 = rest;
+        Some(after_noon == 1)
+    }
+
     /// One to nine digits of a second; more are refused, since f64 seconds could not tell them.
     fn nanoseconds(&mut self) -> Option<i64> {
         let before = self.0.len();
@@ -114,11 +134,9 @@ impl Cursor<'_> {
         let month = ahead.digits(1, 2)?;
         ahead.expect(mark)?;
         let day = ahead.digits(1, 2)?;
-        if !(1..=12).contains(&month) || !(1..=days_in(year, month)).contains(&day) {
-            return None;
-        }
+        let date = days(year, month, day)?;
         self.0 = ahead.0;
-        Some(days_from_epoch(year, month, day))
+        Some(date)
     }
 
     /// Seconds east of UTC of `Z`, `+02`, `+0200`, `+02:00` or nothing.
@@ -143,6 +161,12 @@ impl Cursor<'_> {
         };
         (hours < 24 && minutes < 60).then_some(sign * (hours * 3600 + minutes * 60))
     }
+}
+
+/// Days since 1970-01-01; `None` where there is no such date.
+pub(super) fn days(year: i64, month: i64, day: i64) -> Option<i64> {
+    let is_date = (1..=12).contains(&month) && (1..=days_in(year, month)).contains(&day);
+    is_date.then(|| days_from_epoch(year, month, day))
 }
 
 fn days_in(year: i64, month: i64) -> i64 {
@@ -193,6 +217,10 @@ mod tests {
         assert_eq!(ns("1969-12-31T23:59:59.999999999Z"), Some(-1));
         assert_eq!(ns("1900-03-01 00:00:00"), Some(-2_203_891_200_000_000_000));
         assert_eq!(ns("9:00:00.25"), Some(32_400_250_000_000));
+        assert_eq!(ns("09:00:00:250"), Some(32_400_250_000_000));
+        assert_eq!(ns("12:00:00.5 AM"), Some(500_000_000));
+        assert_eq!(ns("12:00:00 pm"), Some(43_200_000_000_000));
+        assert_eq!(ns("2024-05-01 02:00:00PM"), ns("2024-05-01 14:00:00"));
     }
 
     #[test]
@@ -207,11 +235,14 @@ mod tests {
             "2024-05-01",
             "2024-05-01T12:00:00.0000000001",
             "12:00:00Z",
+            "12:00:00:25",
+            "12:00:00:2500",
+            "13:00:00 PM",
+            "0:00:00 AM",
+            "12:00 PM",
             "9999-01-01 00:00:00",
         ] {
             assert_eq!(ns(text), None, "{text}");
         }
-        assert!(is_local_date(b"01/02/2024 10:00:00"));
-        assert!(!is_local_date(b"12:00:00"));
     }
 }

@@ -12,6 +12,9 @@ const HALF_DAY: f64 = 43_200.0;
 /// s.
 const DAY: f64 = 86_400.0;
 
+/// 2^53, above which 64-bit floats do not hold every whole number.
+const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
+
 /// Puts the table together and says what was detected and what was left out.
 pub(super) fn finish(layout: Layout, body: Body) -> Table {
     let mut table = Table {
@@ -66,7 +69,22 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
                     format!("{label}: {sort}, converted to seconds from the first{midnight}");
                 table.detected.push(said);
             }
+            Role::Local(dates) => {
+                (unit, stamps) = (Some("s".to_owned()), true);
+                table.detected.push(format!(
+                    "{label}: dates with time, {}, converted to seconds from the first",
+                    dates.said()
+                ));
+            }
             _ => {}
+        }
+        if values
+            .iter()
+            .any(|x| x.fract() == 0.0 && x.abs() > LARGEST_WHOLE)
+        {
+            table.detected.push(format!(
+                "{label}: numbers beyond 2^53 are rounded to the nearest 64-bit float"
+            ));
         }
         let is_left_out = left_out.last() == Some(&(c + 1));
         if !layout.rule.keep[c] && !is_left_out {

@@ -3,6 +3,7 @@
 use super::cell::{self, Cell};
 use super::limits::MAX_COLUMNS;
 use super::lines::Line;
+use super::local::{Dates, Local};
 use super::options::{Decimal, Separator, TextOptions};
 use super::problem;
 use super::row::{Role, Seen};
@@ -86,7 +87,7 @@ impl Fit {
         let roles: Vec<Role> = columns.iter().map(Column::role).collect();
         if !roles
             .iter()
-            .any(|r| matches!(r, Role::Number | Role::Moment { .. }))
+            .any(|r| matches!(r, Role::Number | Role::Moment { .. } | Role::Local(_)))
         {
             return None;
         }
@@ -180,6 +181,7 @@ impl Row {
             && self.cells.iter().zip(roles).all(|(cell, role)| match role {
                 Role::Number => cell.is_void() || matches!(cell, Cell::Number(..)),
                 Role::Moment { .. } => cell.is_void() || matches!(cell, Cell::Moment(_)),
+                Role::Local(_) => cell.is_void() || matches!(cell, Cell::Local(_)),
                 _ => true,
             })
     }
@@ -243,6 +245,8 @@ struct Column {
     numbers: usize,
     dated: usize,
     of_day: usize,
+    local: usize,
+    first_local: Option<Local>,
     filled: usize,
 }
 
@@ -258,6 +262,10 @@ impl Column {
                 Cell::Number(..) => counts.numbers += 1,
                 Cell::Moment(m) if m.dated => counts.dated += 1,
                 Cell::Moment(_) => counts.of_day += 1,
+                Cell::Local(date) => {
+                    counts.local += 1;
+                    counts.first_local.get_or_insert(date);
+                }
                 _ => {}
             }
             counts.filled += usize::from(!cell.is_void());
@@ -279,6 +287,11 @@ impl Column {
                 base: 0,
                 dated: false,
             },
+            Column {
+                local,
+                first_local: Some(first),
+                ..
+            } if half(*local) => Role::Local(Dates::from(*first)),
             _ => Role::Text,
         }
     }

@@ -16,7 +16,9 @@
 //!   `q (1)` stays a name; `pos_mm` and `pos/mm` stay names), or in a row of their own below it;
 //! - UTF-8 or UTF-16 with byte order mark, UTF-8 without, ISO-8859-1 names;
 //! - empty cells and the usual marks for a missing value (NaN), infinities, `TRUE`/`FALSE` (1/0);
-//! - ISO date-times and times of day, read as seconds from the first sample;
+//! - ISO date-times, times of day, and dates with time as `26.11.2024 12:00:00.123`, `11/26/2024 12:00:00 PM` or
+//!   `26-Nov-2024 12:00:00`, read as seconds from the first sample; where day and month may be either, a log of one day
+//!   needs no order, and another one shows it by a number above 12 or by the day that follows;
 //! - text columns, which are skipped and named in [`Table::skipped`];
 //! - comment lines between rows, and text such as `EOF` after the last row;
 //! - lines `overrun` of LinuxCNC's halsampler: by the sample numbers of `halsampler -t` the samples that it
@@ -50,6 +52,7 @@ mod halsampler;
 mod header;
 mod limits;
 mod lines;
+mod local;
 mod options;
 mod problem;
 mod prologue;
@@ -61,7 +64,7 @@ mod twincat;
 pub(crate) mod unit;
 mod utf16;
 
-#[cfg(feature = "json")]
+#[cfg(any(feature = "json", feature = "xlsx"))]
 pub(crate) use cell::{Cell, classify};
 #[cfg(any(feature = "json", feature = "mcap"))]
 pub(crate) use clock::Moment;

@@ -1,6 +1,7 @@
 //! Error messages for text files.
 
 use super::cell::{self, Cell};
+use super::local::{Dates, Wrong};
 use super::options::{Decimal, Separator};
 use crate::{Error, Kind};
 use std::io;
@@ -138,12 +139,23 @@ pub(super) fn wrong_cell(text: &[u8], decimal: Option<Decimal>, seen: Option<&st
     }
 }
 
+/// A cell of a column that is text, and what of it may be mended.
+pub(super) fn text_cell(text: &[u8]) -> String {
+    match grouped(text) {
+        true => format!("{} (digits must not be grouped)", show(text)),
+        false => show(text),
+    }
+}
+
 /// Whether a text looks like a number whose digits are grouped (`1.234,5`, `1,234,567`, `1'234`).
 fn grouped(text: &[u8]) -> bool {
     text.iter()
         .all(|b| b.is_ascii_digit() || b"+-.,' ".contains(b))
         && text.iter().filter(|b| b.is_ascii_digit()).count() > 3
         && text.iter().any(|b| b",.' ".contains(b))
+        && text
+            .first()
+            .is_some_and(|b| b.is_ascii_digit() || b"+-".contains(b))
 }
 
 pub(super) fn wrong_moment(text: &[u8], dated: bool) -> Error {
@@ -152,6 +164,26 @@ pub(super) fn wrong_moment(text: &[u8], dated: bool) -> Error {
         false => "a time of day such as 12:00:00.001, as in the rows before",
     };
     Error::new(Kind::Format, show(text), allowed)
+}
+
+/// A date whose order the dates before it do not allow, or leave open.
+pub(super) fn wrong_date(text: &[u8], dates: Dates, wrong: Wrong) -> Error {
+    let first = dates.first();
+    match wrong {
+        Wrong::NoDate => Error::new(
+            Kind::Format,
+            show(text),
+            format!("a date with time as in the rows before, {}", dates.said()),
+        ),
+        Wrong::Unclear => Error::new(
+            Kind::Ambiguous,
+            format!(
+                "{} after {first}: day and month in unknown order, so the time between the two is unknown",
+                show(text)
+            ),
+            "dates as 2024-05-01 12:00:00.001, times of day alone, or a log that does not go on after a pause of days",
+        ),
+    }
 }
 
 pub(super) fn long_row() -> Error {
@@ -179,6 +211,9 @@ pub(super) fn too_many_columns(width: usize) -> Error {
     Error::new(
         Kind::Limit,
         format!("{width} columns"),
-        format!("at most {} columns", super::limits::MAX_COLUMNS),
+        format!(
+            "at most {} columns; is there one sample in each row?",
+            super::limits::MAX_COLUMNS
+        ),
     )
 }

@@ -123,8 +123,11 @@ pub(super) fn read(
                 "{}, partly names and partly numbers",
                 problem::show(lines[last].text.trim_ascii())
             ),
-            "names only, or numbers only; else state whether the file has a header, or how many \
-             preamble lines",
+            format!(
+                "names only, or numbers, empty cells and NaN only; else one line under [text] of the axis file: header = true if \
+                 these are the names, preamble = {} to begin below them",
+                lines[last].number
+            ),
         )
         .at_row(lines[last].number));
     }
@@ -178,7 +181,7 @@ pub(super) fn wrong_header(line: u64, names: usize, fit: &Fit) -> Error {
             Kind::Format,
             found,
             format!(
-                "one name for each cell (separator {separator}), or state that there is no header"
+                "one name for each cell (separator {separator}), or header = false under [text] of the axis file"
             ),
         ),
     };
@@ -216,7 +219,7 @@ fn refuse_counted_row(lines: &[Line], fit: &Fit) -> Result<(), Error> {
             "{}, which may be column numbers or a sample",
             problem::show(line.text.trim_ascii())
         ),
-        "state whether the file has a header",
+        "header = true (column numbers) or header = false (a sample) under [text] of the axis file",
     )
     .at_row(line.number))
 }
@@ -242,7 +245,7 @@ pub(super) fn refuse_comma_twice(
     });
     let before = |c: usize| all(&|r| matches!(r.whole.get(c), Some(Whole::Digits | Whole::Before)));
     let after = |c: usize| all(&|r| matches!(r.whole.get(c), Some(Whole::Digits | Whole::After)));
-    let time = |c: usize| all(&|r| matches!(r.cells.get(c), Some(Cell::Moment(m)) if !m.fraction));
+    let time = |c: usize| all(&|r| r.cells.get(c).is_some_and(|cell| cell.is_whole_second()));
     let pair = (1..fit.width).find(|&c| after(c) && ((halves && before(c - 1)) || time(c - 1)));
     let Some(column) = pair else { return Ok(()) };
     let line = &lines[first.index];
@@ -258,8 +261,14 @@ pub(super) fn refuse_comma_twice(
             "{} is either two cells, {before} and {after}, or one with a decimal comma",
             problem::show(&both)
         ),
-        "state the separator or the decimal mark, add a header, or export with `;` or TAB between \
-         the cells",
+        format!(
+            "a header, an export with `;` or TAB between the cells, or one line under [text] of the axis file: \
+             separator = \"comma\" if these are two cells{}",
+            match fit.width {
+                2 => ", decimal = \"comma\" if they are one",
+                _ => "",
+            }
+        ),
     )
     .at_row(line.number)
     .in_column(column.to_string()))

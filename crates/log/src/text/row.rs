@@ -1,9 +1,9 @@
 //! Blocks of rows turned into columns of numbers, by a rule that is settled.
 
 use super::cell::{self, Cell};
-use super::clock;
 use super::halsampler;
 use super::limits::MAX_ROW_BYTES;
+use super::local::{Dates, Wrong};
 use super::options::Decimal;
 use super::problem;
 use super::split::{self, Ends, Field};
@@ -20,6 +20,8 @@ pub(super) enum Role {
     Text,
     /// Moments, as seconds from this one (nanoseconds).
     Moment { base: i64, dated: bool },
+    /// Dates with time as they are written from place to place, as seconds from the first.
+    Local(Dates),
     /// Counts of 100 ns since 1601, as seconds from this one.
     FileTime { base: i64 },
 }
@@ -341,6 +343,17 @@ impl Parser<'_> {
                 cell if cell.is_void() => Some(f64::NAN),
                 _ => return Err(problem::wrong_moment(&found.text, dated)),
             },
+            Role::Local(mut dates) => match cell::classify(&found.text) {
+                Cell::Local(date) => {
+                    let seconds = dates
+                        .seconds(date)
+                        .map_err(|unclear| problem::wrong_date(&found.text, dates, unclear))?;
+                    self.block.state.roles[column] = Role::Local(dates);
+                    Some(seconds)
+                }
+                cell if cell.is_void() => Some(f64::NAN),
+                _ => return Err(problem::wrong_date(&found.text, dates, Wrong::NoDate)),
+            },
             Role::FileTime { base } => match file_time(&found.text) {
                 Some(count) => Some((count.saturating_sub(base)) as f64 / 1e7),
                 None if cell::classify(&found.text).is_void() => Some(f64::NAN),
@@ -376,13 +389,7 @@ impl Parser<'_> {
             // A number with the other decimal mark does not make a column text.
             cell if state.roles[column] == Role::Unknown && !matches!(cell, Cell::Number(..)) => {
                 state.roles[column] = Role::Text;
-                let text = match clock::is_local_date(&found.text) {
-                    true => format!(
-                        "{}, with day and month in unknown order",
-                        problem::show(&found.text)
-                    ),
-                    false => problem::show(&found.text),
-                };
+                let text = problem::text_cell(&found.text);
                 self.block.texts.push((
                     column,
                     Seen {

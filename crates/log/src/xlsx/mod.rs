@@ -2,9 +2,11 @@
 //!
 //! Format: ISO/IEC 29500-1. The rows of a sheet are read as the rows of a text table are: titles above, a header or none, units
 //! in it or in a row below it, empty cells, columns of text. The first sheet with a table of two columns of numbers and three rows is
-//! taken (of smaller ones the first, where there is nothing else), and the others are named in [`Table::skipped`]. Cells that are shown as dates or times become seconds from the first; of a formula its last result counts.
+//! taken (of smaller ones the first, where there is nothing else), and the others are named in [`Table::skipped`]. Numbers may
+//! be texts, with a decimal point or comma, where a whole column is so. Cells that are shown as dates or times become seconds from the first; of a formula its last result counts.
 
 mod book;
+mod commas;
 mod sheet;
 mod xml;
 
@@ -99,10 +101,12 @@ fn table(archive: &mut Archive, book: &Book, id: &str, limits: Limits) -> Result
     let target = target
         .flatten()
         .ok_or_else(|| broken("a sheet without a file"))?;
-    let width = part(archive, &target, |reader| {
-        Sheet::new(reader, book, 0, Budget::from(limits).samples()).widest()
+    let (width, commas) = part(archive, &target, |reader| {
+        Sheet::new(reader, book, 0, Budget::from(limits).samples()).survey()
     })?
     .ok_or_else(|| broken("a sheet whose file is missing"))?;
+    commas.check()?;
+    let has_commas = commas.any();
     let options = TextOptions {
         separator: Some(Separator::Tab),
         decimal: Some(Decimal::Point),
@@ -114,11 +118,17 @@ fn table(archive: &mut Archive, book: &Book, id: &str, limits: Limits) -> Result
         book,
         width,
         Budget::from(limits).samples(),
-    );
+    )
+    .with_points(commas);
     let mut table = text::read_sized(sheet, None, &options, limits, &crate::open::everything)?;
     table
         .detected
         .retain(|said| !said.starts_with("separator") && !said.starts_with("decimal"));
+    if has_commas {
+        table
+            .detected
+            .push("decimal comma in cells that are texts".to_owned());
+    }
     Ok(table)
 }
 
@@ -148,7 +158,13 @@ fn broken(found: impl std::fmt::Display) -> Error {
 impl Error {
     /// The same error, in this sheet.
     fn in_sheet(mut self, name: &str) -> Self {
-        self.found = format!("sheet {name}: {}", self.found);
+        // How its rows are handed to the text reader is none of its user's business.
+        let found = self.found.replace(" with separator TAB, decimal point", "");
+        self.found = format!("sheet {name}: {}", found.replace("\\t", " | "));
+        self.allowed = self
+            .allowed
+            .replace(", as stated", "")
+            .replace(" (separator TAB)", "");
         self
     }
 }

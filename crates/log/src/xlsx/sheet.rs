@@ -3,6 +3,7 @@
 use std::io::{self, BufRead, Read};
 
 use super::book::Book;
+use super::commas::Commas;
 use super::xml::{Part, Xml, attribute, name};
 
 /// Most columns, those of the text reader.
@@ -17,6 +18,8 @@ pub(super) struct Sheet<'b, R> {
     book: &'b Book,
     /// Cells of a row, the missing ones included.
     width: usize,
+    /// The columns whose cells are texts with a decimal comma.
+    commas: Commas,
     /// Cells that may still come.
     cells: u64,
     row: u64,
@@ -31,6 +34,7 @@ impl<'b, R: BufRead> Sheet<'b, R> {
             xml: Xml::new(reader),
             book,
             width,
+            commas: Commas::default(),
             cells,
             row: 0,
             line: Vec::new(),
@@ -38,18 +42,27 @@ impl<'b, R: BufRead> Sheet<'b, R> {
         }
     }
 
-    /// The cells of the widest row.
-    pub(super) fn widest(mut self) -> io::Result<usize> {
-        let mut most = 0;
+    /// The same sheet, with points in place of the commas of these columns.
+    pub(super) fn with_points(mut self, commas: Commas) -> Self {
+        self.commas = commas;
+        self
+    }
+
+    /// The cells of the widest row, and the decimal marks of all that are texts.
+    pub(super) fn survey(mut self) -> io::Result<(usize, Commas)> {
+        let (mut most, mut commas) = (0, Commas::default());
         while let Some(cells) = self.cells()? {
             most = most.max(cells.len());
+            for (column, cell) in cells.iter().enumerate() {
+                commas.see(column, self.row, &cell.text, cell.is_text);
+            }
         }
-        Ok(most)
+        Ok((most, commas))
     }
 
     /// The cells of the next row, and how many rows without any are before it.
-    fn cells(&mut self) -> io::Result<Option<Vec<String>>> {
-        let mut cells: Vec<String> = Vec::new();
+    fn cells(&mut self) -> io::Result<Option<Vec<Said>>> {
+        let mut cells: Vec<Said> = Vec::new();
         let mut cell = Cell::default();
         let (mut in_value, mut in_row) = (false, false);
         while let Some(part) = self.xml.next()? {
@@ -89,7 +102,7 @@ impl<'b, R: BufRead> Sheet<'b, R> {
                             text: String::new(),
                         };
                         if empty {
-                            cells.resize(at + 1, String::new());
+                            cells.resize(at + 1, Said::default());
                         }
                     }
                     "v" | "t" => in_value = in_row && !empty,
@@ -100,8 +113,11 @@ impl<'b, R: BufRead> Sheet<'b, R> {
                 Part::Close(tag) => match tag.as_str() {
                     "v" | "t" => in_value = false,
                     "c" if in_row => {
-                        cells.resize(cell.at, String::new());
-                        cells.push(self.book.text(&cell.kind, cell.style, &cell.text));
+                        cells.resize(cell.at, Said::default());
+                        cells.push(Said {
+                            text: self.book.text(&cell.kind, cell.style, &cell.text),
+                            is_text: matches!(cell.kind.as_str(), "s" | "str" | "inlineStr"),
+                        });
                     }
                     "row" => return Ok(Some(cells)),
                     _ => {}
@@ -120,10 +136,16 @@ impl<'b, R: BufRead> Sheet<'b, R> {
         };
         // Rows that are not there are lines without cells, so that lines are counted as rows are.
         self.line.resize((self.row - before - 1) as usize, b'\n');
-        let filled = cells.iter().filter(|cell| !cell.is_empty());
-        let is_title = filled.count() < 2 && cells.iter().all(|cell| cell.parse::<f64>().is_err());
+        for (column, cell) in cells.iter_mut().enumerate() {
+            if cell.is_text {
+                self.commas.to_point(column, &mut cell.text);
+            }
+        }
+        let filled = cells.iter().filter(|cell| !cell.text.is_empty());
+        let is_title =
+            filled.count() < 2 && cells.iter().all(|cell| cell.text.parse::<f64>().is_err());
         if !is_title {
-            cells.resize(self.width.max(cells.len()), String::new());
+            cells.resize(self.width.max(cells.len()), Said::default());
         }
         let left = self.cells.checked_sub(cells.len() as u64);
         self.cells = left.ok_or_else(|| io::Error::other("more cells than are allowed"))?;
@@ -131,7 +153,7 @@ impl<'b, R: BufRead> Sheet<'b, R> {
             if index > 0 {
                 self.line.push(b'\t');
             }
-            self.line.extend(cell.bytes().map(|byte| match byte {
+            self.line.extend(cell.text.bytes().map(|byte| match byte {
                 b'\t' | b'\n' | b'\r' | 0 => b' ',
                 b'"' => b'\'',
                 byte => byte,
@@ -140,6 +162,13 @@ impl<'b, R: BufRead> Sheet<'b, R> {
         self.line.push(b'\n');
         Ok(())
     }
+}
+
+/// What a cell says, and whether it is a text.
+#[derive(Clone, Default)]
+struct Said {
+    text: String,
+    is_text: bool,
 }
 
 #[derive(Default)]

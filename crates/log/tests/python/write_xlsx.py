@@ -76,6 +76,29 @@ def titled(name):
     truth.write()
 
 
+def commas(name):
+    """Numbers that are texts with a decimal comma, dates that are texts, and a column of numbers."""
+    truth = Truth(name)
+    book = Workbook()
+    sheet = book.active
+    sheet.append(["sample time in ms", "0,25"])
+    sheet.append(["at", "Position [mm]", "Force [N]", "whole"])
+    n = 60
+    position, force = np.arange(n) / 7 - 3, np.sin(np.arange(n)) * 1e-3
+    start = datetime.datetime(2024, 11, 26, 12)
+    for i in range(n):
+        at = (start + datetime.timedelta(milliseconds=i)).strftime("%d.%m.%Y %H:%M:%S,%f")[:-3]
+        comma = lambda number: repr(float(number)).replace(".", ",")
+        sheet.append([at, comma(position[i]), float(force[i]), str(i)])
+    book.save(truth.path)
+    truth.column("at", np.arange(n) / 1000)
+    truth.column("Position", position)
+    truth.column("Force", force)
+    truth.column("whole", np.arange(n, dtype=float))
+    truth.write()
+
+
+commas("commas.xlsx")
 table("table.xlsx", False)
 table("written.xlsx", True)
 titled("titled.xlsx")

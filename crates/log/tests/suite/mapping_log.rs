@@ -27,6 +27,35 @@ fn a_clean_log_has_no_warning_and_is_kept_as_it_is() {
     assert!(log.valid().iter().all(|v| *v));
 }
 
+/// Rounding makes two steps of one, of which the median is neither; their mean is the rate.
+#[test]
+fn the_rate_of_rounded_time_stamps_is_that_of_their_mean_step() {
+    // 4 kHz as seconds since 1970, which 64 bits resolve to 0.24 us; as ticks of 100 ns since the year 1, to 12.8 us; 3 kHz to 1 us.
+    let stamps = |f: &dyn Fn(f64) -> f64| (0..4000).map(|i| f(f64::from(i))).collect::<Vec<_>>();
+    for (header, time, rate) in [
+        (
+            "time [s]",
+            stamps(&|i| 1_732_622_400.0 + i / 4000.0),
+            4000.0,
+        ),
+        ("time [us]", stamps(&|i| 6.38e16 + i * 250.0), 4000.0),
+        ("time [us]", stamps(&|i| (i * 1e6 / 3000.0).round()), 3000.0),
+        ("time [ms]", stamps(&|i| i), 1000.0),
+    ] {
+        let mut axis = axis(4000);
+        axis.time = time;
+        let mut table = axis.table();
+        table.columns[0] = column(header, table.columns[0].values.clone());
+        let log = read(&table);
+        assert!(
+            (log.rate_hz / rate - 1.0).abs() < 1e-5,
+            "{header}: {}",
+            log.rate_hz
+        );
+        assert_eq!(log.segments.len(), 1);
+    }
+}
+
 #[test]
 fn large_time_offsets_are_taken_off_before_rounding() {
     // FILETIME: 100 ns ticks since 1601, near 1.3e17, where neighbouring doubles are 16 apart.

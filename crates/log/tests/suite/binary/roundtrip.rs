@@ -182,14 +182,19 @@ fn svb_comes_back_bit_for_bit() {
 #[test]
 fn workbooks_come_back_bit_for_bit() {
     let tables = come_back("write_xlsx.py");
-    assert_eq!(tables.len(), 3);
+    assert_eq!(tables.len(), 4);
     for (name, table) in &tables {
+        let commas = detects(table, "decimal comma in cells that are texts");
+        assert_eq!(commas, name == "commas.xlsx", "{name}");
         let force = table
             .columns
             .iter()
             .find(|c| c.name == "Torque" || c.name == "Force")
             .unwrap();
-        let unit = if name == "titled.xlsx" { "N" } else { "N m" };
+        let unit = match name.as_str() {
+            "titled.xlsx" | "commas.xlsx" => "N",
+            _ => "N m",
+        };
         assert_eq!(force.unit.as_deref(), Some(unit), "{name}");
         assert!(detects(table, "sheet "), "{name}");
     }

@@ -63,6 +63,20 @@ fn catalogue() -> Vec<(&'static str, Vec<u8>, TextOptions)> {
             "date after times of day",
             "time;pos\n10:00:00,5;1\n2024-05-01 10:00:01;2\n",
         ),
+        (
+            "dates of unknown order",
+            "time;pos\n03/04/2024 10:00:00;1.5\n03/04/2024 10:00:01;1.5\n07/04/2024 10:00:00;2.5\n",
+        ),
+        (
+            "date in another order",
+            "time;pos\n26.11.2024 10:00:00;1.5\n11.27.2024 10:00:00;2.5\n26.11.2024 10:00:01;2\n",
+        ),
+        (
+            "date in another form",
+            "time;pos\n26/11/2024 10:00:00;1.5\n26/11/2024 10:00:01;2\n11/27/2024 10:00:00;2.5\n26/11/2024 10:00:01;2\n",
+        ),
+        ("columns of text alone", "name;phase\na;hold\nb;go\n"),
+        ("numbers with units, apart", "time;pos\n0 s;1.5 mm\n1 s;1.6 mm\n"),
         ("binary", "PK\u{3}\u{4}\u{14}\0\0\0"),
         (
             "control characters",

@@ -197,10 +197,11 @@ fn text_columns_are_skipped_and_said() {
             "note: no number in any row"
         ]
     );
-    let table = detect("t;day\n0;01/02/2024 10:00:00\n1,5;01/02/2024 10:00:01\n").unwrap();
+    // Of a column that is mostly text the first text is shown, and what of it may be mended.
+    let table = detect("t;x\n0;0.5\n1;1,234.5\n2;2,345.5\n").unwrap();
     assert_eq!(
         table.skipped,
-        ["day: text such as `01/02/2024 10:00:00`, with day and month in unknown order in row 2"]
+        ["x: text such as `1,234.5` (digits must not be grouped) in row 3"]
     );
 }
 
@@ -243,6 +244,76 @@ fn moments_become_seconds() {
             .iter()
             .any(|d| d.contains("a day added after each midnight"))
     );
+}
+
+#[test]
+fn local_dates_become_seconds_where_their_order_is_clear_or_not_needed() {
+    let read = |rows: &[&str]| {
+        let rows: Vec<String> = rows.iter().map(|date| format!("{date};1.5\n")).collect();
+        detect(format!("Zeit;x\n{}", rows.concat())).map(|table| {
+            let said = table.detected.iter().find(|said| said.starts_with("Zeit"));
+            (
+                table.columns[0].values.clone(),
+                said.cloned().unwrap_or_default(),
+            )
+        })
+    };
+    let seconds = |order: &str| {
+        format!("Zeit: dates with time, {order}, converted to seconds from the first")
+    };
+    for (rows, values, order) in [
+        (
+            ["26.11.2024 12:00:00.123", "26.11.2024 12:00:00.124"],
+            [0.0, 0.001],
+            "day before month",
+        ),
+        (
+            ["11/26/2024 11:59:59 AM", "11/26/2024 12:00:00 PM"],
+            [0.0, 1.0],
+            "month before day",
+        ),
+        (
+            ["02/01/2024 10:00:00.5", "02/01/2024 10:00:00.75"],
+            [0.0, 0.25],
+            "all of one day",
+        ),
+        (
+            ["02/01/2024 23:59:59.5", "03/01/2024 00:00:00.5"],
+            [0.0, 1.0],
+            "day before month",
+        ),
+        (
+            ["02/01/2024 23:59:59.5", "02/02/2024 00:00:00.5"],
+            [0.0, 1.0],
+            "month before day",
+        ),
+        (
+            ["24/11/26 12:00:00", "24/11/26 12:00:01"],
+            [0.0, 1.0],
+            "all of one day",
+        ),
+    ] {
+        assert_eq!(
+            read(&rows).unwrap(),
+            (values.to_vec(), seconds(order)),
+            "{rows:?}"
+        );
+    }
+    // A day that follows far down in the file shows the order for all blocks that come after it.
+    let mut text = String::from("time;x\n");
+    for i in 0..200_000_u32 {
+        let (day, second) = ((i >= 100_000) as u32, i % 100_000);
+        let of_day = f64::from(second) * 1e-3 + if day == 0 { 86_300.0 } else { 0.0 };
+        let (hour, minute) = (of_day as u32 / 3600, of_day as u32 / 60 % 60);
+        text += &format!(
+            "{}/05/2024 {hour:02}:{minute:02}:{:06.3};1.5\n",
+            3 + day,
+            of_day % 60.0
+        );
+    }
+    let table = detect(&text).unwrap();
+    let last = table.columns[0].values.last().copied().unwrap();
+    assert!((last - 199.999).abs() < 1e-9, "{last}");
 }
 
 #[test]
