@@ -1,4 +1,4 @@
-//! Units at the end of names: `Zeit_ms`, `J3_q_act_deg`, `position, mm`, `Weg / mm`, `speed in mm/s`.
+//! Units at the end of names: `Zeit_ms`, `J3_q_act_deg`, `position, mm`, `Weg / mm`, `Weg/mm`, `speed in mm/s`.
 
 use super::channel::{Channel, Motion, Role};
 use super::choose::allows;
@@ -23,11 +23,37 @@ struct Apart<'a> {
     marked: bool,
 }
 
-/// A name without the unit at its end, and that; `None` where it ends in none.
-fn apart(name: &str) -> Option<Apart<'_>> {
-    let name = name.trim();
+/// Most names with a stroke that are looked at.
+const MOST_STROKES: usize = 64;
+
+/// A quantity over its unit, as DIN 1313 and ISO 80000 write it: `t/s`, `v/(mm/s)`.
+fn over(name: &str) -> Option<(&str, &str)> {
+    let (stem, unit) = name.split_once('/')?;
+    let bare = unit
+        .strip_prefix('(')
+        .and_then(|unit| unit.strip_suffix(')'));
+    let unit = bare.unwrap_or(unit);
+    is_known(unit).then_some((stem, unit))
+}
+
+/// Whether strokes in the names of a table stand between quantities and units: in a path, `arm/position`, or where but one name has
+/// one, `motor/A`, they are something else.
+fn strokes_are_over_units(table: &Table) -> bool {
+    let names = table.columns.iter().map(|column| column.name.trim());
+    let mut strokes = names.filter(|name| name.contains('/')).take(MOST_STROKES);
+    let mut count = 0;
+    strokes.all(|name| {
+        count += 1;
+        over(name).is_some()
+    }) && count > 1
+}
+
+/// The name of a column without the unit at its end, and that; `None` where it ends in none.
+fn apart(table: &Table, index: usize) -> Option<Apart<'_>> {
+    let name = table.columns[index].name.trim();
     let mut marked = MARKS.into_iter().filter_map(|mark| name.rsplit_once(mark));
     let marked = marked.find(|(_, ending)| is_known(ending));
+    let marked = marked.or_else(|| over(name).filter(|_| strokes_are_over_units(table)));
     let (stem, ending) = match marked {
         Some((stem, ending)) => (stem.trim_end(), ending.trim()),
         None => name
@@ -62,7 +88,7 @@ fn read(table: &Table, index: usize) -> Option<(&str, Unit, Option<Hint>)> {
         stem,
         ending,
         marked,
-    } = apart(&column.name)?;
+    } = apart(table, index)?;
     let unit = Unit::parse(ending).ok()?;
     let hint = names::hint(stem);
     let one_letter = ending.len() == 1;
@@ -116,7 +142,7 @@ pub(super) fn of_channel(
             stem,
             ending,
             marked,
-        } = apart(&table.columns[index].name)?;
+        } = apart(table, index)?;
         let open = names::hint(stem).is_none() && ending != "m";
         let open = marked || open && !counts_columns(table, index, stem);
         Unit::parse(ending).ok().filter(|_| open)

@@ -146,6 +146,11 @@ fn units_at_the_end_of_names_are_read() {
         &["Zeit / ms", "Weg / mm", "Strom / mA"],
         &["t in s", "x in mm", "speed in mm/s", "F in kN"],
         &["t", "pos, left", "force / axis"],
+        // Quantities over their units, where all strokes are so: not in paths, nor in one name alone.
+        &["Zeit/s", "Weg/mm", "v/(mm/s)", "Kraft/N"],
+        &["t/s", "s/mm", "F/N"],
+        &["t/s", "arm/position", "arm/force"],
+        &["t", "position", "motor/A"],
     ]));
     let line = |headers: &[&str], column: &str, role: &str| {
         let mapping = Mapping {
