@@ -82,10 +82,10 @@ impl From<Estimate> for FittedLaw {
 }
 
 impl Estimate {
-    /// The same estimate with the status that its search was stopped early.
+    /// The same estimate as one whose search was stopped early: its values are what was found until then, without intervals.
     #[must_use]
     pub fn interrupted(mut self) -> Self {
-        self.fitted.status = Status::Interrupted;
+        self.fitted.stopped();
         self
     }
 
@@ -249,7 +249,7 @@ pub fn estimate(
     );
     let within = Logs::of(record).and_then(|logs| logs.within(at));
     let within = within.and_then(|within| Fit::new(&series.measured, &within));
-    Estimate {
+    let found = Estimate {
         within: within.map_or(fit.rmse, |within| within.rmse),
         fitted: FittedLaw {
             law,
@@ -274,6 +274,10 @@ pub fn estimate(
         p: optimum.p.clone(),
         coefficients: c.clone(),
         unknowns,
+    };
+    match optimum.status {
+        Status::Interrupted => found.interrupted(),
+        _ => found,
     }
 }
 

@@ -17,7 +17,7 @@ const SAME_WEIGHT: f64 = 1e-6;
 const MOST_WEIGHTS: usize = 12;
 
 /// Fits a law by the separable method and states its parameters, with intervals that count what encoder, filters and a
-/// curved cost do ([`intervals`]). An interrupted search gives the best found so far, with linear intervals.
+/// curved cost do ([`intervals`]). An interrupted search gives the best found so far, without intervals.
 ///
 /// A fitted delay that reaches the end of its range is no delay but some other effect that the law does
 /// not explain: it is set to zero and the law is fitted again, as the terms of the estimate then say. Where friction depends on

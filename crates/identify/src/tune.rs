@@ -83,6 +83,8 @@ pub struct Tuned {
     pub lag: Lag,
     /// The delay of the force in the first fit, whose common cut-off is low, for those fits too; `None` where none is fitted.
     pub first_delay: Option<FirstDelay>,
+    /// Where the last fit of a round ended, for [`Settings::near`].
+    pub near: Option<(Law, Vec<f64>)>,
     /// Whether the observer stopped it before the choice was made.
     pub interrupted: bool,
 }
@@ -108,6 +110,7 @@ pub fn tune(
         counts: Counts::default(),
         lag: Lag::NONE,
         first_delay: None,
+        near: None,
         interrupted: false,
     };
     let open = |cutoff| cutoff == Cutoff::Auto;
@@ -165,6 +168,7 @@ pub fn tune(
             }
         };
         last = Some(found.p[..law.nonlinear()].to_vec());
+        tuned.near = Some((law, found.p.clone()));
         tuned.counts.add(&found.counts);
         if wanted.settling > 0.0 {
             wanted.settling = found.settling();
@@ -279,6 +283,7 @@ pub fn settle(
         counts: found.counts,
         lag: Lag::NONE,
         first_delay: None,
+        near: Some((law, found.p)),
         interrupted: found.status == Status::Interrupted,
     })
 }

@@ -48,6 +48,9 @@ pub(crate) fn constants(result: &ResultFile, called: impl Fn(&str) -> String) ->
     if trust.next == Next::Finish {
         return "none: a search by itself gives no intervals".into();
     }
+    if trust.next == Next::Again {
+        return "none: the run was stopped before it knew any interval".into();
+    }
     let listed = |names: &[String]| {
         let called: Vec<_> = names.iter().map(|name| called(name)).collect();
         called.join(", ")

@@ -1,6 +1,7 @@
 //! A law as a search found it, without the least squares that give it intervals.
 
 use crate::conditioning::record::Record;
+use crate::estimate::fitted::FittedLaw;
 use crate::estimate::{Estimate, estimate};
 use crate::law::terms::{Delay, Terms};
 use crate::parameter::Parameter;
@@ -16,16 +17,36 @@ use stiction_search::{Counts, Status};
 /// Why a parameter that a search found by itself has no interval.
 pub const NO_INTERVAL: &str = "as the search found it: without least squares it has no interval";
 
-pub(crate) fn without_interval(parameter: &mut Parameter) {
+/// Why a parameter of a search that was stopped has none: how far it is from the optimum nothing says.
+const STOPPED: &str = "the run was stopped before its interval was known";
+
+pub(crate) fn without_interval(parameter: &mut Parameter, reason: &str) {
     if !parameter.identified {
         return;
     }
     *parameter = Parameter {
         identified: true,
         identifiable: false,
-        reason: NO_INTERVAL.into(),
+        reason: reason.into(),
         ..Parameter::given(parameter.name, parameter.value)
     };
+}
+
+impl FittedLaw {
+    /// Leaves every parameter that was fitted open, for this reason.
+    fn leave_open(&mut self, reason: &str) {
+        for parameter in &mut self.parameters {
+            without_interval(parameter, reason);
+        }
+        self.covariance = Covariance::default();
+    }
+
+    /// The values that a stopped search has found so far, without intervals: those about another point than the optimum say nothing
+    /// of how far it is.
+    pub(crate) fn stopped(&mut self) {
+        self.status = Status::Interrupted;
+        self.leave_open(STOPPED);
+    }
 }
 
 impl Estimate {
@@ -93,8 +114,7 @@ impl Estimate {
             evaluation,
         };
         let mut out = estimate(record, self.law, terms, &optimum, self.low_speed_bound);
-        out.fitted.parameters.iter_mut().for_each(without_interval);
-        out.fitted.covariance = Covariance::default();
+        out.fitted.leave_open(NO_INTERVAL);
         Ok(out)
     }
 }

@@ -91,9 +91,6 @@ impl SimulationFit {
     }
 }
 
-/// Most plant steps of one simulation for which intervals are computed after an interruption: a fifth of a second or so.
-const MOST_STEPS_AFTER_A_STOP: usize = 100_000;
-
 /// Puts together what a search found.
 pub(crate) fn describe(
     search: &Search,
@@ -128,8 +125,9 @@ pub(crate) fn describe(
             _ => false,
         })
         .collect();
-    let stopped_early = status == Status::Interrupted && problem.steps() > MOST_STEPS_AFTER_A_STOP;
-    let (unknowns, without) = match stopped_early {
+    let is_stopped = status == Status::Interrupted;
+    // What a stopped search has found has no intervals.
+    let (unknowns, without) = match is_stopped {
         true => (
             DMatrix::from_element(held.len(), held.len(), f64::INFINITY),
             vec![false; held.len()],
@@ -186,7 +184,7 @@ pub(crate) fn describe(
     );
     advice::explain(&mut parameters, &covariance);
     let top = signals.velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    let fitted = FittedLaw {
+    let mut fitted = FittedLaw {
         law,
         terms: terms.clone(),
         parameters,
@@ -213,6 +211,9 @@ pub(crate) fn describe(
         history,
         elements: Vec::new(),
     };
+    if is_stopped {
+        fitted.stopped();
+    }
     SimulationFit {
         fitted,
         never_breaks_away,

@@ -181,12 +181,6 @@ impl Problem<'_> {
         out
     }
 
-    /// Plant steps of one simulation of all runs.
-    pub fn steps(&self) -> usize {
-        let of = |run: &Run| run.time.len() * periods(run) * self.drive.substeps;
-        self.runs.iter().map(of).sum()
-    }
-
     /// Sum of squares of the measured signals with the same weights: the reference for what is only rounding.
     pub fn energy(&self) -> f64 {
         let mut energy = 0.0;

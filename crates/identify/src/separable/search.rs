@@ -272,14 +272,33 @@ impl<'a> Search<'a> {
                 best = Descent { history, ..descent };
             }
         }
-        let status = if watch.stopped {
-            Status::Interrupted
-        } else {
-            best.status
-        };
+        let mut status = best.status;
+        if watch.stopped {
+            status = Status::Interrupted;
+            best = self.not_worse_than_near(best, bounds, watch);
+        }
         watch.fraction = 1.0;
         watch.report(self.full.relative(best.evaluation.cost));
         (best, status)
+    }
+
+    /// What a stopped search has found, or the point of an earlier fit where that is better.
+    fn not_worse_than_near(&self, best: Descent, bounds: &SearchBox, watch: &mut Watch) -> Descent {
+        let objective = self.delayed.unwrap_or(self.full);
+        let near = self.settings.near.as_ref();
+        let Some((_, near)) = near.filter(|(law, _)| *law == self.law) else {
+            return best;
+        };
+        let mut near = near.clone();
+        near.resize(objective.nonlinear(), 0.0);
+        let near = descend(objective, bounds, &near, 0, watch);
+        match near.evaluation.cost < best.evaluation.cost {
+            true => Descent {
+                history: best.history,
+                ..near
+            },
+            false => best,
+        }
     }
 
     /// Starts for a law with bristle and Stribeck curve: the curve of the static law on this record,

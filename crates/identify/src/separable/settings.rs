@@ -1,5 +1,6 @@
 //! How the separable search works.
 
+use crate::law::Law;
 use crate::separable::search_box::SearchBox;
 
 /// How the separable search works.
@@ -18,6 +19,9 @@ pub struct Settings {
     pub steps: usize,
     /// Where to look; `None` takes the box that the record allows.
     pub bounds: Option<SearchBox>,
+    /// A law and its nonlinear unknowns, in its order and then the delay, as an earlier fit of the same logs has found them: a search
+    /// of this law that is stopped ends no worse than there. Where nothing stops it, it is not looked at.
+    pub near: Option<(Law, Vec<f64>)>,
 }
 
 impl Default for Settings {
@@ -29,6 +33,7 @@ impl Default for Settings {
             thin: 4000,
             steps: 200,
             bounds: None,
+            near: None,
         }
     }
 }

@@ -7,8 +7,8 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::path::PathBuf;
 use stiction::commands::Outcome;
-use stiction::result::{LawEntry, Next};
-use stiction::{Control, LawKind, Observer, Progress, Silent};
+use stiction::result::{LawEntry, Next, ResultFile};
+use stiction::{Control, LawKind, Observer, Progress, Silent, Stage};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 
 const SAMPLES: usize = 8000;
@@ -200,13 +200,16 @@ fn threads_change_nothing() {
     assert_eq!(one, with(4));
 }
 
-/// Stops after some looks at the search.
-struct Patience(usize);
+/// Stops after some looks at the search, and keeps the least error that it was told of.
+struct Patience(usize, f64);
 
 impl Observer for Patience {
     fn progress(&mut self, progress: &Progress) -> Control {
         assert!((0.0..=1.0).contains(&progress.fraction));
         self.0 = self.0.saturating_sub(1);
+        if progress.stage == Stage::Fine && progress.best.is_finite() {
+            self.1 = self.1.min(progress.best);
+        }
         if self.0 == 0 {
             Control::Stop
         } else {
@@ -224,18 +227,54 @@ fn an_interrupted_choice_is_not_trusted() {
         let mut options = options(&[&file], LawKind::LuGre);
         options.law = None;
         options.compare_laws = true;
-        let outcome = options.identify(&mut Patience(patience)).unwrap();
-        assert_eq!(outcome.result.search.status, "interrupted");
-        assert!(outcome.result.laws.is_empty());
-        assert!(!outcome.result.trust.trustworthy);
+        let result = stopped(&options, &mut Patience(patience, f64::INFINITY));
+        assert!(result.laws.is_empty());
+    }
+}
+
+/// Runs until it is stopped: nothing of what is found then has an interval or is a constant of the machine, and of the machine
+/// nothing else is concluded.
+fn stopped(options: &common::Asked, patience: &mut Patience) -> ResultFile {
+    let result = options.identify(patience).unwrap().result;
+    assert_eq!(result.search.status, "interrupted");
+    assert!(!result.trust.trustworthy && result.trust.constants.is_empty());
+    assert_eq!(result.trust.next, Next::Again);
+    let fitted = result
+        .parameters
+        .iter()
+        .filter(|p| p.origin == "identified");
+    for parameter in fitted {
         assert!(
-            outcome
-                .result
-                .warnings
-                .iter()
-                .any(|w| w.code.as_str() == "interrupted")
+            !parameter.identifiable && parameter.ci95.is_none(),
+            "{parameter:?}"
         );
     }
+    let codes = result.warnings.iter().map(|w| w.code.as_str());
+    assert_eq!(codes.filter(|code| *code == "interrupted").count(), 1);
+    result
+}
+
+/// What the first least squares have found is not lost by a stop in one of the many stages after them.
+#[test]
+fn a_stop_keeps_the_best_that_was_found() {
+    let bench = Bench::new();
+    let file = log(&bench, LawKind::LuGre, false, 3, 50e-9);
+    let options = options(&[&file], LawKind::LuGre);
+    let mut all = Patience(usize::MAX, f64::INFINITY);
+    let whole = options.identify(&mut all).unwrap().result;
+    let looks = usize::MAX - all.0;
+    let mut seen = 0;
+    for tenth in 1..10 {
+        let mut patience = Patience(looks * tenth / 10, f64::INFINITY);
+        let result = stopped(&options, &mut patience);
+        // Once a descent has come near the optimum, so has what is given; its error is that of other cut-offs.
+        if 100.0 * patience.1 < 1.5 * whole.fit.relative_error_percent {
+            seen += 1;
+            let found = result.fit.relative_error_percent;
+            assert!(found < 1.5 * whole.fit.relative_error_percent, "{found}");
+        }
+    }
+    assert!(seen > 4, "{seen}");
 }
 
 /// Validation data judge the law and do not choose it; `--asymmetric` has nothing to add.

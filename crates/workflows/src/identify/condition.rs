@@ -31,6 +31,8 @@ pub(super) struct Conditioned {
     pub terms: LinearTerms,
     /// Speed below which a sample counts as slow, m/s or rad/s.
     pub low_speed: f64,
+    /// Settings of every fit of the record.
+    pub settings: Settings,
     /// How the cut-offs were chosen.
     pub note: Option<String>,
     /// Whether the same command would see the same record: the choice of the cut-offs was not stopped.
@@ -104,6 +106,10 @@ pub(super) fn condition(
         unseen_names,
         low_speed,
         conditioning: chosen.conditioning,
+        settings: Settings {
+            near: chosen.near,
+            ..settings
+        },
         note: chosen.note,
         repeatable: !chosen.interrupted,
     })

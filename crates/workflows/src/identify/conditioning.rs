@@ -40,6 +40,8 @@ pub(super) struct Chosen {
     pub lag: Lag,
     /// The delay of the force in the first fit of the choice, for every fit too.
     pub first_delay: Option<FirstDelay>,
+    /// Where its last fit ended.
+    pub near: Option<(Law, Vec<f64>)>,
     /// How it was chosen.
     pub note: Option<String>,
     /// Whether the choice was stopped; the conditioning is then the default one.
@@ -52,6 +54,7 @@ impl Chosen {
             conditioning,
             lag: Lag::NONE,
             first_delay: None,
+            near: None,
             note: None,
             interrupted: false,
         }
@@ -101,6 +104,7 @@ pub(super) fn choose(
         conditioning: tuned.conditioning,
         lag: tuned.lag,
         first_delay: tuned.first_delay,
+        near: tuned.near,
         note: match (note, lag) {
             (Some(note), Some(lag)) => Some(format!("{note}; {lag}")),
             (note, lag) => note.or(lag),

@@ -1,7 +1,7 @@
 //! The third step: the record to a law, by the method that is asked for.
 
 use super::choice::{self, Choice};
-use super::condition::{Conditioned, settings};
+use super::condition::Conditioned;
 use super::ladder::Ladder;
 use super::load::{Asked, Loaded};
 use super::logs::paths;
@@ -88,7 +88,7 @@ fn at_once(
 ) -> Result<Fitted, Error> {
     let options = asked.options;
     let mut ladder = ladder(asked, conditioned);
-    let settings = settings(options.seed);
+    let settings = &conditioned.settings;
     let refused = |source: engine::Error| Error::Identify {
         inputs: paths(&loaded.sources).join(", "),
         source,
@@ -96,10 +96,10 @@ fn at_once(
     let law = law(asked);
     let choice = match options.law {
         Some(_) => {
-            let other = ladder.hold_delay(law, &settings, observer);
+            let other = ladder.hold_delay(law, settings, observer);
             let fitted: Vec<_> = other.into_iter().collect();
             let compare = options.compare_laws;
-            choice::asked(law, &ladder, &fitted, compare, &settings, observer)
+            choice::asked(law, &ladder, &fitted, compare, settings, observer)
         }
         None => {
             // What the law is to be judged by must not choose it.
@@ -107,7 +107,7 @@ fn at_once(
                 held_out: &[],
                 ..ladder
             };
-            choice::auto(law, &ladder, &settings, observer)
+            choice::auto(law, &ladder, settings, observer)
         }
     };
     Ok(Fitted::new(choice.map_err(refused)?))
@@ -121,7 +121,7 @@ fn by_search(
     observer: &mut dyn Observer,
 ) -> Result<Fitted, Error> {
     let options = asked.options;
-    let settings = settings(options.seed);
+    let settings = &conditioned.settings;
     let found = searched::search(
         searched::Task {
             options,
@@ -131,7 +131,7 @@ fn by_search(
             law: law(asked),
             terms: conditioned.terms(options.asymmetric),
             low_speed: conditioned.low_speed,
-            settings: &settings,
+            settings,
             clock: asked.clock,
             keep: conditioned.repeatable,
         },
@@ -144,7 +144,7 @@ fn by_search(
             (found.estimate, found.optimum),
             &ladder(asked, conditioned),
             options.compare_laws,
-            &settings,
+            settings,
             observer,
         ),
     };
@@ -174,7 +174,7 @@ fn in_two_steps(
                 conditioned.terms(!asymmetric),
             ],
             low_speed: conditioned.low_speed,
-            settings: &settings(asked.options.seed),
+            settings: &conditioned.settings,
         },
         observer,
     )?;

@@ -277,8 +277,18 @@ impl Evidence<'_> {
     }
 }
 
+/// What half a search has found: it says nothing of the machine yet, and nothing else is concluded from it.
+fn stopped(law: &FittedLaw, mut warnings: Vec<Warning>) -> Judged {
+    let mut reasons = Reasons::default();
+    interrupted(law, &mut warnings, &mut reasons);
+    Judged::new(law, Shown::Sliding, None, reasons, warnings)
+}
+
 /// A law that was fitted to the force.
 pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
+    if evidence.law.status == Status::Interrupted {
+        return stopped(evidence.law, warnings);
+    }
     let mut reasons = Reasons::of_force(evidence.sources);
     of_a_search_alone(evidence.law, &mut reasons);
     let compensation = record(evidence, &mut warnings, &mut reasons);
@@ -298,6 +308,9 @@ pub(super) fn of_two_steps(
     changed: bool,
     mut warnings: Vec<Warning>,
 ) -> Judged {
+    if evidence.law.status == Status::Interrupted {
+        return stopped(evidence.law, warnings);
+    }
     let mut reasons = Reasons::of_force(evidence.sources);
     of_a_search_alone(evidence.law, &mut reasons);
     let compensation = record(evidence, &mut warnings, &mut reasons);
@@ -330,6 +343,9 @@ pub(super) fn of_position(
     unseen: &[(String, Unseen)],
     mut warnings: Vec<Warning>,
 ) -> Judged {
+    if evidence.law.status == Status::Interrupted {
+        return stopped(evidence.law, warnings);
+    }
     let mut reasons = Reasons::default();
     whole_record(evidence, &mut warnings, &mut reasons);
     let biased = open_loop(found, &mut warnings, &mut reasons);
@@ -516,7 +532,6 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
 
 fn search_ended(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
     let estimate = evidence.law;
-    interrupted(estimate, warnings, reasons);
     match estimate.status {
         Status::Converged | Status::Interrupted => {}
         Status::Budget | Status::Stalled | Status::Exhausted | Status::Target => {
@@ -550,7 +565,7 @@ fn of_a_search_alone(law: &FittedLaw, reasons: &mut Reasons) {
 
 fn interrupted(law: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
     if law.status == Status::Interrupted {
-        let text = "the search was interrupted; the best found so far is given";
+        let text = "the search was interrupted; the best found so far is given, without intervals";
         warnings.push(Warning::new(Code::Interrupted, text));
         reasons.push(text, Next::Again);
     }
