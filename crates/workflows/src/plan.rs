@@ -95,6 +95,7 @@ pub fn plan(
     }
     let given = assume::given(&axis, told, options)?;
     let start = carried::start(&given, options)?;
+    carried::tried(&given, options, start)?;
     let planned = design::design(&axis, given, inputs, options, observer)?;
     planned
         .map(|planned| carried::carried(planned, start))

@@ -399,6 +399,32 @@ fn identify_leads_to_a_plan_for_what_a_log_leaves_open() {
     assert!(!identify("plain.toml", "plain").contains("stiction plan"));
 }
 
+/// What a form cannot hold is known before anything is simulated: no progress is told, and nothing is written.
+#[test]
+fn counts_that_no_drive_holds_are_refused_before_the_plan_is_made() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    let all = [
+        "plan",
+        "axis.toml",
+        "--format",
+        "csp",
+        "--start",
+        "3000 m",
+        "--time",
+        "600s",
+        "--out",
+        "plan",
+    ];
+    let begun = std::time::Instant::now();
+    let (code, said, err) = run(at, &all);
+    assert_eq!((code, said.as_str()), (2, ""), "{err}");
+    assert!(err.contains("csp: 3000 m and 0 m/s in counts of"), "{err}");
+    assert!(!at.join("plan").exists());
+    // A plan of ten minutes takes far longer.
+    assert!(begun.elapsed().as_secs() < 10, "{:?}", begun.elapsed());
+}
+
 /// What a user goes through: a plan in the forms of his controller, a log of it, and one that was stopped too early.
 #[test]
 fn a_log_is_put_beside_its_plan() {

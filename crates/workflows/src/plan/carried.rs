@@ -2,10 +2,12 @@
 
 use super::PlanOptions;
 use super::assume::Given;
+use super::judged::refused;
 use super::outcome::Planned;
 use crate::error::Error;
 use stiction_log::{Dimension, Motion, Value};
-use stiction_plan::carrier::{Carrier, Job};
+use stiction_plan::carrier::{Carried, Carrier, Job};
+use stiction_plan::{HandMade, Motion as Path, hand_made};
 
 /// Where the axis stands when the motion starts, m (rad).
 pub(super) fn start(given: &Given, options: &PlanOptions) -> Result<f64, Error> {
@@ -23,23 +25,51 @@ pub(super) fn start(given: &Given, options: &PlanOptions) -> Result<f64, Error> 
     })
 }
 
+/// One full stroke in the forms that are wanted: what a form cannot hold is refused before anything is designed.
+pub(super) fn tried(given: &Given, options: &PlanOptions, start: f64) -> Result<(), Error> {
+    let (limits, rig) = (&given.nameplate.limits, &given.nameplate.rig);
+    let strokes =
+        hand_made(HandMade::Trapezoid, limits, rig, options.longest()).map_err(refused)?;
+    let Some(stroke) = strokes.and_then(|strokes| strokes.atoms().first().copied()) else {
+        return Ok(());
+    };
+    let stroke = Path::new(vec![stroke]).map_err(refused)?;
+    forms(&stroke, None, given, options, start).map(|_| ())
+}
+
 /// The plan with its set points; forms that are named twice are written once.
 pub(super) fn carried(mut planned: Planned, start: f64) -> Result<Planned, Error> {
-    let title = planned.file.name.as_deref().unwrap_or("axis");
+    let title = planned.file.name.as_deref();
+    planned.carried = forms(
+        &planned.motion,
+        title,
+        &planned.given,
+        &planned.options,
+        start,
+    )?;
+    Ok(planned)
+}
+
+/// The set points, then each form that was asked for.
+fn forms(
+    motion: &Path,
+    title: Option<&str>,
+    given: &Given,
+    options: &PlanOptions,
+    start: f64,
+) -> Result<Vec<Carried>, Error> {
     let job = Job {
-        motion: &planned.motion,
-        identifier: &stiction_export::identifier(title),
-        rotary: planned.given.motion == Motion::Rotary,
-        rate: planned.file.rig.rate,
-        resolution: planned.file.rig.resolution,
+        motion,
+        identifier: &stiction_export::identifier(title.unwrap_or("axis")),
+        rotary: given.motion == Motion::Rotary,
+        rate: given.logged.rate,
+        resolution: given.logged.encoder_step,
         start,
     };
-    let wanted = Carrier::ALL
+    Carrier::ALL
         .into_iter()
-        .filter(|form| *form == Carrier::Csv || planned.options.carriers.contains(form));
-    let carried = wanted.map(|form| form.carry(&job));
-    planned.carried = carried
+        .filter(|form| *form == Carrier::Csv || options.carriers.contains(form))
+        .map(|form| form.carry(&job))
         .collect::<Result<_, _>>()
-        .map_err(|e| Error::usage(e.found, e.allowed))?;
-    Ok(planned)
+        .map_err(|e| Error::usage(e.found, e.allowed))
 }
