@@ -193,7 +193,8 @@ fn unread(error: &stiction::commands::LogError, logs: &[PathBuf], axis: Option<&
     for log in logs {
         check.push_str(&format!(" {}", typed(log)));
     }
-    if error.allowed.contains("[text]") {
+    let of_text = error.allowed.contains("[text]");
+    if of_text || error.allowed.contains("axis.toml") {
         let file = axis.map_or_else(
             || {
                 let log = error.file.as_deref().unwrap_or(Path::new("log"));
@@ -201,7 +202,11 @@ fn unread(error: &stiction::commands::LogError, logs: &[PathBuf], axis: Option<&
             },
             typed,
         );
-        return format!("next, with [text] and that line in {file}: {check} --axis {file}");
+        let line = match of_text {
+            true => "[text] and that line",
+            false => "that line",
+        };
+        return format!("next, with {line} in {file}: {check} --axis {file}");
     }
     if let Some(axis) = axis {
         check.push_str(&format!(" --axis {}", typed(axis)));
