@@ -6,6 +6,7 @@ import operator
 from collections.abc import Iterable
 from typing import Any
 
+from . import _native
 from ._errors import argument
 
 LARGEST = 2**64 - 1
@@ -58,6 +59,13 @@ def truth(value: Any, place: str) -> bool:
 def some_threads(value: Any) -> int | None:
     """Threads of a call, or those of the process."""
     return None if value is None else whole(value, "threads", 1, MOST_THREADS)
+
+
+def choice(value: Any, place: str) -> str:
+    """One of the names that an argument may have; which of them, Rust sees."""
+    if not isinstance(value, str):
+        raise argument(place, repr(value), f"one of {', '.join(_native.choices(place))}")
+    return value
 
 
 def words(value: Any, place: str) -> list[str]:
