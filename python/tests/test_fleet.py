@@ -215,17 +215,18 @@ def test_what_is_known_of_a_log_is_that_of_the_last_call(client: Any, tmp_path: 
         found = {path: label[:3] for path, *_, label in _native.read_rows(str(out))}
         return taken, [found[path] for path in paths]
 
-    first = dict(machine="A", time=1.0, temperature=20.0)
+    first: dict[str, Any] = dict(machine="A", time=1.0, temperature=20.0)
     assert labelled(first, first, first) == (0, [("A", 1.0, 20.0)] * 3)
     before = (out / "part-000001.parquet").read_bytes()
     assert labelled(first, first, first) == (3, [("A", 1.0, 20.0)] * 3)
     assert (out / "part-000001.parquet").read_bytes() == before
-    mended = dict(machine="B", time=2e9, temperature=30.0)
+    mended: dict[str, Any] = dict(machine="B", time=2e9, temperature=30.0)
     assert labelled(mended, first, mended) == (3, [("B", 2e9, 30.0), ("A", 1.0, 20.0), ("B", 2e9, 30.0)])
     # Without a machine it is the name in the axis file again.
     assert labelled(dict(temperature=30.0), mended, mended)[1] == [("Z", None, 30.0), ("B", 2e9, 30.0), ("B", 2e9, 30.0)]
     # What was identified is untouched.
-    rows_now = [identify_uri(path, tmp_path / "axis.toml", law=LAW, **known) for path, known in zip(paths, (dict(temperature=30.0), mended, mended))]
+    last: list[dict[str, Any]] = [dict(temperature=30.0), mended, mended]
+    rows_now = [identify_uri(path, tmp_path / "axis.toml", law=LAW, **known) for path, known in zip(paths, last)]
     _native.write_rows(str(tmp_path / "now.parquet"), [json.dumps(row) for row in rows_now])
     assert whole(out, tmp_path) == (tmp_path / "now.parquet").read_bytes()
 
@@ -407,7 +408,8 @@ def test_a_time_is_what_a_list_may_have(when: Any, tmp_path: Path) -> None:
 
 
 def test_what_is_no_time_is_refused_with_what_is_one(client: Any, tmp_path: Path) -> None:
-    for when in ("noon", "01.03.2026", float("inf"), [], True, datetime.time(3)):
+    none: list[Any] = ["noon", "01.03.2026", float("inf"), [], True, datetime.time(3)]
+    for when in none:
         error = refused(run, [{"path": "a.csv", "time": when}], tmp_path, client=client)
         assert error.place == "logs[0]['time']" and "ISO 8601" in error.allowed, error
     twice = refused(run, ["a.csv", {"path": "b.csv"}, {"path": "b.csv", "machine": "M"}], tmp_path, client=client)
