@@ -14,8 +14,7 @@ from . import _native
 from ._axis import path_of
 from ._columns import is_columns, is_missing, items
 from ._errors import argument, kind_of
-from ._options import words
-from ._times import seconds
+from ._options import seconds, words
 from ._types import PathLike
 
 if TYPE_CHECKING:

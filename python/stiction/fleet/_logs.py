@@ -11,8 +11,7 @@ from typing import Any
 from .. import _native
 from .._columns import is_missing
 from .._errors import argument
-from .._options import maybe
-from .._times import seconds
+from .._options import maybe, seconds
 from .._types import AxisLike
 from ._fetch import Fetched, Unfetched, is_address, store
 from ._one import Log, axis_text, text_of_uri

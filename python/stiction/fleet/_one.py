@@ -10,8 +10,7 @@ from typing import Any, NamedTuple
 from .. import _native
 from .._axis import path_of, text_of
 from .._errors import argument
-from .._options import maybe, truth, whole
-from .._times import seconds
+from .._options import maybe, seconds, truth, whole
 from .._types import AxisLike, IdentifyOptions, RowLog
 from ._fetch import Fetched, Unfetched, is_address
 
