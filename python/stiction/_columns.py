@@ -5,9 +5,11 @@ An array of that kind which is contiguous is passed on as it is; any other that 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
+from . import _native
 from ._errors import argument, kind_of
 
 if TYPE_CHECKING:
@@ -26,6 +28,8 @@ SECONDS = (
     "seconds as numbers: ((t - t[0]) / numpy.timedelta64(1, 's'), 's'), of a DataFrame (t - t.iloc[0]).dt.total_seconds()"
 )
 """What a column of times may be."""
+IN_SECONDS = re.compile(r"[\[(]\s*s\s*[\])]\s*$")
+"""How a name ends that says seconds itself."""
 EXACT = 2**53
 """Integers up to this are exact as 64-bit floats."""
 
@@ -47,11 +51,34 @@ def columns(data: Any, name: str) -> list[Column]:
             if len(values) != 2 or not isinstance(values[1], str):
                 raise argument(place, f"a tuple of {len(values)}", "an array, or (array, 'unit')")
             values, unit = values
-        out.append((header, unit, array(values, place)))
+        out.append(_column(header, unit, values, place))
     if not out:
         raise argument(name, "no column", "a time, a position or velocity, and a force")
     _same_length(out, name)
     return out
+
+
+def index(data: Any, name: str) -> Column | None:
+    """The index of a DataFrame of pandas as a column, where it may be the time: one of times, or with a name and numbers that rise."""
+    found: Any = getattr(data, "index", None)
+    if not hasattr(data, "columns") or not hasattr(found, "is_monotonic_increasing"):
+        return None
+    kind = getattr(found.dtype, "kind", "O")
+    header = found.name if found.name is not None or kind not in "mM" else "time"
+    if not isinstance(header, str) or header in list(data.columns) or kind not in "mMfiu" or not found.is_monotonic_increasing:
+        return None
+    return _column(header, None, found, f"{name}.index")
+
+
+def _column(header: str, unit: str | None, values: Any, place: str) -> Column:
+    """One column; times as seconds from the first."""
+    found, mask = _found(values, place)
+    times = _since_first(found)
+    if times is None:
+        return header, unit, _numbers(found, mask, place)
+    if unit not in (None, "s"):
+        raise argument(place, f"times with the unit {unit!r}", "no unit: they are taken as seconds from the first")
+    return header, None if IN_SECONDS.search(header) else "s", _numbers(times, mask, place)
 
 
 def is_missing(value: Any) -> bool:
@@ -109,6 +136,12 @@ def _arrow(data: Any, name: str) -> Any:
 
 def array(values: Any, place: str) -> NDArray[numpy.float64]:
     """One column as contiguous 64-bit floats; missing samples are NaN."""
+    found, mask = _found(values, place)
+    return _numbers(found, mask, place)
+
+
+def _found(values: Any, place: str) -> tuple[NDArray[Any], Any]:
+    """One column as an array of whatever it holds, and which samples are masked."""
     import numpy
 
     mask = getattr(values, "mask", None) if isinstance(values, numpy.ma.MaskedArray) else None
@@ -120,12 +153,37 @@ def array(values: Any, place: str) -> NDArray[numpy.float64]:
         raise argument(place, kind_of(values), "an array: one number for each sample")
     if found.ndim != 1:
         raise argument(place, f"an array of shape {found.shape}", "one dimension: one number for each sample")
+    return found, mask
+
+
+def _since_first(found: NDArray[Any]) -> NDArray[numpy.float64] | None:
+    """Times as seconds from the first that is there; None of anything else."""
+    import numpy
+
+    if found.dtype.kind in "mM":
+        there = found[~numpy.isnat(found)]
+        return (found - there[0]) / numpy.timedelta64(1, "s") if len(there) else numpy.full(len(found), numpy.nan)
+    there = [value for value in found if not is_missing(value)] if found.dtype.kind == "O" else []
+    # Those of Python and pandas, which may have a time zone.
+    if not there or not all(hasattr(value, "utcoffset") or hasattr(value, "total_seconds") for value in there):
+        return None
+    try:
+        spans = [numpy.nan if is_missing(value) else (value - there[0]).total_seconds() for value in found]
+    except TypeError:
+        return None
+    return numpy.array(spans)
+
+
+def _numbers(found: NDArray[Any], mask: Any, place: str) -> NDArray[numpy.float64]:
+    """The numbers of a column."""
+    import numpy
+
     if found.dtype.kind in "mM":
         raise argument(place, f"an array of {found.dtype}", SECONDS)
     if found.dtype.kind == "O":
         raise _objects(found, place)
     if found.dtype.kind not in "fiub":
-        raise argument(place, f"an array of {found.dtype}", "real numbers; leave columns of text out")
+        raise argument(place, f"an array of {found.dtype}", _of_text(found[0] if len(found) else None))
     if found.dtype.kind in "iu" and found.size and max(abs(int(found.min())), abs(int(found.max()))) > EXACT:
         raise argument(
             place,
@@ -148,7 +206,7 @@ def _objects(found: NDArray[Any], place: str) -> StictionError:
     if hasattr(value, "utcoffset") or hasattr(value, "total_seconds"):
         return argument(place, what, SECONDS)
     if hasattr(value, "__len__"):
-        return argument(place, what, "real numbers; leave columns of text out")
+        return argument(place, what, _of_text(value))
     if is_missing(value):
         return argument(place, what, "NaN where a sample is missing: .astype(float) makes it of None")
     if hasattr(value, "__float__"):
@@ -156,10 +214,26 @@ def _objects(found: NDArray[Any], place: str) -> StictionError:
     return argument(place, what, "real numbers; leave columns of text out")
 
 
+def _of_text(value: Any) -> str:
+    """What makes a column of a text like this one that can be taken."""
+    text = str(value) if isinstance(value, str) else ""
+    try:
+        float(text)
+        return "real numbers: .astype(float) makes them of these, of polars .cast(float)"
+    except ValueError:
+        pass
+    if _native.seconds_of(text) is not None:
+        return "times: pandas.to_datetime(...) makes them of these, of polars .str.to_datetime()"
+    return "real numbers; leave columns of text out"
+
+
 def _plain(values: Any) -> NDArray[Any]:
     """An array of what pandas, polars, pyarrow or a list has, without a copy where there need be none."""
     import numpy
 
+    # Times with a zone, of pandas.
+    if getattr(getattr(values, "dtype", None), "tz", None) is not None:
+        return numpy.asarray(values.to_numpy(dtype="M8[ns]"))
     # Numbers that may be missing, of pandas.
     if hasattr(values, "isna") and getattr(values.dtype, "na_value", None) is not None:
         if getattr(values.dtype, "kind", "O") in "fiub":

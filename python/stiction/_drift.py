@@ -14,7 +14,7 @@ from . import _native
 from ._axis import path_of
 from ._columns import is_columns, is_missing, items
 from ._errors import argument, kind_of
-from ._options import words
+from ._options import seconds, words
 from ._types import PathLike
 
 if TYPE_CHECKING:
@@ -151,7 +151,7 @@ def _columns(table: Any) -> list[tuple[str, list[Any]]]:
     """The columns, with None where nothing is known."""
     out: list[tuple[str, list[Any]]] = []
     for name, values in items(table, NAME):
-        cells = _cells(values, f"{NAME}[{name!r}]")
+        cells = _cells(values, f"{NAME}[{name!r}]", of_times=name == "time")
         if out and len(cells) != len(out[0][1]):
             raise argument(f"{NAME}[{name!r}]", f"{len(cells)} rows, where {out[0][0]} has {len(out[0][1])}", "as many in every column")
         out.append((str(name), cells))
@@ -163,7 +163,7 @@ def _known(row: Mapping[str, Any]) -> dict[str, Any]:
     return {key: None if isinstance(value, float) and value != value else value for key, value in row.items()}
 
 
-def _cells(values: Any, place: str) -> list[Any]:
+def _cells(values: Any, place: str, of_times: bool) -> list[Any]:
     # As numbers a column of times would count nanoseconds.
     if type(values).__module__ == "numpy" and values.dtype.kind == "M":
         values = values.astype("M8[us]")
@@ -173,7 +173,9 @@ def _cells(values: Any, place: str) -> list[Any]:
         if hasattr(values, to_list):
             values = getattr(values, to_list)()
             break
-    cells = [None if is_missing(value) else _seconds(value) for value in values]
+    cells = [None if is_missing(value) else value for value in values]
+    times = (str, datetime.date) if of_times else datetime.date
+    cells = [seconds(value, f"{place}, row {k + 1}") if isinstance(value, times) else value for k, value in enumerate(cells)]
     kind = None
     for k, value in enumerate(cells):
         if value is None:
@@ -183,15 +185,6 @@ def _cells(values: Any, place: str) -> list[Any]:
             allowed = ", ".join(KINDS.values()) if kind is None else f"{KINDS[kind]}, as above"
             raise argument(f"{place}, row {k + 1}", repr(value), allowed)
     return cells
-
-
-def _seconds(value: Any) -> Any:
-    """A time or a date as seconds since 1970 UTC, which it is in where it has no zone, as in a list of logs; all else as it is."""
-    if isinstance(value, datetime.datetime):
-        return (value if value.tzinfo else value.replace(tzinfo=datetime.timezone.utc)).timestamp()
-    if isinstance(value, datetime.date):
-        return datetime.datetime(value.year, value.month, value.day, tzinfo=datetime.timezone.utc).timestamp()
-    return value
 
 
 def _rows(rows: Iterable[Any]) -> list[str]:

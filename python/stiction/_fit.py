@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 from html import escape
 from pathlib import Path
@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from . import _native
 from ._axis import path_of
-from ._errors import argument, kind_of
+from ._errors import argument
 from ._export import Exported, write_code
 from ._law import Law
-from ._log import Log, _warn
+from ._log import Log, _read, _warn
 from ._options import maybe, real, truth, words
 from ._parameters import Parameters
 from ._plan import Plan, plan
 from ._study import Study, simulate
-from ._types import ExportOptions, PathLike, Verdict, Watcher
+from ._types import AxisLike, Columns, ExportOptions, PathLike, Verdict, Watcher
 
 if TYPE_CHECKING:
     from tempfile import TemporaryDirectory
@@ -61,9 +61,10 @@ class Prediction(NamedTuple):
 class Fit:
     """An identified law with everything that is known of it. Made by `identify`, or `Fit.load` from a folder."""
 
-    def __init__(self, native: _native.Fit, folder: Path | None = None) -> None:
+    def __init__(self, native: _native.Fit, folder: Path | None = None, axis: AxisLike = None) -> None:
         self._native = native
         self._folder = folder
+        self._axis = axis
 
     @cached_property
     def result(self) -> dict[str, Any]:
@@ -131,15 +132,18 @@ class Fit:
         model = self.result
         return Law(self._native.law(), model["law"], model["axis"]["force_unit"])
 
-    def predict(self, log: Log) -> Prediction:
+    def predict(self, log: Log | PathLike | Columns) -> Prediction:
         """What the law makes of another log, conditioned in the same way; nothing is fitted again.
 
+        log: what `read_log` read; or its path or columns in memory, which are read with the axis of the fit.
         A fit that was loaded or unpickled has no filters of a record and refuses: identify again, which gives the same bits.
         """
-        if not isinstance(log, Log):
-            raise argument("log", kind_of(log), "a Log: stiction.read_log(..., axis)")
-        signals, quality = self._native.predict(log._native)
+        signals, quality = self._native.predict(self._log(log)._native)
         return Prediction(**dict(signals), quality=json.loads(quality))
+
+    def _log(self, log: Log | PathLike | Columns) -> Log:
+        """A log of the axis of the fit."""
+        return log if isinstance(log, Log) else _read(log, self._axis, "log")
 
     def save(self, folder: PathLike, *, force: bool = False) -> list[Path]:
         """Writes `result.json`, `model.toml`, `report.html`, `fit.csv` and `study.toml`, the files of `stiction identify --out`.
@@ -155,6 +159,11 @@ class Fit:
     def load(cls, folder: PathLike) -> Fit:
         """Reads the folder that `save` or `stiction identify --out` wrote."""
         path = path_of(folder, "folder")
+        file = Path(path)
+        if file.is_file():
+            instead = f": {str(file.parent)!r}" if (file.parent / "result.json").is_file() else ""
+            allowed = f"the folder that save or stiction identify --out wrote{instead}"
+            raise argument("folder", f"{path!r}, a file", allowed)
         return cls(_native.Fit.load(path), Path(path))
 
     def simulate(
@@ -179,7 +188,7 @@ class Fit:
 
     def plan(
         self,
-        axis: PathLike,
+        axis: PathLike | Mapping[str, Any],
         *,
         time: float | None = None,
         seed: int = 0,
@@ -188,7 +197,7 @@ class Fit:
     ) -> Plan:
         """The motion to record for what this fit leaves open: as `stiction plan axis.toml --model model.toml`.
 
-        axis: an axis file with [limits]. time: longest motion, s.
+        axis: path of an axis file with [limits], or its keys in a dict. time: longest motion, s.
         """
         with _Files(self, ["model.toml"]) as folder:
             model = folder / "model.toml"

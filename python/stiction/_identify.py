@@ -9,7 +9,7 @@ from ._axis import AXIS, path_of, paths_of
 from ._errors import argument
 from ._fit import Fit
 from ._log import Logs, _warn, all_paths, one_axis, read_all, several, some_paths
-from ._options import maybe, some_threads, truth, whole
+from ._options import choice, maybe, some_threads, truth, whole
 from ._progress import finish, teller
 from ._study import STOPPED
 from ._types import AxisLike, IdentifyOptions, PathLike, Watcher
@@ -63,12 +63,12 @@ def identify(
     cannot be identified a StictionError.
     """
     options: IdentifyOptions = {
-        "law": str(law),
+        "law": choice(law, "law"),
         "asymmetric": truth(asymmetric, "asymmetric"),
         "compare_laws": truth(compare_laws, "compare_laws"),
         "split": maybe(split, "split"),
         "seed": whole(seed, "seed"),
-        "method": str(method),
+        "method": choice(method, "method"),
         "statics": paths_of(statics, "statics"),
         "model": None if model is None else path_of(model, "model"),
         "break_away": paths_of(break_away, "break_away"),
@@ -103,6 +103,7 @@ def identify(
             if not each:
                 raise argument("logs", "no log", "at least one log")
             fitted = read_all(each, axis, "logs")
+            axis = fitted[0]._origin[1]
             unseen = read_all(held_out, axis, "validate")
             native, stopped = _native.identify(
                 [log._native for log in fitted],
@@ -114,7 +115,7 @@ def identify(
             )
     finally:
         finish(progress)
-    fit = Fit(native)
+    fit = Fit(native, axis=axis)
     told = fit.warnings
     if stopped and all(code != STOPPED[0] for code, _ in told):
         told = [*told, STOPPED]

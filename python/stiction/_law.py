@@ -14,6 +14,11 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+FOREVER = float("inf")
+SPAN = "a finite time above 0, s: that between two samples"
+"""What `dt` may be."""
+
+
 class Law:
     """A friction law with its state. Made by `Fit.law`, at rest; every look at `Fit.law` gives another one.
 
@@ -36,6 +41,8 @@ class Law:
     def __call__(self, velocity: float, dt: float) -> float:
         """One sample in real time: `dt` s at `velocity` m/s (rad/s); the force, positive against positive velocities."""
         try:
+            if not 0.0 < dt < FOREVER:
+                raise argument("dt", repr(dt), SPAN)
             return self._native.step(velocity, dt)
         except TypeError:
             real(velocity, "velocity")
@@ -44,7 +51,10 @@ class Law:
 
     def steps(self, velocity: Any, dt: float) -> NDArray[numpy.float64]:
         """The same sample after sample for an array of velocities, in one call."""
-        return self._native.steps(array(velocity, "velocity"), real(dt, "dt"))
+        span = real(dt, "dt")
+        if not 0.0 < span < FOREVER:
+            raise argument("dt", repr(dt), SPAN)
+        return self._native.steps(array(velocity, "velocity"), span)
 
     def record(self, time: Any, velocity: Any) -> NDArray[numpy.float64]:
         """The force along a record: time in s, velocity in m/s (rad/s)."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple, Union
 
 from . import _native
 from ._axis import AXIS, axis_of, path_of
-from ._columns import WHAT, columns, is_columns
+from ._columns import WHAT, columns, index, is_columns
 from ._errors import StictionError, StictionWarning, argument
 from ._options import some_threads, whole
 from ._progress import finish, teller
@@ -133,7 +133,15 @@ def _read(data: Any, axis: AxisLike, name: str) -> Log:
         raise argument("name", repr(name), "text that a log in memory is called")
     if is_columns(data):
         given = columns(data, name)
-        native = _native.Log.of_columns(name, given, known)
+        try:
+            native = _native.Log.of_columns(name, given, known)
+        except StictionError:
+            # The time of pandas is often the index, which is no column.
+            time = index(data, name)
+            if time is None:
+                raise
+            given = [time, *given]
+            native = _native.Log.of_columns(name, given, known)
         kept = {header: values if unit is None else (values, unit) for header, unit, values in given}
         return Log(native, known, (kept, axis, name))
     path = path_of(data, name, WHAT)
@@ -145,7 +153,9 @@ def read_log(log: PathLike | Columns, axis: AxisLike = None, *, name: str = "log
 
     log: path of a file of any format of docs/formats.md; or a dict of arrays, a DataFrame of pandas or polars, or a table
         of pyarrow, whose columns are named as in a file: `position [mm]`, or `{"position": (values, "mm")}`.
-        NaN and masked samples count as missing, as an empty cell of a file does.
+        Times (of numpy, datetime, pandas, polars, Arrow, with or without a zone) are seconds from the first. The index of a pandas
+        DataFrame is taken where no column is the time. NaN, infinite and masked samples count as missing, as an empty cell of a
+        file does.
     axis: what is known of the axis and its columns: path of an axis file, or its keys in a dict (docs/axis.md).
     name: what a log in memory is called in messages and results.
 

@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import datetime
 import operator
 from collections.abc import Iterable
 from typing import Any
 
-from ._errors import argument
+from . import _native
+from ._errors import StictionError, argument
 
 LARGEST = 2**64 - 1
 """Of a seed."""
 MOST_THREADS = 1024
 """As on the command line."""
+TIME = "a number of seconds, ISO 8601 text as 2026-03-01T06:30:00Z, or a date or time of datetime, numpy or pandas"
+"""What a time may be."""
 
 
 def whole(value: Any, place: str, least: int = 0, most: int = LARGEST) -> int:
@@ -33,6 +37,28 @@ def real(value: Any, place: str) -> float:
         return float(value)
     except (TypeError, ValueError, OverflowError):
         raise argument(place, repr(value), "a number") from None
+
+
+def seconds(value: Any, place: str) -> float:
+    """Seconds of a time: a number as it stands, since 1970 UTC of a date; one without a time zone is UTC."""
+    if isinstance(value, str):
+        found = _native.seconds_of(value)
+        if found is None:
+            raise argument(place, repr(value), TIME)
+        return found
+    if getattr(getattr(value, "dtype", None), "kind", None) == "M":  # numpy
+        value = value.astype("M8[us]").item()
+    if isinstance(value, datetime.datetime):
+        return (value if value.tzinfo else value.replace(tzinfo=datetime.timezone.utc)).timestamp()
+    if isinstance(value, datetime.date):
+        return datetime.datetime(value.year, value.month, value.day, tzinfo=datetime.timezone.utc).timestamp()
+    try:
+        number = real(value, place)
+    except StictionError:
+        raise argument(place, repr(value), TIME) from None
+    if abs(number) == float("inf") or number != number:
+        raise argument(place, repr(value), TIME)
+    return number
 
 
 def samples(value: Any, place: str) -> int:
@@ -58,6 +84,13 @@ def truth(value: Any, place: str) -> bool:
 def some_threads(value: Any) -> int | None:
     """Threads of a call, or those of the process."""
     return None if value is None else whole(value, "threads", 1, MOST_THREADS)
+
+
+def choice(value: Any, place: str) -> str:
+    """One of the names that an argument may have; which of them, Rust sees."""
+    if not isinstance(value, str):
+        raise argument(place, repr(value), f"one of {', '.join(_native.choices(place))}")
+    return value
 
 
 def words(value: Any, place: str) -> list[str]:

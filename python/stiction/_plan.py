@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import os
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from . import _native
-from ._axis import path_of
+from ._axis import AXIS, path_of, text_of
 from ._errors import StictionError, argument
 from ._log import _warn
 from ._options import maybe, some_threads, whole, words
-from ._progress import finish, teller
+from ._progress import Told, finish, teller
 from ._study import STOPPED
 from ._types import PathLike, PlanOptions, Watcher
 
 if TYPE_CHECKING:
     import numpy
     from numpy.typing import NDArray
+
+
+OWN_FILE = "axis.toml"
+"""What a plan calls an axis that is no file."""
 
 
 class Plan:
@@ -74,7 +79,7 @@ def _again(parts: Any) -> Plan:
 
 
 def plan(
-    axis: PathLike,
+    axis: PathLike | Mapping[str, Any],
     *,
     model: PathLike | None = None,
     log: PathLike | None = None,
@@ -89,7 +94,7 @@ def plan(
 ) -> Plan:
     """The motion to record, within the limits of an axis: as `stiction plan axis.toml`.
 
-    axis: an axis file with [limits]. model, log: a first model or log of the axis; the motion is planned for what it leaves
+    axis: path of an axis file with [limits], or its keys in a dict. model, log: a first model or log of the axis; the motion is planned for what it leaves
     open. stage: `probe` for a first, careful motion. time: longest motion, s; 9 s, and 3 s of a probe, if it is not given.
     wants: how well parameters are to be known, such as `sigma0 < 2 %`: the shortest motion that is enough.
     formats: further forms of the set points, which `save` writes: `st`, `cam`, `csp`, `ros2`, `halstreamer`, `gcode`. start: where
@@ -109,12 +114,38 @@ def plan(
         "formats": words(formats, "formats"),
         "start": None if start is None else str(start),
     }
+    tell, own = teller(progress), some_threads(threads)
     try:
-        native, stopped = _native.plan(path_of(axis, "axis"), options, teller(progress), some_threads(threads))
+        if isinstance(axis, Mapping):
+            native, stopped = _of_keys(axis, options, tell, own)
+        else:
+            native, stopped = _native.plan(path_of(axis, "axis", AXIS), options, tell, own)
     finally:
         finish(progress)
     if native is None:
-        raise StictionError("interrupted", "", "stopped before there was a motion", "")
+        raise KeyboardInterrupt("stopped before there was a motion")
     if stopped:
         _warn([STOPPED], 2)
     return Plan(native)
+
+
+def _of_keys(axis: Mapping[str, Any], options: PlanOptions, tell: Told | None, threads: int | None) -> tuple[_native.Plan | None, bool]:
+    """The motion for an axis in a dict, through a file that nothing of the plan names."""
+    import tempfile
+
+    text = _native.Axis.of_json(text_of(axis)).text or ""
+    with tempfile.TemporaryDirectory(prefix="stiction-") as folder:
+        path = os.path.join(folder, OWN_FILE)
+        Path(path).write_text(text, encoding="utf-8")
+        try:
+            native, stopped = _native.plan(path, options, tell, threads)
+        except StictionError as error:
+            place, found, allowed = (said.replace(path, "axis") for said in (error.place, error.found, error.allowed))
+            raise StictionError(error.code, place, found, allowed) from None
+    if native is None:
+        return None, stopped
+    files, result, said, inputs, rest = native.parts()
+    files = [(name, content.replace(path.encode(), OWN_FILE.encode())) for name, content in files]
+    inputs = [each for each in inputs if str(each) != path]
+    parts = (files, result.replace(path, OWN_FILE), said.replace(path, OWN_FILE), inputs, rest)
+    return _native.Plan.of_parts(parts), stopped

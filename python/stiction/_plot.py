@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from ._fit import Fit
     from ._log import Log
+    from ._types import Columns, PathLike
 
 MEASURED = {"color": "0.55", "linewidth": 1.0}
 MODEL = {"color": "#c0392b", "linewidth": 1.2}
@@ -79,8 +80,9 @@ class Plots:
         axes.set_xlabel("95 % interval, % of the value")
         return figure
 
-    def map(self, log: Log, figure: Any = None) -> Any:
-        """Friction over velocity along a log, measured and as the law has it, and below it the residual."""
+    def map(self, log: Log | PathLike | Columns, figure: Any = None) -> Any:
+        """Friction over velocity along a log, measured and as the law has it, and below it the residual. log: as of `predict`."""
+        log = self._fit._log(log)
         found = self._friction(log)
         figure, (above, below) = _axes(figure, 2, share=True)
         force, velocity = self._fit.result["axis"]["force_unit"], _speed(log)
@@ -94,10 +96,14 @@ class Plots:
         below.set_xlabel(_label("velocity", velocity))
         return figure
 
-    def presliding(self, log: Log, figure: Any = None) -> Any:
-        """Friction over the way since the last reversal, from one to the next: the loops of the bristles before the axis slides."""
+    def presliding(self, log: Log | PathLike | Columns, figure: Any = None) -> Any:
+        """Friction over the way since the last reversal, from one to the next: the loops of the bristles before the axis slides.
+
+        log: as of `predict`.
+        """
         import numpy
 
+        log = self._fit._log(log)
         found = self._friction(log)
         figure, (axes,) = _axes(figure, 1)
         turns = numpy.flatnonzero(numpy.diff(numpy.signbit(found.velocity))) + 1

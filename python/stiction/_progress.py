@@ -17,11 +17,16 @@ def teller(progress: Watcher) -> Told | None:
     if progress is None or progress is False:
         return None
     if progress is True:
-        return _line
+        return _line if _is_shown() else None
     if not callable(progress):
         raise argument("progress", repr(progress), "True, or a function of a Progress")
     watch = progress
     return lambda stage, fraction, error: watch(Progress(stage, fraction, error))
+
+
+def _is_shown() -> bool:
+    """Whether standard error is a terminal or a notebook, where a line can be written over."""
+    return sys.stderr.isatty() or type(sys.stderr).__module__.startswith("ipykernel")
 
 
 def _line(stage: str, fraction: float, error: float | None) -> None:
@@ -33,6 +38,6 @@ def _line(stage: str, fraction: float, error: float | None) -> None:
 
 def finish(progress: Watcher) -> None:
     """Ends that line."""
-    if progress is True:
+    if progress is True and _is_shown():
         sys.stderr.write("\r".ljust(61) + "\r")
         sys.stderr.flush()

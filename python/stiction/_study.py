@@ -45,7 +45,8 @@ class Study:
     @property
     def warnings(self) -> list[tuple[str, str]]:
         """What to beware of: code and message. The same were Python warnings."""
-        return [(warning["code"], warning["message"]) for warning in self.result["warnings"]]
+        told = [(warning["code"], warning["message"]) for warning in self.result["warnings"]]
+        return [*told, STOPPED] if self.result["status"] == STOPPED[0] else told
 
     def save(self, folder: PathLike, *, force: bool = False) -> list[Path]:
         """Writes `study.json`, `report.html` and the courses of the runs, as `stiction simulate --out`."""
@@ -90,10 +91,9 @@ def simulate(
     """
     most = None if max_samples is None else samples(max_samples, "max_samples")
     try:
-        native, stopped = _native.simulate(path_of(study, "study"), most, teller(progress), some_threads(threads))
+        native, _ = _native.simulate(path_of(study, "study"), most, teller(progress), some_threads(threads))
     finally:
         finish(progress)
     out = Study(native)
-    told = out.warnings
-    _warn([*told, STOPPED] if stopped else told, 2)
+    _warn(out.warnings, 2)
     return out

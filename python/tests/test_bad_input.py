@@ -45,12 +45,10 @@ def other(values: Any, column: str = "position [mm]") -> dict[str, Any]:
         (GOOD["position [mm]"].astype(object), "objects"),
         ([decimal.Decimal(1)] * 4000, "a Decimal in row 1"),
         ([1.0, None] * 2000, "None in row 2"),
-        ([datetime.datetime(2026, 1, 1)] * 4000, "a datetime in row 1"),
+        ([datetime.time(3)] * 4000, "a time in row 1"),
         (numpy.array([[1.0], "a"] * 2000, dtype=object), "a list in row 1"),
         (GOOD["position [mm]"].astype(complex), "complex128"),
         (numpy.array(["1"] * 4000), "<U1"),
-        (numpy.zeros(4000, dtype="datetime64[ns]"), "datetime64[ns]"),
-        (numpy.zeros(4000, dtype="timedelta64[us]"), "timedelta64[us]"),
         (numpy.zeros(4000, dtype=[("a", float)]), "[('a', '<f8')]"),
         ([[1.0], [1.0, 2.0]], "no array"),
         (["a"] * 4000, "<U1"),
@@ -99,12 +97,56 @@ def test_what_is_no_log_is_refused_with_what_is_one(data: Any) -> None:
     ("values", "advice"),
     [
         ([None] * 4000, "NaN"),
-        ([datetime.datetime(2026, 1, 1)] * 4000, "seconds"),
+        ([datetime.time(3)] * 4000, "seconds"),
+        (["1.5"] * 4000, "astype(float)"),
+        (numpy.array(["1.5"] * 4000, dtype=object), "astype(float)"),
+        (["2026-01-01T00:00:00.5"] * 4000, "to_datetime"),
+        (["on"] * 4000, "leave columns of text out"),
         (GOOD["time [s]"].astype(object), "astype(float)"),
     ],
 )
 def test_an_array_of_objects_is_refused_with_what_makes_it_one_of_numbers(values: Any, advice: str) -> None:
     assert advice in refused(other(values)).allowed
+
+
+START = datetime.datetime(2026, 3, 1, 6, 30)
+STAMPS = [START + datetime.timedelta(seconds=t) for t in T]
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        STAMPS,
+        [stamp.replace(tzinfo=datetime.timezone.utc) for stamp in STAMPS],
+        [stamp - START for stamp in STAMPS],
+        numpy.array(STAMPS, dtype="M8[ns]"),
+        numpy.array(STAMPS, dtype="M8[us]") - numpy.datetime64(START),
+    ],
+)
+@pytest.mark.parametrize("header", ["time", "time [s]", "t [ms]"])
+def test_times_are_seconds_from_the_first(times: Any, header: str) -> None:
+    columns = {header: times, **{name: values for name, values in GOOD.items() if name != "time [s]"}}
+    log = quietly(stiction.read_log, columns)
+    assert (log.samples, log.rate_hz) == (4000, 1000.0)
+    assert numpy.allclose(log.time, T, rtol=0.0, atol=1e-9)
+    assert "unit s" in " ".join(log.detected)
+
+
+def test_times_are_no_position_and_have_no_other_unit() -> None:
+    assert "position or velocity" in refused(other(numpy.array(STAMPS, dtype="M8[ns]"))).found
+    error = refused({**GOOD, "time [s]": (STAMPS, "ms")})
+    assert error.place == "log['time [s]']" and "'ms'" in error.found
+    missing = [*STAMPS[:10], None, *STAMPS[11:]]
+    log = quietly(stiction.read_log, {**GOOD, "time [s]": missing})
+    assert log.time[-1] == pytest.approx(T[-1], abs=1e-9)
+
+
+def test_a_torque_in_nanometres_is_told_that_it_is_one() -> None:
+    columns = {"time [s]": T, "q [rad]": GOOD["position [mm]"], "tau [nm]": GOOD["force [N]"]}
+    with pytest.warns(stiction.StictionWarning, match=r'\[no-force\].*"tau \[nm\]".*nanometres.*newton metres are Nm'):
+        stiction.read_log(columns)
+    columns["tau [Nm]"] = columns.pop("tau [nm]")
+    assert quietly(stiction.read_log, columns).force_unit == "N*m"
 
 
 @pytest.mark.parametrize("name", [None, 3, "", "a\nb"])
@@ -119,6 +161,8 @@ def test_a_law_is_given_numbers(fit: stiction.Fit) -> None:
         (lambda: law(T, 1e-3), "velocity"),  # type: ignore[arg-type]
         (lambda: law(0.1, None), "dt"),  # type: ignore[arg-type]
         (lambda: law.steps(T, "fast"), "dt"),  # type: ignore[arg-type]
+        *((lambda dt=dt: law(0.1, dt), "dt") for dt in (-1.0, 0.0, float("nan"), float("inf"))),
+        *((lambda dt=dt: law.steps(T, dt), "dt") for dt in (-1.0, 0.0, float("nan"), float("inf"))),
         (lambda: law.steps(0.1, 1e-3), "velocity"),
     ]
     for call, place in calls:
@@ -299,6 +343,8 @@ def test_an_option_that_is_none_is_named(options: dict[str, Any], place: str) ->
         {"threads": 10**6},
         {"asymmetric": 3},
         {"evaluations": 1.5},
+        {"law": None},
+        {"method": 3},
         {"target": [1]},
         {"progress": 3},
     ],
@@ -340,6 +386,10 @@ def test_a_folder_that_is_no_fit_is_refused(tmp_path: Path, fit: stiction.Fit) -
         stiction.load(tmp_path)
     assert "result.json" in caught.value.place
     fit.save(tmp_path / "fit")
+    for file in ("model.toml", "result.json"):
+        with pytest.raises(StictionError) as caught:
+            stiction.load(tmp_path / "fit" / file)
+        assert caught.value.place == "folder" and repr(str(tmp_path / "fit")) in caught.value.allowed
     for damaged in (b"", b"{}", b"[1", b'{"schema": "stiction.result/9"}'):
         (tmp_path / "fit" / "result.json").write_bytes(damaged)
         with pytest.raises(StictionError) as caught:

@@ -92,6 +92,7 @@ def test_times_may_be_stamps_and_dates(found: stiction.Drift) -> None:
         [datetime.datetime.fromtimestamp(t, zone) for t in columns["time"]],
         [datetime.datetime.fromtimestamp(t, datetime.timezone.utc).replace(tzinfo=None) for t in columns["time"]],
         (numpy.array(columns["time"]) * 1e9).astype("M8[ns]"),
+        [datetime.datetime.fromtimestamp(t, zone).isoformat() for t in columns["time"]],
     ):
         assert stiction.drift({**columns, "time": times}, limit=LIMITS).alarms == found.alarms
     days = [datetime.datetime.fromtimestamp(t, datetime.timezone.utc).date() for t in columns["time"]]

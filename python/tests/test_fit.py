@@ -105,10 +105,23 @@ def test_a_prediction_of_the_fitted_log_is_the_fit(fit: stiction.Fit, run_csv: P
     assert numpy.array_equal(predicted.residual, predicted.measured - predicted.model)
     error = predicted.quality["relative_error_percent"]
     assert error == pytest.approx(fit.quality["relative_error_percent"], rel=1e-6)
-    with pytest.raises(StictionError, match="Log"):
-        fit.predict(run_csv)  # type: ignore[arg-type]
+    assert numpy.array_equal(quietly(fit.predict, run_csv).residual, predicted.residual)
+    with pytest.raises(StictionError, match="DataFrame"):
+        fit.predict(3)
     with pytest.raises(StictionError, match="again"):
         pickle.loads(pickle.dumps(fit)).predict(quietly(stiction.read_log, run_csv))
+
+
+def test_what_is_predicted_is_read_with_the_axis_of_the_fit(arrays: dict[str, Any]) -> None:
+    """Whose columns have names that nothing but the axis tells."""
+    columns = {f"c{k}": values for k, values in enumerate(arrays.values())}
+    names = dict(zip(arrays, columns))
+    units = {"Time": "s", "Position": "mm", "Force": "N"}
+    roles = {role.lower(): {"column": names[f"{role} [{unit}]"], "unit": unit} for role, unit in units.items()}
+    axis = {"kind": "linear", "columns": roles}
+    log = quietly(stiction.read_log, columns, axis)
+    for fit in (quietly(stiction.identify, log, law="stribeck"), quietly(stiction.identify, columns, axis, law="stribeck")):
+        assert numpy.array_equal(quietly(fit.predict, columns).residual, quietly(fit.predict, log).residual)
 
 
 def test_the_law_is_called_sample_by_sample(fit: stiction.Fit) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import json
 import multiprocessing
 import os
@@ -16,6 +17,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy
 import pytest
 import stiction
 from fleet_logs import AXIS, bad, good, odd_store, text
@@ -120,7 +122,7 @@ def client(workers: tuple[Any, Workers]) -> Any:
 def whole(out: Any, folder: Path) -> bytes:
     """A data set as one table."""
     table = folder / "whole.parquet"
-    _native.keep_rows(str(out), str(table), set())
+    _native.keep_rows(str(out), str(table), set(), {})
     return table.read_bytes()
 
 
@@ -128,7 +130,7 @@ def rows(out: Any) -> dict[str, tuple[str, str | None]]:
     """Key and error of each log; each must be there once."""
     found = _native.read_rows(str(out))
     assert len({path for path, *_ in found}) == len(found)
-    return {path: (key, error) for path, key, error, _ in found}
+    return {path: (key, error) for path, key, error, *_ in found}
 
 
 def test_a_row_is_that_of_a_batch(fleet: Fleet, tmp_path: Path) -> None:
@@ -199,6 +201,34 @@ def test_a_second_run_does_what_is_new(fleet: Fleet, client: Any, command: Any, 
     # The command line reads it.
     said = command("drift", out, "--json").stdout
     assert json.loads(said)["input"]["logs"] == 7
+
+
+def test_what_is_known_of_a_log_is_that_of_the_last_call(client: Any, tmp_path: Path) -> None:
+    """Also of one that failed, and without identifying any of them again."""
+    out = tmp_path / "out"
+    paths = [*map(str, good(tmp_path / "logs", 2)), str(tmp_path / "gone.csv")]
+    (tmp_path / "axis.toml").write_text(AXIS)
+
+    def labelled(*labels: dict[str, Any]) -> tuple[int, list[Any]]:
+        listed = [dict(label, path=path) for label, path in zip(labels, paths)]
+        taken = run(listed, out, tmp_path / "axis.toml", client=client, law=LAW, part_logs=2).taken
+        found = {path: label[:3] for path, *_, label in _native.read_rows(str(out))}
+        return taken, [found[path] for path in paths]
+
+    first: dict[str, Any] = dict(machine="A", time=1.0, temperature=20.0)
+    assert labelled(first, first, first) == (0, [("A", 1.0, 20.0)] * 3)
+    before = (out / "part-000001.parquet").read_bytes()
+    assert labelled(first, first, first) == (3, [("A", 1.0, 20.0)] * 3)
+    assert (out / "part-000001.parquet").read_bytes() == before
+    mended: dict[str, Any] = dict(machine="B", time=2e9, temperature=30.0)
+    assert labelled(mended, first, mended) == (3, [("B", 2e9, 30.0), ("A", 1.0, 20.0), ("B", 2e9, 30.0)])
+    # Without a machine it is the name in the axis file again.
+    assert labelled(dict(temperature=30.0), mended, mended)[1] == [("Z", None, 30.0), ("B", 2e9, 30.0), ("B", 2e9, 30.0)]
+    # What was identified is untouched.
+    last: list[dict[str, Any]] = [dict(temperature=30.0), mended, mended]
+    rows_now = [identify_uri(path, tmp_path / "axis.toml", law=LAW, **known) for path, known in zip(paths, last)]
+    _native.write_rows(str(tmp_path / "now.parquet"), [json.dumps(row) for row in rows_now])
+    assert whole(out, tmp_path) == (tmp_path / "now.parquet").read_bytes()
 
 
 def test_a_call_that_was_killed_between_two_steps_is_mended(client: Any, tmp_path: Path) -> None:
@@ -354,6 +384,36 @@ def test_arguments_are_named(client: Any, tmp_path: Path) -> None:
     assert refused(run, tmp_path / "no", out, client=client).code == "log-io"
     (tmp_path / "file").write_text("")
     assert refused(run, ["a.csv"], tmp_path / "file", client=client).code == "output"
+
+
+@pytest.mark.parametrize(
+    "when",
+    [
+        "2026-03-01T06:30:00+01:00",
+        "2026-03-01 05:30",
+        "1772343000",
+        1772343000,
+        datetime.datetime(2026, 3, 1, 5, 30),
+        datetime.datetime(2026, 3, 1, 6, 30, tzinfo=datetime.timezone(datetime.timedelta(hours=1))),
+        numpy.datetime64("2026-03-01T05:30"),
+        numpy.float64(1772343000.0),
+    ],
+)
+def test_a_time_is_what_a_list_may_have(when: Any, tmp_path: Path) -> None:
+    from stiction.fleet._logs import logs_of
+
+    path = str(tmp_path / "gone.csv")
+    assert [log.time for log in logs_of([{"path": path, "time": when}], None, "out", {})] == [1772343000.0]
+    assert identify_uri(path, time=when)["time"] == 1772343000.0
+
+
+def test_what_is_no_time_is_refused_with_what_is_one(client: Any, tmp_path: Path) -> None:
+    none: list[Any] = ["noon", "01.03.2026", float("inf"), [], True, datetime.time(3)]
+    for when in none:
+        error = refused(run, [{"path": "a.csv", "time": when}], tmp_path, client=client)
+        assert error.place == "logs[0]['time']" and "ISO 8601" in error.allowed, error
+    twice = refused(run, ["a.csv", {"path": "b.csv"}, {"path": "b.csv", "machine": "M"}], tmp_path, client=client)
+    assert twice.place == "logs[2]['path']" and "logs[1]" in twice.found
 
 
 def test_one_call_at_a_time(client: Any, tmp_path: Path) -> None:

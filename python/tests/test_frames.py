@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from pathlib import Path
 from typing import Any
 
@@ -70,17 +71,40 @@ def test_two_columns_of_one_name_are_refused() -> None:
     assert "two columns" in refused(table).found
 
 
-def test_time_zones_are_refused_with_the_line_that_works() -> None:
+def others() -> dict[str, Any]:
+    """All but the time."""
+    return {name: values for name, values in GOOD.items() if name != "time [s]"}
+
+
+def stamps(zone: str | None = None) -> Any:
     pandas = pytest.importorskip("pandas")
-    stamps = pandas.date_range("2026-01-01", periods=4000, freq="ms")
-    for time in (stamps, stamps.tz_localize("Europe/Berlin")):
-        table = pandas.DataFrame({**GOOD, "time [s]": time})
-        error = refused(table)
-        assert error.place == "log['time [s]']"
-        assert "total_seconds" in error.allowed
-    stamp = table["time [s]"]
-    table["time [s]"] = (stamp - stamp.iloc[0]).dt.total_seconds()
-    assert quietly(stiction.read_log, table).samples == 4000
+    return pandas.date_range("2026-01-01", periods=4000, freq="ms").tz_localize(zone)
+
+
+@pytest.mark.parametrize("zone", [None, "Europe/Berlin"])
+def test_times_of_tables_are_seconds_from_the_first(zone: str | None) -> None:
+    pandas, polars, pyarrow = (pytest.importorskip(name) for name in ("pandas", "polars", "pyarrow"))
+    table = pandas.DataFrame({"time": stamps(zone), **others()})
+    tables = [table, polars.from_pandas(table), pyarrow.Table.from_pandas(table)]
+    tables.append(table.astype({"time": pandas.ArrowDtype(pyarrow.timestamp("ns", zone))}))
+    for each in tables:
+        log = quietly(stiction.read_log, each)
+        assert (log.samples, log.rate_hz) == (4000, 1000.0), type(each)
+        assert numpy.allclose(log.time, GOOD["time [s]"], rtol=0.0, atol=1e-9)
+
+
+def test_an_index_of_pandas_is_the_time_where_no_column_is() -> None:
+    pandas = pytest.importorskip("pandas")
+    t = GOOD["time [s]"]
+    for time in (pandas.Index(t, name="t [s]"), pandas.Index(t, name="time"), stamps(), stamps("UTC"), pandas.to_timedelta(t, unit="s")):
+        log = quietly(stiction.read_log, pandas.DataFrame(others(), index=time))
+        assert (log.samples, log.rate_hz) == (4000, 1000.0), time
+        assert pickle.loads(pickle.dumps(log)).sha256 == log.sha256
+    # Where a column is, it is left alone; so is one that is no time.
+    same = quietly(stiction.read_log, GOOD).sha256
+    assert quietly(stiction.read_log, pandas.DataFrame(GOOD, index=stamps())).sha256 == same
+    for no_time in (None, pandas.Index(t[::-1], name="time"), pandas.Index(t), pandas.Index(list(map(str, t)), name="time")):
+        assert "no time column" in refused(pandas.DataFrame(others(), index=no_time)).found
 
 
 def test_arrow_arrays_may_lack_samples() -> None:

@@ -48,6 +48,8 @@ def test_friction_over_velocity_and_loops(fit: stiction.Fit, run_csv: Path, tmp_
     predicted = fit.predict(log)
     assert numpy.array_equal(measured.get_xdata(), predicted.velocity)
     assert numpy.allclose(measured.get_ydata() - model.get_ydata(), predicted.residual, atol=1e-12)
+    assert numpy.array_equal(lines(quietly(fit.plot.map, run_csv), 0)[0].get_ydata(), measured.get_ydata())
+    assert quietly(fit.plot.presliding, run_csv).axes
     loops = fit.plot.presliding(log)
     assert labels(loops) == [("way since the reversal, µm", "friction, N")]
     assert all(line.get_xdata()[0] == 0.0 for line in lines(loops, 0) if len(line.get_xdata()))

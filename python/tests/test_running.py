@@ -5,10 +5,12 @@ from __future__ import annotations
 import concurrent.futures
 import multiprocessing
 import os
+import pickle
 import signal
 import subprocess
 import sys
 import threading
+import tomllib
 import warnings
 from pathlib import Path
 from typing import Any
@@ -18,6 +20,7 @@ import pytest
 import stiction
 from conftest import quietly
 from stiction import Progress, StictionWarning
+from test_same_bits import LIMITED
 
 LONG: dict[str, Any] = {"law": "lugre", "method": "ga", "cost": "separable", "evaluations": 10**9, "target": 1e-30}
 """A search that does not end by itself."""
@@ -143,6 +146,29 @@ def test_ctrl_c_stops_and_keeps_the_best(run_csv: Path) -> None:
         process.send_signal(signal.SIGINT)
         assert process.stdout.read() == "interrupted True\n"
     assert process.returncode == 0
+
+
+def test_a_study_that_is_stopped_says_so(fit: stiction.Fit, tmp_path: Path) -> None:
+    with pytest.warns(StictionWarning, match=r"\[interrupted\]"):
+        study = fit.simulate(progress=lambda p: False)
+    assert study.verdict == "interrupted" and "interrupted" in [code for code, _ in study.warnings]
+    assert "interrupted" in [code for code, _ in pickle.loads(pickle.dumps(study)).warnings]
+    study.save(tmp_path / "study")
+    assert '"status": "interrupted"' in (tmp_path / "study" / "study.json").read_text()
+
+
+def test_a_plan_that_is_stopped_before_there_is_a_motion_is_a_keyboard_interrupt() -> None:
+    with pytest.raises(KeyboardInterrupt):
+        stiction.plan(tomllib.loads(LIMITED), progress=lambda p: False)
+
+
+def test_a_line_of_progress_is_for_terminals(run_csv: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    how: dict[str, Any] = {"law": "lugre", "compare_laws": False, "progress": True}
+    quietly(stiction.identify, run_csv, **how)
+    assert capsys.readouterr().err == ""
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
+    quietly(stiction.identify, run_csv, **how)
+    assert "%" in capsys.readouterr().err
 
 
 @pytest.mark.skipif(os.name != "posix", reason="sends a signal")

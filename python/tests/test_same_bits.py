@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import pickle
+import tomllib
 from pathlib import Path
 from typing import Any
 
@@ -139,6 +140,13 @@ def test_a_plan_is_that_of_the_command_line(fit: stiction.Fit, command: Any, tmp
     plan.save(tmp_path / "ours")
     for name in ("plan.toml", "setpoints.csv"):
         assert (tmp_path / "ours" / name).read_bytes() == (tmp_path / "theirs" / name).read_bytes(), name
+    # The same keys in a dict give the same motion.
+    of_keys = quietly(fit.plan, tomllib.loads(LIMITED), time=2.0)
+    assert all(numpy.array_equal(of_keys.setpoints[name], column) for name, column in plan.setpoints.items())
+    assert of_keys.result["inputs"][0]["path"] == "axis.toml" and "--axis axis.toml" in str(of_keys)
+    with pytest.raises(stiction.StictionError) as caught:
+        quietly(stiction.plan, {"kind": "linear"})
+    assert str(caught.value).startswith("[bad-config] axis: limits.stroke: is missing")
     motion = plan.setpoints
     assert list(motion) == ["t", "x", "v", "a"]
     assert motion["v"][0] == motion["v"][-1] == 0.0

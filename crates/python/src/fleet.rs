@@ -4,10 +4,16 @@ use crate::error::{Refusal, raised};
 use crate::options::Asked;
 use crate::run::{How, Stopped, run};
 use pyo3::prelude::*;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use stiction::commands::batch::{Batch, Called, Listed, LogRow, Results, read_results as read};
 use stiction::{Code, Options};
+
+/// Seconds of a time as a list of logs has it, since 1970 UTC of a date; `None` of anything else.
+#[pyfunction]
+pub fn seconds_of(text: &str) -> Option<f64> {
+    stiction::commands::batch::seconds_of(text)
+}
 
 /// A log, and what is known of it: a dict with every key.
 #[derive(FromPyObject)]
@@ -48,7 +54,7 @@ fn json(row: &LogRow) -> String {
     serde_json::to_string(row).expect("plain data")
 }
 
-/// Identifies a log; `None` where its row would have the key that is known.
+/// Identifies a log; where its row would have the key that is known, a row with that key and what is known of the log beside it.
 #[pyfunction]
 pub fn identify_row(
     py: Python<'_>,
@@ -56,7 +62,7 @@ pub fn identify_row(
     options: Asked,
     known: Option<String>,
     memory: Option<u64>,
-) -> PyResult<Option<String>> {
+) -> PyResult<String> {
     let batch = log.batch(options).map_err(|e| e.raise(py))?;
     let how = How {
         progress: None,
@@ -68,7 +74,8 @@ pub fn identify_row(
         batch.row(known.as_deref(), memory, observer)
     })?;
     let row = row.map_err(|e| raised(py, &e))?;
-    Ok(row.as_ref().map(json))
+    let row = row.or_else(|| known.map(|key| batch.known(key)));
+    Ok(json(&row.expect("a row, or one that is known")))
 }
 
 /// The row of a log that could not be read, or of which nothing came back.
@@ -120,8 +127,11 @@ pub fn find_logs(
     Ok(logs.collect())
 }
 
-/// Path, key, code of the error, and whether it is trustworthy.
-type Kept = (String, String, Option<String>, Option<bool>);
+/// What is known of a log beside its bytes: machine, time, temperature, axis file.
+type Label = (Option<String>, Option<f64>, Option<f64>, Option<String>);
+
+/// Path, key, code of the error, whether it is trustworthy, and what is known of it beside.
+type Kept = (String, String, Option<String>, Option<bool>, Label);
 
 /// What a table holds, log by log.
 #[pyfunction]
@@ -130,7 +140,8 @@ pub fn read_rows(py: Python<'_>, table: PathBuf) -> PyResult<Vec<Kept>> {
     let done = py.detach(|| {
         read(&table, |row| {
             let error = row.error.map(|code| code.to_string());
-            rows.push((row.path, row.key, error, row.trustworthy));
+            let label = (row.machine, row.time, row.temperature, row.axis);
+            rows.push((row.path, row.key, error, row.trustworthy, label));
             Ok(())
         })
     });
@@ -160,18 +171,23 @@ fn foreign(table: &Path, error: &serde_json::Error) -> stiction::commands::FileE
     }
 }
 
-/// Writes a table anew without the logs of those paths, whole or not at all; returns how many are left.
+/// Writes a table anew without the logs of those paths, and others with what is known of them now, whole or not at all; returns
+/// how many are left.
 #[pyfunction]
 pub fn keep_rows(
     py: Python<'_>,
     table: PathBuf,
     out: PathBuf,
     without: HashSet<String>,
+    labels: HashMap<String, Label>,
 ) -> PyResult<usize> {
     let mut left = 0;
     let written = py.detach(|| {
         let mut kept = Results::begin(&out)?;
-        read(&table, |row| {
+        read(&table, |mut row| {
+            if let Some(label) = labels.get(&row.path) {
+                (row.machine, row.time, row.temperature, row.axis) = label.clone();
+            }
             if without.contains(&row.path) {
                 return Ok(());
             }

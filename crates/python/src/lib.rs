@@ -33,7 +33,9 @@ mod _native {
     #[pymodule_export]
     use crate::fit::{Fit, identify, identify_files};
     #[pymodule_export]
-    use crate::fleet::{find_logs, identify_row, keep_rows, read_rows, unread_row, write_rows};
+    use crate::fleet::{
+        find_logs, identify_row, keep_rows, read_rows, seconds_of, unread_row, write_rows,
+    };
     #[pymodule_export]
     use crate::law::Law;
     #[pymodule_export]

@@ -5,7 +5,7 @@
 pub mod batch {
     pub use stiction_files::batch::{
         BatchFile, COLUMNS, Listed, LogRow, ParameterRow, RESULTS, Results, SCHEMA, is_list,
-        read_list, read_results, rows_while,
+        read_list, read_results, rows_while, seconds_of,
     };
     pub use stiction_log::Cells;
     pub use stiction_workflows::batch::{Batch, Called, Done};

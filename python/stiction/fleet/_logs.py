@@ -11,7 +11,7 @@ from typing import Any
 from .. import _native
 from .._columns import is_missing
 from .._errors import argument
-from .._options import maybe
+from .._options import maybe, seconds
 from .._types import AxisLike
 from ._fetch import Fetched, Unfetched, is_address, store
 from ._one import Log, axis_text, text_of_uri
@@ -43,10 +43,15 @@ def logs_of(logs: Any, axis: AxisLike, out: str, storage: Mapping[str, Any]) -> 
 
 def _of_several(logs: Iterable[Any], axis: str | None, out: str, storage: Mapping[str, Any]) -> Iterator[Log]:
     """Paths, addresses and dicts, one after the other."""
+    given: dict[str, int] = {}
     for k, each in enumerate(logs):
         place = f"logs[{k}]"
         if isinstance(each, Mapping):
-            yield _of_dict(each, place)
+            log = _of_dict(each, place)
+            before = given.setdefault(log.uri, k)
+            if before != k:
+                raise argument(f"{place}['path']", f"{log.uri!r}, which logs[{before}] is already", "each log once")
+            yield log
             continue
         text = text_of_uri(each, place)
         if _names_several(text) or (not is_address(text) and os.path.isdir(text)):
@@ -72,21 +77,17 @@ def _of_dict(given: Mapping[str, Any], place: str) -> Log:
     if unknown or "path" not in given:
         raise argument(place, f"the keys {', '.join(map(str, given))}", f"path, and where they are known {', '.join(KEYS[1:])}")
     known = {key: None if is_missing(value) else value for key, value in given.items()}
-    machine = known.get("machine")
+    machine, time = known.get("machine"), known.get("time")
     return Log(
         text_of_uri(known["path"], f"{place}['path']"),
         None if machine is None else str(machine),
-        _number(known.get("time"), f"{place}['time']"),
+        None if time is None else seconds(time, f"{place}['time']"),
         _number(known.get("temperature"), f"{place}['temperature']"),
         axis_text(known.get("axis")),
     )
 
 
 def _number(value: Any, place: str) -> float | None:
-    if hasattr(value, "timestamp"):
-        if getattr(value, "tzinfo", None) is None:
-            raise argument(place, f"{value!r}, without a time zone", "a time with one, or seconds since 1970 UTC")
-        value = value.timestamp()
     number = maybe(value, place)
     if number is not None and abs(number) == float("inf"):
         raise argument(place, repr(value), "a finite number")

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from .. import _native
 from .._axis import path_of, text_of
 from .._errors import argument
-from .._options import maybe, truth, whole
+from .._options import maybe, seconds, truth, whole
 from .._types import AxisLike, IdentifyOptions, RowLog
 from ._fetch import Fetched, Unfetched, is_address
 
@@ -32,6 +32,28 @@ class Log(NamedTuple):
     """Temperature of the machine."""
     axis: str | None = None
     """Its axis file, path or address; or the text of one, beginning with a line break."""
+
+
+class Label(NamedTuple):
+    """What a row says of a log beside what its bytes say."""
+
+    machine: str | None
+    """Whose it is."""
+    time: float | None
+    """When it was recorded, s."""
+    temperature: float | None
+    """Temperature of the machine."""
+    axis: str | None
+    """Its axis file."""
+
+
+class Known(NamedTuple):
+    """What an earlier call has of a log."""
+
+    key: str
+    """Hash of all that its row depends on."""
+    label: Label
+    """What the row says of it."""
 
 
 class How(NamedTuple):
@@ -57,7 +79,7 @@ def identify_uri(
     split: float | None = None,
     seed: int = 0,
     machine: str | None = None,
-    time: float | None = None,
+    time: Any = None,
     temperature: float | None = None,
     storage_options: Mapping[str, Any] | None = None,
     retries: int = 3,
@@ -67,7 +89,8 @@ def identify_uri(
 
     uri: path of a log, or its address in a store that fsspec knows (`s3://bucket/log.parquet`).
     axis: axis file, path or address, or its keys in a dict. law, asymmetric, method, split, seed: as of `identify`.
-    machine, time, temperature: what is known of the log, as the columns of a list (docs/fleet.md); time in s since 1970 UTC.
+    machine, time, temperature: what is known of the log, as the columns of a list (docs/fleet.md); time in s since 1970 UTC,
+    as ISO 8601 text, or of datetime, numpy or pandas.
     storage_options: of the store of an address, as fsspec takes them. retries: how often a store that fails is asked again.
     max_memory: bytes that reading the log may take; half of the machine's if it is not given.
 
@@ -79,13 +102,13 @@ def identify_uri(
     log = Log(
         text_of_uri(uri, "uri"),
         None if machine is None else str(machine),
-        maybe(time, "time"),
+        None if time is None else seconds(time, "time"),
         maybe(temperature, "temperature"),
         axis_text(axis),
     )
     with Fetched(how.storage, how.retries) as fetched:
         row = row_of(log, how, None, fetched)
-    assert row is not None
+    assert isinstance(row, str)
     found: dict[str, Any] = json.loads(row)
     found["schema"] = SCHEMA
     return found
@@ -148,8 +171,8 @@ def axis_text(axis: AxisLike) -> str | None:
     return text_of_uri(axis, "axis")
 
 
-def row_of(log: Log, how: How, known: str | None, fetched: Fetched) -> str | None:
-    """The row of a log as JSON; None where it would have the key that is known."""
+def row_of(log: Log, how: How, known: Known | None, fetched: Fetched) -> str | Label:
+    """The row of a log as JSON; where the one that is known is still its row, what that is to say of the log now."""
     given = given_of(log)
     place = log.uri
     try:
@@ -166,17 +189,24 @@ def row_of(log: Log, how: How, known: str | None, fetched: Fetched) -> str | Non
         row = _native.unread_row(given, how.options, "log-io", f"{place}: {error}")
         return unless_known(row, known)
     try:
-        found = _native.identify_row(given, how.options, known, how.memory)
+        row = _native.identify_row(given, how.options, None if known is None else known.key, how.memory)
     finally:
         if given["file"] != log.uri:
             Path(given["file"]).unlink(missing_ok=True)
     # One that still cannot be read has been identified in vain.
-    return None if found is None else unless_known(found, known)
+    return unless_known(row, known)
 
 
-def unless_known(row: str, known: str | None) -> str | None:
-    """A row, or None where it has the key that is known."""
-    return None if known is not None and json.loads(row)["key"] == known else row
+def unless_known(row: str, known: Known | None) -> str | Label:
+    """A row; only what it says of the log where it has the key that is known."""
+    if known is None:
+        return row
+    found = json.loads(row)
+    if found["key"] != known.key:
+        return row
+    temperature = found["temperature"]
+    # Without one that is given it is the mean of the log's own, as before.
+    return Label(found["machine"], found["time"], known.label.temperature if temperature is None else temperature, found["axis"])
 
 
 def lost_row(log: Log, how: How, message: str) -> str:

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 from .. import _native
 from .._errors import StictionError
 from ._fetch import Fetched, Unfetched, is_address, store
+from ._one import Known, Label
 
 PART = re.compile(r"part-(\d{6,})\.parquet")
 LOCK = ".stiction-fleet"
@@ -22,8 +23,8 @@ LOCK = ".stiction-fleet"
 class Kept(NamedTuple):
     """A log that an earlier call has left."""
 
-    key: str
-    """Hash of all that its row depends on."""
+    known: Known
+    """Key and label of its row."""
     error: str | None
     """Code, where it failed."""
     trustworthy: bool | None
@@ -88,11 +89,11 @@ class Parts:
         older: dict[str, set[str]] = {}
         for name in self.names():
             with self._local(name) as table:
-                for path, key, error, trustworthy in _native.read_rows(str(table)):
+                for path, key, error, trustworthy, label in _native.read_rows(str(table)):
                     before = known.get(path)
                     if before is not None:
                         older.setdefault(before.part, set()).add(path)
-                    known[path] = Kept(key, error, trustworthy, name)
+                    known[path] = Kept(Known(key, Label(*label)), error, trustworthy, name)
         for name, paths in older.items():
             self.without(name, paths)
         return known
@@ -108,9 +109,14 @@ class Parts:
         with self._local(name) as table:
             left = len({path for path, *_ in _native.read_rows(str(table))} - paths)
             if left:
-                self._put(name, lambda out: _native.keep_rows(str(table), out, paths))
+                self._put(name, lambda out: _native.keep_rows(str(table), out, paths, {}))
         if not left:
             self._remove(name)
+
+    def relabel(self, name: str, labels: Mapping[str, Label]) -> None:
+        """Has the rows of a table say what is known of their logs now."""
+        with self._local(name) as table:
+            self._put(name, lambda out: _native.keep_rows(str(table), out, set(), dict(labels)))
 
     def _put(self, name: str, write: Any) -> None:
         if self._fs is None:

@@ -13,9 +13,9 @@ from .._options import whole
 from .._progress import Told, finish, teller
 from .._types import AxisLike, Watcher
 from ._logs import logs_of
-from ._one import How, Log, lost_row, settings, text_of_uri
+from ._one import How, Label, Log, lost_row, settings, text_of_uri
 from ._parts import Kept, Parts
-from ._work import Task, identify_batch
+from ._work import Row, Task, identify_batch
 
 ASKED = 0.5
 """Time that a batch is to take, s: far more than Dask needs for a task, far less than a worker's life."""
@@ -64,9 +64,11 @@ def run(
     """Identifies many logs on a Dask cluster, each as `stiction batch` does, into a data set that `stiction drift` reads.
 
     logs: a folder, a pattern, a list.csv, or a list of these, of paths and addresses, and of dicts with `path` and where they are
-        known `machine`, `time`, `temperature`, `axis`. Addresses are those of fsspec, as `s3://bucket/2026-03/`.
+        known `machine`, `time` (s since 1970 UTC, ISO 8601 text, or of datetime, numpy or pandas), `temperature`, `axis`; each log
+        once. Addresses are those of fsspec, as `s3://bucket/2026-03/`.
     out: folder or address of the data set: `part-000001.parquet` and so on, as results.parquet. What it holds already with the
-        same bytes, axis, options and version is not identified again; rows of logs that have changed are replaced.
+        same bytes, axis, options and version is not identified again; rows of logs that have changed are replaced. What rows say
+        of machine, time and temperature is what this call says.
     axis: axis file of the logs that have none of their own, as path or address that the workers can read, or its keys in a dict.
     client: of dask.distributed; the current one if it is not given. law, asymmetric, method, split, seed: as of `identify`.
     storage_options: of the store that addresses are in. part_logs: logs of a table. retries: how often a store that fails is
@@ -101,10 +103,11 @@ class _Work:
         self._parts = parts
         self._known = known
         self._most = most
-        self._found: dict[int, str | None] = {}
+        self._found: dict[int, Row] = {}
         self._written = 0
         self._rows: list[str] = []
         self._older: dict[str, set[str]] = {}
+        self._labels: dict[str, dict[str, Label]] = {}
         self._taken = 0
         self._counts: Counter[str] = Counter()
         self.done = 0
@@ -113,9 +116,9 @@ class _Work:
         """A log for a worker."""
         log = self.logs[place]
         kept = self._known.get(log.uri)
-        return log, None if kept is None else kept.key
+        return log, None if kept is None else kept.known
 
-    def take(self, place: int, row: str | None) -> None:
+    def take(self, place: int, row: Row) -> None:
         """What was found of a log. Tables are written as soon as all logs before are known."""
         self._found[place] = row
         self.done += 1
@@ -123,10 +126,12 @@ class _Work:
             self._append(self.logs[self._written], self._found.pop(self._written))
             self._written += 1
 
-    def _append(self, log: Log, row: str | None) -> None:
+    def _append(self, log: Log, row: Row) -> None:
         kept = self._known.get(log.uri)
-        if row is None:
+        if isinstance(row, Label):
             assert kept is not None
+            if row != kept.known.label:
+                self._labels.setdefault(kept.part, {})[log.uri] = row
             self._taken += 1
             self._count(kept.error, kept.trustworthy)
             return
@@ -153,6 +158,9 @@ class _Work:
     def end(self, stopped: bool) -> Summary:
         """Writes what is left."""
         self._flush()
+        for part, labels in self._labels.items():
+            self._parts.relabel(part, labels)
+        self._labels = {}
         identified = self._counts["trustworthy"] + self._counts["doubtful"]
         own = ("trustworthy", "doubtful")
         failed = {code: count for code, count in self._counts.most_common() if code not in own}
@@ -244,10 +252,10 @@ class _Cluster:
         self._of[future] = places
         self._queue.add(future)
 
-    def _found(self, future: Any) -> tuple[list[str | None], float] | None:
+    def _found(self, future: Any) -> tuple[list[Row], float] | None:
         """What a batch has found; None where Dask gave it up after several workers, also while what it found was fetched."""
         try:
-            found: tuple[list[str | None], float] = future.result()
+            found: tuple[list[Row], float] = future.result()
             return found
         except self._dask.KilledWorker:
             return None

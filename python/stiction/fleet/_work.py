@@ -9,22 +9,24 @@ import subprocess
 import sys
 import threading
 import time
-from typing import IO, Any
+from typing import IO, Any, Union
 
 from .._errors import StictionError
 from ._fetch import Fetched
-from ._one import How, Log, lost_row, row_of, unless_known
+from ._one import How, Known, Label, Log, lost_row, row_of, unless_known
 
 DEATHS = 3
 """How often a process may die of a log before the log has a row that says so."""
 CHILD = "from stiction.fleet._work import serve; serve()"
-Task = tuple[Log, "str | None"]
-"""A log, and the key that its row has already."""
+Task = tuple[Log, "Known | None"]
+"""A log, and what is known of it already."""
+Row = Union[str, Label]
+"""A row as JSON; where the one that is known is still the row of the log, what that is to say of it now."""
 LENGTH = struct.Struct("<Q")
 
 
-def identify_batch(tasks: list[Task], how: How) -> tuple[list[str | None], float]:
-    """The rows of some logs, in their order, None where one has the key that is known; and the time that took, s."""
+def identify_batch(tasks: list[Task], how: How) -> tuple[list[Row], float]:
+    """The rows of some logs, in their order, and the time that took, s."""
     start = time.perf_counter()
     how = how._replace(memory=how.memory or _share())
     rows = [_row(log, how, known) for log, known in tasks]
@@ -62,7 +64,7 @@ class _Child:
 _OF_THREAD = threading.local()
 
 
-def _row(log: Log, how: How, known: str | None) -> str | None:
+def _row(log: Log, how: How, known: Known | None) -> Row:
     said = ""
     for _ in range(DEATHS):
         child: _Child | None = getattr(_OF_THREAD, "child", None)
@@ -81,10 +83,10 @@ def _row(log: Log, how: How, known: str | None) -> str | None:
             raise
         if isinstance(answer, BaseException):
             raise answer
-        row: str | None = answer
+        row: Row = answer
         return row
-    row = lost_row(log, how, f"the process that identified it was ended {DEATHS} times ({said})")
-    return unless_known(row, known)
+    lost = lost_row(log, how, f"the process that identified it was ended {DEATHS} times ({said})")
+    return unless_known(lost, known)
 
 
 def serve() -> None:
@@ -104,7 +106,7 @@ def serve() -> None:
             os._exit(1)
 
 
-def _tried(log: Log, known: str | None, how: How) -> str | BaseException | None:
+def _tried(log: Log, known: Known | None, how: How) -> Row | BaseException:
     """A row whatever happens, but for a package that is missing here and for arguments, which are the same for all logs."""
     try:
         with Fetched(how.storage, how.retries) as fetched:

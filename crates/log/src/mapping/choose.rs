@@ -543,11 +543,25 @@ impl<'a> Scan<'a> {
                      \"FILE\", column = \"NAME\", unit = \"UNIT\" }"
                 .to_string(),
         };
+        let how = self.nanometres().unwrap_or(how);
         let message = format!(
             "no column was recognised as force, torque or current; friction needs one; {}; {how}",
             describe::columns(self.table)
         );
         Finding::new(Code::NoForce, Severity::Warning, message)
+    }
+
+    /// What to write where newton metres of a torque were written as nanometres.
+    fn nanometres(&self) -> Option<String> {
+        let written = |c: &usize| self.table.columns[*c].unit.as_deref() == Some("nm");
+        let column =
+            (0..self.units.len()).find(|c| written(c) && self.is_hinted(*c, Role::Force))?;
+        Some(format!(
+            "{} has the name of a force, but nm are nanometres, a length; newton metres are Nm or N m: write that in the \
+             log, or in axis.toml under [columns]: {}",
+            describe::column(self.table, column),
+            describe::line_with(self.table, column, Role::Force, "unit = \"N m\"")
+        ))
     }
 
     fn is_hinted(&self, column: usize, role: Role) -> bool {

@@ -100,6 +100,16 @@ fn what_is_recognised() {
 }
 
 /// German controllers put names together: `Soll` is asked for, `Ist` is measured, `Schleppfehler` is neither.
+/// A typing error that makes a length of a torque.
+#[test]
+fn a_torque_in_nanometres_leads_to_newton_metres() {
+    let said = picked(&["t [s]", "q [rad]", "tau [nm]"]);
+    assert!(said.contains("nm are nanometres"), "{said}");
+    let line = r#"force = { column = "tau", unit = "N m" }"#;
+    assert!(said.contains(line), "{said}");
+    assert!(!picked(&["t [s]", "q [rad]", "gap [nm]"]).contains("nanometres"));
+}
+
 #[test]
 fn german_names_are_taken_apart() {
     insta::assert_snapshot!(pick_each(&[

@@ -42,6 +42,14 @@ impl Batch {
         })
     }
 
+    /// What is known of that log now, whatever was identified of it, for a row that has this key already.
+    pub fn known(&self, key: String) -> LogRow {
+        LogRow {
+            key,
+            ..begun(self, &self.logs[0])
+        }
+    }
+
     /// The row of that log where it could not even be read, or nothing came back of it. It is tried again by whoever compares keys.
     pub fn unread(&self, code: Code, message: String) -> LogRow {
         let entry = &self.logs[0];
