@@ -86,7 +86,8 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     }
     if given.time.is_some() && given.rate_hz.is_some() {
         let found = "both a time column and a rate are given";
-        let error = Error::new(Kind::Ambiguous, found, "give one of time and rate");
+        let allowed = "one of the two: delete the line time under [columns], where the clock is too coarse or wrong, or else the line rate";
+        let error = Error::new(Kind::Ambiguous, found, allowed);
         return Err(error.of_setting("rate"));
     }
     let nothing_told = given.position.is_none() && given.velocity.is_none();
@@ -528,11 +529,16 @@ impl<'a> Scan<'a> {
         };
         let how = match (0..self.units.len()).rev().find(open) {
             Some(column) => {
+                let with = |unit| describe::line_with(self.table, column, Role::Force, unit);
                 let line = match &self.units[column] {
                     Some(_) => describe::line(self.table, column, Role::Force),
-                    None => {
-                        describe::line_with(self.table, column, Role::Force, "unit = \"A\"")
+                    None if names::says_current(&self.table.columns[column].name) => {
+                        with("unit = \"A\"")
                     }
+                    None => format!(
+                        "{}, where UNIT is N of a force, N m of a torque, A of a current",
+                        with("unit = \"UNIT\"")
+                    ),
                 };
                 format!(
                     "name it in axis.toml under [columns], as in: {line} (docs/axis.md tells what makes a force of the voltage, \

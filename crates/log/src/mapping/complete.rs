@@ -87,7 +87,9 @@ fn written_unit(
         .as_deref()
         .filter(|u| !u.trim().is_empty());
     if let Some(unit) = &channel.unit {
-        if let Some(other) = in_file.filter(|text| {
+        let in_name = || endings::unit(table, column).map(|unit| unit.to_string());
+        let said = in_file.map(str::to_owned).or_else(in_name);
+        if let Some(other) = said.filter(|text| {
             let same = |other: Unit| {
                 other.dimension() == unit.dimension() && other.factor() == unit.factor()
             };

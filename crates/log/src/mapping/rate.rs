@@ -9,6 +9,8 @@ use stiction_codes::Code;
 
 /// How much a given rate and that of the time stamps may differ, as a fraction.
 const MAX_DEVIATION: f64 = 0.01;
+/// Part of the rows from which on repeated stamps are those of a coarse clock.
+const MANY_REPEATED: f64 = 0.05;
 /// Units that time stamps without one may be in, the likeliest first.
 const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
 
@@ -61,7 +63,7 @@ pub(super) fn are_ticks(values: &[f64]) -> bool {
 
 /// Steps of time stamps, in their own unit.
 struct Steps {
-    /// The median of those that go forward.
+    /// The median of those that go forward; where a clock that is coarser than the sampling repeats its stamps, the mean.
     usual: f64,
     /// From the first row to the last.
     mean: f64,
@@ -72,15 +74,21 @@ impl Steps {
         let rows = table.columns[column].values.iter().copied().enumerate();
         let stamps: Vec<(usize, f64)> = rows.filter(|(_, t)| t.is_finite()).collect();
         let (first, last) = (stamps.first()?, stamps.last()?);
-        let steps = stamps.windows(2).map(|w| w[1].1 - w[0].1);
+        let steps: Vec<f64> = stamps.windows(2).map(|w| w[1].1 - w[0].1).collect();
+        let mean = (last.1 - first.1) / (last.0 - first.0).max(1) as f64;
+        let repeated = steps.iter().filter(|step| **step == 0.0).count();
+        let mut forward: Vec<f64> = steps.iter().copied().filter(|step| *step > 0.0).collect();
+        let usual = median(&mut forward)?;
         Some(Self {
-            usual: median(&mut steps.filter(|step| *step > 0.0).collect::<Vec<_>>())?,
-            mean: (last.1 - first.1) / (last.0 - first.0).max(1) as f64,
+            usual: match repeated as f64 > MANY_REPEATED * steps.len() as f64 {
+                true => mean,
+                false => usual,
+            },
+            mean,
         })
     }
 
-    /// Whether a rate is theirs. The mean step counts as much as the median: a clock coarser than the sampling repeats its stamps,
-    /// and a rate is the cure.
+    /// Whether a rate is theirs. The mean step counts as much as the median, from which rows that are missing keep it apart.
     fn agree(&self, rate: f64, unit: &Unit) -> bool {
         let agrees = |step: f64| (rate * unit.factor() * step - 1.0).abs() <= MAX_DEVIATION;
         agrees(self.mean) || agrees(self.usual)

@@ -569,6 +569,16 @@ fn a_unit_in_the_mapping_goes_before_the_file() {
         table.columns[1].values[5] / 1e6
     );
     insta::assert_snapshot!(message(&log, "unit-override"));
+    // A unit in a name counts as one in brackets.
+    let table = headed(&["t/s", "x/mm", "F/N"]);
+    let position = |unit: &str| Mapping {
+        position: Some(Channel::named("x/mm").unit(Unit::parse(unit).unwrap())),
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&table, &position("m")).unwrap();
+    insta::assert_snapshot!(message(&log, "unit-override"), @"position: the recording gives mm, the axis file m; the axis file takes precedence");
+    let log = Log::from_table(&table, &position("mm")).unwrap();
+    assert!(!codes(&log).contains(&"unit-override"));
 }
 
 #[test]
@@ -690,6 +700,8 @@ fn a_rate_that_contradicts_the_time_stamps_is_refused() {
     for (table, hertz) in [
         (stamped(" [ms]", 1.0), 500.0),
         (stamped(" [ms]", 0.25), 4100.0),
+        // The step of the clock is not that of the rows.
+        (stamped(" [ms]", 0.25), 1000.0),
         (stamped(" [us]", 1.0), 1000.0),
     ] {
         let error = Log::from_table(&table, &rate(hertz)).unwrap_err();

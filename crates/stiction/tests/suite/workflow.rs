@@ -23,6 +23,30 @@ fn has_page(code: &str) -> bool {
     pages.join(format!("{code}.md")).is_file()
 }
 
+/// A travel of kilometres is that of a wrong unit: nothing of the law may be used, and the axis file is where it is set right.
+#[test]
+fn a_size_of_no_machine_is_not_trusted() {
+    let bench = Bench::new();
+    let file = bench.log(
+        "km.csv",
+        8000,
+        |t| 3e5 * both_ways(t)[0],
+        |i, t| friction(both_ways(t)) + noise(5, i),
+    );
+    let result = run(&options(&[&file], LawKind::CoulombViscous))
+        .unwrap()
+        .result;
+    assert!(!result.trust.trustworthy);
+    assert_eq!(result.trust.next, stiction::result::Next::AxisFile);
+    assert!(
+        result
+            .trust
+            .reasons
+            .iter()
+            .any(|reason| reason.contains("machines have"))
+    );
+}
+
 /// Logs from which nothing, or not everything, can be identified: an error, or a result that says no.
 #[test]
 fn poor_logs_are_refused_or_flagged() {

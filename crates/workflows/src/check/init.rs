@@ -85,7 +85,7 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
 fn found(log: &Log) -> Found {
     Found {
         assumed: assumed(log).map(|(role, _)| role).collect(),
-        resolution: log.quantum.map(|step| length(log, step)),
+        resolution: step(log).map(|step| length(log, step)),
         wrap: wrap(log).map(|travel| match log.counter(travel) {
             Some(counts) => format!("{counts} counts"),
             None => length(log, travel),
@@ -93,6 +93,14 @@ fn found(log: &Log) -> Found {
         own_stamps: Vec::new(),
         columns: Vec::new(),
     }
+}
+
+/// The encoder step that was found; none where the unit is doubtful that it is in: it would stay when that is corrected.
+fn step(log: &Log) -> Option<f64> {
+    let is_assumed = assumed(log).any(|(role, _)| role == Role::Position);
+    let mut findings = log.findings.iter();
+    let is_doubtful = is_assumed || findings.any(|found| found.code == Code::UnlikelySize);
+    log.quantum.filter(|_| !is_doubtful)
 }
 
 /// A length or angle as an axis file has it, to the last bit.
@@ -199,7 +207,7 @@ fn additions(given: &Axis, log: &Log) -> Vec<Addition> {
             )
         });
     }
-    if let (None, Some(step)) = (given.mapping.resolution, log.quantum) {
+    if let (None, Some(step)) = (given.mapping.resolution, step(log)) {
         let value = format!("\"{}\"", length(log, step));
         out.push(line(
             "log",

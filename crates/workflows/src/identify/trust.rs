@@ -499,6 +499,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         reasons.push(text, Next::Check);
     }
     saturation(evidence.sources, reasons);
+    no_machine(evidence.sources, reasons);
     another_wins(evidence, warnings, reasons);
     if let Some(why) = evidence.held_back {
         let text = format!("a compensator would rely on a guess: {why}");
@@ -600,6 +601,14 @@ fn saturation(sources: &[Source], reasons: &mut Reasons) {
             100.0 * MOST_SATURATED_SHARE
         );
         reasons.push(text, Next::Check);
+    }
+}
+
+/// Refuses logs with a rate, travel, speed or force that no machine has: a unit is wrong, and every number with it.
+fn no_machine(sources: &[Source], reasons: &mut Reasons) {
+    let mut findings = sources.iter().flat_map(|source| &source.log.findings);
+    if let Some(found) = findings.find(|finding| finding.code == Code::UnlikelySize) {
+        reasons.push(found.message.clone(), Next::AxisFile);
     }
 }
 
