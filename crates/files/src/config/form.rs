@@ -207,9 +207,10 @@ pub(super) fn of_tables(entries: &DeTable<'_>) -> Option<Form> {
         Some("plan") => Some(Form::Plan),
         _ if is_list("parameter") && get("law").is_some() => Some(Form::Model),
         _ if is_table("axis") && (is_list("path") || is_table("path")) => Some(Form::Study),
-        _ if ["columns", "conditioning", "terms"]
-            .into_iter()
-            .any(is_table) =>
+        _ if is_list("log")
+            || ["columns", "conditioning", "limits", "log", "terms"]
+                .into_iter()
+                .any(is_table) =>
         {
             Some(Form::Axis)
         }

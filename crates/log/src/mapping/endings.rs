@@ -39,12 +39,17 @@ fn over(name: &str) -> Option<(&str, &str)> {
 /// Whether strokes in the names of a table stand between quantities and units: in a path, `arm/position`, or where but one name has
 /// one, `motor/A`, they are something else.
 fn strokes_are_over_units(table: &Table) -> bool {
-    let names = table.columns.iter().map(|column| column.name.trim());
-    let mut strokes = names.filter(|name| name.contains('/')).take(MOST_STROKES);
+    let columns = table.columns.iter();
+    let mut strokes = columns
+        .filter(|column| column.name.contains('/'))
+        .take(MOST_STROKES);
     let mut count = 0;
-    strokes.all(|name| {
+    strokes.all(|column| {
         count += 1;
-        over(name).is_some()
+        let name = column.name.trim();
+        // A unit in brackets, `v/(mm/s)`, the file has set apart already.
+        let is_apart = name.ends_with('/') && column.unit.is_some();
+        is_apart || over(name).is_some()
     }) && count > 1
 }
 

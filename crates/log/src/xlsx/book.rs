@@ -23,6 +23,8 @@ impl Book {
     pub(super) fn texts(&mut self, reader: impl BufRead) -> io::Result<()> {
         let mut xml = Xml::new(reader);
         let (mut in_text, mut left) = (false, MAX_TEXTS);
+        // Within `rPh` stands how a word is read aloud, in Japanese: no part of the text.
+        let mut aloud = false;
         while let Some(part) = xml.next()? {
             match part {
                 Part::Open(tag, empty) => match name(&tag) {
@@ -30,9 +32,8 @@ impl Book {
                         left = take(left, size_of::<String>())?;
                         self.texts.push(String::new());
                     }
-                    "t" => in_text = !empty,
-                    // How a word is read aloud, in Japanese.
-                    "rPh" => in_text = false,
+                    "t" => in_text = !empty && !aloud,
+                    "rPh" => aloud = !empty,
                     _ => {}
                 },
                 Part::Text(text) if in_text => {
@@ -42,7 +43,10 @@ impl Book {
                     }
                 }
                 Part::Text(_) => {}
-                Part::Close(_) => in_text = false,
+                Part::Close(tag) => {
+                    in_text = false;
+                    aloud &= tag != "rPh";
+                }
             }
         }
         Ok(())

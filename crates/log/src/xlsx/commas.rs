@@ -21,6 +21,8 @@ struct Column {
     point: Option<(u64, String)>,
     /// The row of the first number.
     number: Option<u64>,
+    /// Whether some comma is certainly a decimal one: not every text is as `12,345`, which may be twelve thousand.
+    is_decimal: bool,
 }
 
 impl Commas {
@@ -47,6 +49,7 @@ impl Commas {
             }
             Some(Decimal::Comma) => {
                 seen.comma.get_or_insert_with(here);
+                seen.is_decimal |= !may_be_thousands(text);
             }
             Some(Decimal::Point) => {
                 seen.point.get_or_insert_with(here);
@@ -79,19 +82,33 @@ impl Commas {
         Ok(())
     }
 
-    /// Whether there is a column of texts with commas.
+    /// Whether there is a column of texts with decimal commas.
     pub fn any(&self) -> bool {
-        self.columns.iter().any(|column| column.comma.is_some())
+        self.columns.iter().any(|column| column.is_decimal)
     }
 
-    /// Puts a point for the comma of a text that is a number of such a column.
+    /// Puts a point for the comma of a text that is a number of such a column. Where every comma may be one of thousands the texts
+    /// stay as they are, and the column is left out as one of texts.
     pub fn to_point(&self, column: usize, text: &mut String) {
-        let has_commas = self.columns.get(column).is_some_and(|c| c.comma.is_some());
+        let has_commas = self.columns.get(column).is_some_and(|c| c.is_decimal);
         let number = || classify(text.as_bytes());
         if has_commas && matches!(number(), Cell::Number(_, Some(Decimal::Comma))) {
             *text = text.replace(',', ".");
         }
     }
+}
+
+/// Whether the comma of a number may stand behind thousands: `12,345`, and neither `0,345` nor `12,3`.
+fn may_be_thousands(text: &str) -> bool {
+    let digits = text.trim().trim_start_matches(['-', '+', '\u{2212}']);
+    digits.split_once(',').is_some_and(|(whole, part)| {
+        let all = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+        (1..=3).contains(&whole.len())
+            && !whole.starts_with('0')
+            && part.len() == 3
+            && all(whole)
+            && all(part)
+    })
 }
 
 /// The name of a column as Excel shows it: A, B .. Z, AA (from 0).
@@ -134,6 +151,20 @@ mod tests {
             let error = seen(&mixed).check().unwrap_err();
             assert_eq!(error.place.column.as_deref(), Some("B"));
         }
+    }
+
+    /// Fifty thousand and fifty may be written alike.
+    #[test]
+    fn commas_that_may_be_those_of_thousands_are_left_as_they_are() {
+        let read = |texts: [&str; 2]| {
+            let commas = seen(&[(2, texts[0], true), (3, texts[1], true)]);
+            let mut text = texts[0].to_owned();
+            commas.to_point(1, &mut text);
+            text
+        };
+        assert_eq!(read(["50,725", "-1,250"]), "50,725");
+        assert_eq!(read(["50,725", "0,250"]), "50.725");
+        assert_eq!(read(["50,725", "1,25"]), "50.725");
     }
 
     #[test]

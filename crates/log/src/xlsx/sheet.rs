@@ -64,7 +64,7 @@ impl<'b, R: BufRead> Sheet<'b, R> {
     fn cells(&mut self) -> io::Result<Option<Vec<Said>>> {
         let mut cells: Vec<Said> = Vec::new();
         let mut cell = Cell::default();
-        let (mut in_value, mut in_row) = (false, false);
+        let (mut in_value, mut in_row, mut aloud) = (false, false, false);
         while let Some(part) = self.xml.next()? {
             match part {
                 Part::Open(tag, empty) => match name(&tag) {
@@ -105,13 +105,15 @@ impl<'b, R: BufRead> Sheet<'b, R> {
                             cells.resize(at + 1, Said::default());
                         }
                     }
-                    "v" | "t" => in_value = in_row && !empty,
+                    "v" | "t" => in_value = in_row && !empty && !aloud,
+                    "rPh" => aloud = !empty,
                     _ => {}
                 },
                 Part::Text(text) if in_value => cell.text.push_str(&text),
                 Part::Text(_) => {}
                 Part::Close(tag) => match tag.as_str() {
                     "v" | "t" => in_value = false,
+                    "rPh" => aloud = false,
                     "c" if in_row => {
                         cells.resize(cell.at, Said::default());
                         cells.push(Said {

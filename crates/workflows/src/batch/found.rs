@@ -14,6 +14,15 @@ pub(super) fn found(inputs: &[PathBuf], out: &Path) -> Result<Vec<Listed>, Error
     for input in inputs {
         let before = all.len();
         let is_pattern = || shell::text(input).contains(['*', '?', '[']);
+        if input.is_dir() && is_outcome(input) {
+            return Err(Error::usage(
+                format!(
+                    "{} holds what an earlier command has written",
+                    shell::text(input)
+                ),
+                "a folder of logs; logs that lie beside a result are named by themselves",
+            ));
+        }
         if input.is_dir() {
             walk(input, out, &mut all);
             if all.len() == before {
@@ -167,8 +176,15 @@ mod tests {
             ["b.csv", "nowhere.csv"]
         );
         assert_eq!(found(&[""]).unwrap().len(), 5);
+        fs::create_dir_all(at.join("done")).unwrap();
+        fs::write(
+            at.join("done/result.json"),
+            "{\"schema\":\"stiction.result/1\"}",
+        )
+        .unwrap();
         for (input, said) in [
             ("out", "holds no logs"),
+            ("done", "holds what an earlier command has written"),
             ("nothing/*.csv", "names no logs"),
             ("none.csv", "cannot be read"),
             ("[", "a pattern with"),

@@ -95,11 +95,10 @@ fn found(log: &Log) -> Found {
     }
 }
 
-/// The encoder step that was found; none where the unit is doubtful that it is in: it would stay when that is corrected.
+/// The encoder step that was found; none where it is in a unit that is probably wrong: it would stay when that is corrected.
 fn step(log: &Log) -> Option<f64> {
-    let is_assumed = assumed(log).any(|(role, _)| role == Role::Position);
     let mut findings = log.findings.iter();
-    let is_doubtful = is_assumed || findings.any(|found| found.code == Code::UnlikelySize);
+    let is_doubtful = findings.any(|found| found.code == Code::UnlikelySize);
     log.quantum.filter(|_| !is_doubtful)
 }
 
