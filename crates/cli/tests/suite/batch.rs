@@ -230,7 +230,10 @@ fn a_list_says_of_which_machine_and_when_a_log_is() {
     for (input, said) in [
         ("nowhere", "[log-io] nowhere: cannot be read"),
         ("no*where", "[usage] no*where names no logs"),
-        ("out", "[usage] out holds no logs"),
+        (
+            "out",
+            "[usage] out holds what an earlier command has written",
+        ),
     ] {
         let (code, _, err) = bench.run(&["batch", input, "--out", "out"]);
         assert!(code == 2 && err.contains(said), "{err}");

@@ -81,6 +81,30 @@ pub(super) enum Unclear {
     Blunt(Lag),
 }
 
+impl Unclear {
+    /// How much of the variance the best lag explains.
+    pub fn explained(&self) -> f64 {
+        match self {
+            Unclear::Little => 0.0,
+            Unclear::Weak(explained) => *explained,
+            Unclear::Blunt(lag) => lag.explained,
+            Unclear::Several(lags) => lags.first().map_or(0.0, |lag| lag.explained),
+        }
+    }
+
+    /// Whether a lag that explains less is none of those that are possible.
+    pub fn excludes(&self, lag: &Lag) -> bool {
+        let possible = match self {
+            Unclear::Little | Unclear::Weak(_) => return false,
+            Unclear::Blunt(blunt) => std::slice::from_ref(blunt),
+            Unclear::Several(lags) => lags,
+        };
+        let near =
+            |other: &Lag| (other.seconds - lag.seconds).abs() <= other.half_width + lag.half_width;
+        lag.explained < self.explained() && !possible.iter().any(near)
+    }
+}
+
 /// What is to be added to the times of `other` so that it goes with `own`, to within `allowed` seconds.
 pub(super) fn between(
     own: (&Course, Is),

@@ -78,7 +78,7 @@ impl Joined {
             (&own.force, &others.motion),
             (&own.force, &others.force),
         ];
-        let mut why: Option<(Error, f64)> = None;
+        let mut why: Option<(Error, Unclear)> = None;
         for (own, other) in pairs {
             let (Some(own), Some(other)) = (own, other) else {
                 continue;
@@ -93,14 +93,19 @@ impl Joined {
             let by = format!("{} of the log and {} of {name}", own.column, other.column);
             let found = lag::between((&own.course, own.is), (&other.course, other.is), allowed);
             match found {
+                // What two columns that say more rule out is a chance likeness.
+                Ok(lag)
+                    if why
+                        .as_ref()
+                        .is_some_and(|(_, unclear)| unclear.excludes(&lag)) => {}
                 Ok(lag) => {
                     let seconds = (1e6 * (between + lag.seconds)).round() / 1e6;
                     return Ok(Estimate { seconds, lag, by });
                 }
                 Err(unclear) => {
-                    let explained = explained(&unclear);
-                    if why.as_ref().is_none_or(|(_, before)| explained > *before) {
-                        why = Some((refusal(&unclear, &by, between, allowed), explained));
+                    let more = |before: &Unclear| unclear.explained() > before.explained();
+                    if why.as_ref().is_none_or(|(_, before)| more(before)) {
+                        why = Some((refusal(&unclear, &by, between, allowed), unclear));
                     }
                 }
             }
@@ -223,16 +228,6 @@ fn straighten(values: &mut [f64], period: f64) {
         }
         before = Some(*value);
         *value += turns * period;
-    }
-}
-
-/// How much the best lag explains that is not clear.
-fn explained(unclear: &Unclear) -> f64 {
-    match unclear {
-        Unclear::Little => 0.0,
-        Unclear::Weak(explained) => *explained,
-        Unclear::Blunt(lag) => lag.explained,
-        Unclear::Several(lags) => lags.first().map_or(0.0, |lag| lag.explained),
     }
 }
 
