@@ -12,10 +12,6 @@ use crate::student;
 use nalgebra::{DMatrix, DVector};
 use stiction_parameters::{Name, Quantity};
 
-/// By what the jackknife is widened: what is left of the noise of the force pulls all blocks one way. Chosen on simulated axes,
-/// seeds 1 to 40 of a ball screw and a joint, and held against others (decision 0060).
-const WIDER: f64 = 1.7;
-
 /// A parameter as the likelihood has it.
 struct Own {
     /// Its logarithm, the constant force itself.
@@ -152,7 +148,7 @@ fn own(name: Name, found: &Likely) -> Option<Own> {
     let other = found.other.as_ref().map_or(value, sum);
     let sureness = &found.sureness;
     let quantile = student::quantile(sureness.freedom(&weights));
-    let seen = WIDER * quantile * deviation(&sureness.seen);
+    let seen = sureness.wider * quantile * deviation(&sureness.seen);
     let delayed = match name.quantity {
         Quantity::Sigma1 => found.delayed,
         _ => 0.0,
