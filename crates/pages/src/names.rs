@@ -1,6 +1,6 @@
 //! Names and sentences that reports and the terminal share.
 
-use stiction_files::result::{LawEntry, ResultFile, SimulationEntry};
+use stiction_files::result::{LawEntry, ParameterEntry, ResultFile, SimulationEntry};
 use stiction_number::four_digits;
 
 /// Ratio of two errors from which the larger one is called worse, dimensionless: tables show three digits.
@@ -102,6 +102,12 @@ pub(crate) fn force_noise(entry: &SimulationEntry) -> Option<&'static str> {
         "Open loop: noise and errors of the logged force add up along a run, so an axis that slides drifts away even under \
          the right law; over a short time less has added up.",
     )
+}
+
+/// Whether parameters come from the counts of the encoder, and not from the fit of the force.
+pub fn is_of_the_counts(result: &ResultFile) -> bool {
+    let of_counts = |p: &ParameterEntry| p.interval.as_deref() == Some("state-space");
+    result.parameters.iter().any(of_counts)
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ mod tables;
 
 use crate::glossary::explained;
 use crate::inputs;
-use crate::names::{chosen_by, law_of, without_offset};
+use crate::names::{chosen_by, is_of_the_counts, law_of, without_offset};
 use crate::next;
 use crate::trust::{compensation, constants, why_not};
 use std::path::Path;
@@ -368,6 +368,12 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
 }
 
 fn sureness(outcome: &Outcome) -> String {
+    if is_of_the_counts(&outcome.result) {
+        return "Parameters and intervals are those of an axis that is simulated under the logged force and compared with the counts of \
+                the encoder: the wider of what the likelihood of the counts states and what leaving out each twentieth of the log in \
+                turn shows. The residual is that of the fit of the force, which they do not come from."
+            .into();
+    }
     let fit = &outcome.result.fit;
     let worth = fit.effective_samples.max(0.0) as usize;
     let resembles = match worth < fit.samples {

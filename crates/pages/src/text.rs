@@ -15,7 +15,9 @@ mod table;
 
 use crate::deviation::Deviation;
 use crate::inputs;
-use crate::names::{chosen_by, force_noise, law_beside, law_of, simulated_runs, without_offset};
+use crate::names::{
+    chosen_by, force_noise, is_of_the_counts, law_beside, law_of, simulated_runs, without_offset,
+};
 use crate::next;
 pub use crate::next::{axis_file, why};
 use crate::trust::{cause, compensation, constants, why_not};
@@ -29,7 +31,7 @@ pub use procedure::{planned_log, procedure_commands};
 pub use reproduction::reproduction;
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::result::{LawEntry, Next, ParameterEntry, ResultFile, SimulationEntry};
+use stiction_files::result::{LawEntry, Next, ResultFile, SimulationEntry};
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::identify::Outcome;
 pub use study::{announced, started_study, study};
@@ -126,8 +128,7 @@ pub fn outcome(outcome: &Outcome) -> String {
             low.bound_unit
         );
     }
-    let of_counts = |p: &ParameterEntry| p.interval.as_deref() == Some("state-space");
-    if result.parameters.iter().any(of_counts) {
+    if is_of_the_counts(result) {
         let _ = writeln!(
             out,
             "counts      the axis rests in much of the log: parameters and intervals come from the counts of the encoder, the \

@@ -125,6 +125,8 @@ pub enum Stage {
     Fine,
     /// The bias measured on replicas.
     Calibration,
+    /// The law looked for that makes the counts of an encoder most likely.
+    Counts,
     /// Law comparison on held-out blocks.
     CrossValidation,
     /// Logs, each identified by itself.

@@ -44,6 +44,7 @@ pub fn stage(stage: stiction_identify::Stage) -> &'static str {
     match stage {
         Stage::Tuning => "choosing cut-offs",
         Stage::Calibration => "measuring the bias",
+        Stage::Counts => "asking the encoder counts",
         Stage::Search => "searching",
         Stage::Scan => "scanning the box",
         Stage::Coarse => "first descents",

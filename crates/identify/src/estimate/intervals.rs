@@ -97,7 +97,7 @@ fn of_the_counts(
     estimate: &mut Estimate,
     observer: &mut dyn Observer,
 ) {
-    let mut watch = Watch::new(observer, Stage::Calibration);
+    let mut watch = Watch::new(observer, Stage::Counts);
     let known = Known {
         between,
         delay: estimate.parameter(Quantity::Delay),

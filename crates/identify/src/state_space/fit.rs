@@ -55,6 +55,10 @@ const CURVE_STEPS: usize = 15;
 const LAST_STEPS: usize = 30;
 /// Rise of the log likelihood in a step after which nothing is left to gain, on a part of the samples and on all of them.
 const LEAST_RISES: [f64; 2] = [0.3, 0.02];
+/// Part of the search that is done after the starts, after the delays, and before all samples are asked; and by which part of what
+/// is left until then each climb brings it on, since nobody knows how many there will be.
+const DONE: [f64; 3] = [0.4, 0.7, 0.9];
+const STEP_ON: f64 = 0.3;
 /// Parts that each stretch is cut into, the middle third of which is taken.
 const PARTS: usize = 3;
 /// Where the errors of the force start: white error and disturbance in parts of its noise, memory in samples.
@@ -122,6 +126,7 @@ pub(super) fn most_likely(
         fitted,
         free: free(fitted),
         noise: f64::INFINITY,
+        until: DONE[0],
         watch,
     };
     let begun = start(fitted)?;
@@ -145,11 +150,13 @@ pub(super) fn most_likely(
             against: MORE_ACTS,
         });
     }
+    search.until = DONE[1];
     let (best, delay) = match looked_for {
         true => search.best_delay(first)?,
         false => (first, None),
     };
     let Tried { late, data, top } = best;
+    search.until = DONE[2];
     let other = search.with_another_curve(&data, &top)?;
     let problem = problem(
         &data,
@@ -159,6 +166,7 @@ pub(super) fn most_likely(
         law.asymmetric,
     );
     let top = problem.climb_on(&top.at, &search.free, LAST_STEPS, LEAST_RISES[1]);
+    search.until = 1.0;
     search.asked(&top)?;
     // An error of the force that there is not says nothing of its size.
     let faint = |lane: usize| top.at[lane] <= problem.faintest();
@@ -266,6 +274,8 @@ struct Search<'a, 'o> {
     free: Vec<usize>,
     /// Noise of the force sensor, N (N m), at the delay that leaves the least: at others it hides what the response misses.
     noise: f64,
+    /// Part of the whole that is done when what goes on has ended.
+    until: f64,
     watch: &'a mut Watch<'o>,
 }
 
@@ -273,6 +283,7 @@ impl Search<'_, '_> {
     /// Counts the evaluations of a climb; `None` if the observer stops it.
     fn asked(&mut self, top: &Top) -> Option<()> {
         self.watch.counts.derivatives += top.evaluations as u64;
+        self.watch.fraction += STEP_ON * (self.until - self.watch.fraction);
         (self.watch.report(f64::INFINITY) == Control::Continue).then_some(())
     }
 
