@@ -2,7 +2,7 @@
 
 use crate::deviation::Deviation;
 use crate::inputs;
-use crate::names::law_beside;
+use crate::names::{is_of_the_counts, law_beside};
 use stiction_files::result::{Input, LawEntry, SimulationEntry};
 use stiction_files::symbols;
 use stiction_number::Percent;
@@ -11,6 +11,10 @@ use stiction_workflows::identify::Outcome;
 
 /// Parameters with value, unit, deviation, interval and flag.
 pub(super) fn parameters(outcome: &Outcome) -> Table {
+    let caption = match is_of_the_counts(&outcome.result) {
+        true => "Identified parameters, from the counts of the encoder.",
+        false => "Identified parameters. The intervals count the correlation of the residuals.",
+    };
     let mut table = Table::new([
         ("Parameter", Align::Left),
         ("", Align::Left),
@@ -20,7 +24,7 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
         ("95 % interval", Align::Right),
         ("", Align::Left),
     ])
-    .caption("Identified parameters. The intervals count the correlation of the residuals.");
+    .caption(caption);
     for p in &outcome.result.parameters {
         let deviation = Deviation::of(p, &outcome.result);
         let value = match p.std {
