@@ -9,7 +9,9 @@ use crate::looking::looking;
 use crate::output;
 use crate::progress::Bar;
 use std::io::Write;
+use std::path::PathBuf;
 use stiction::commands::batch::{Batch, SCHEMA};
+use stiction::commands::shell::text as path_text;
 use stiction::commands::{check_folder_of, check_inputs, has_runs};
 use stiction::{Error, Options, bundle};
 
@@ -33,6 +35,10 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
             .inputs()
             .chain(typed.inputs.iter().map(|path| path.as_path())),
     )?;
+    if let Some(said) = left_out(batch.beside_results()) {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
+    }
     let left = has_runs(dir);
     let journal = batch.keep(dir, typed.resume)?;
     let said = match (typed.resume, left, journal.len()) {
@@ -74,4 +80,23 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
         return Ok(Exit::Interrupted);
     }
     Ok(stiction::commands::verdict::of_batch(&file).into())
+}
+
+/// Says which logs lie beside results and are not identified.
+fn left_out(logs: &[PathBuf]) -> Option<String> {
+    /// So many are named.
+    const NAMED: usize = 3;
+    let mut names: Vec<String> = logs.iter().take(NAMED).map(|log| path_text(log)).collect();
+    if logs.len() > NAMED {
+        names.push(format!("and {} more", logs.len() - NAMED));
+    }
+    let count = match logs.len() {
+        0 => return None,
+        1 => "1 log lies".to_string(),
+        many => format!("{many} logs lie"),
+    };
+    Some(format!(
+        "{count} beside the result of an earlier command, and what is in such a folder is left out: {}; name a log to have it identified too",
+        names.join(", ")
+    ))
 }

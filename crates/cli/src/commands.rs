@@ -19,7 +19,8 @@ use stiction::commands::shell::{quoted, quoted_path, text as path_text};
 use stiction::commands::{
     Bundle, Carrier, CompareOptions, Comparison, Cost, Excitation, ExportedC, FileError, Files,
     Input, Kept, Known, Outcome, PlanOptions, Scheme, Want, check_folder, check_folder_of,
-    check_inputs, compare_exported, compare_file, plan_motion, visible, write_atomic,
+    check_inputs, compare_exported, compare_file, limits_to_fill_in, plan_motion, visible,
+    write_atomic,
 };
 use stiction::result::Next;
 use stiction::{
@@ -60,11 +61,15 @@ pub fn run(arguments: &Arguments) -> Exit {
     result.unwrap_or_else(|e| {
         // With standard error closed only the exit code is left to tell.
         let message = wording::message(&e);
-        for line in wording::lines(&e) {
+        for (code, line) in wording::lines(&e) {
             let line = output::line(&line);
-            let _ = writeln!(std::io::stderr(), "stiction: [{}] {line}", e.code());
+            let _ = writeln!(std::io::stderr(), "stiction: [{code}] {line}");
         }
-        if let Some(next) = next(&e, &arguments.command) {
+        if let Command::Plan(plan) = &arguments.command {
+            limits(&e, plan);
+        }
+        let next = next(&e, &arguments.command).or_else(|| crate::next::corrected(&e));
+        if let Some(next) = next {
             // As above.
             let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&next));
         }
@@ -75,6 +80,25 @@ pub fn run(arguments: &Arguments) -> Exit {
         }
         Exit::BadInput
     })
+}
+
+/// Writes the lines of `[limits]` that an axis file lacks for a plan, as they are pasted.
+fn limits(error: &Error, plan: &arguments::Plan) {
+    let Error::File(refused) = error else { return };
+    // What is missing has no line.
+    let is_lacking = |(file, line): &(&Path, Option<usize>)| *file == plan.axis && line.is_none();
+    if !refused.to_correct().iter().any(is_lacking) {
+        return;
+    }
+    if let Some(lines) = limits_to_fill_in(&plan.axis, plan.log.as_deref()) {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(
+            std::io::stderr(),
+            "stiction: lines for {}, under [limits], to be filled in:\n{}",
+            output::line(&path_text(&plan.axis)),
+            output::plain(&lines)
+        );
+    }
 }
 
 /// What to type next, where that is clear.
@@ -155,13 +179,27 @@ fn next(error: &Error, command: &Command) -> Option<String> {
             "shows what the log is good for; what to record instead: docs/procedures.md",
         ));
     }
+    if let Command::Check(check) = command
+        && let (Some(file), Some(log)) = (&check.init, check.logs.first())
+        && check.axis.is_none()
+        && let Some(next) = crate::next::another_init(error, file, log)
+    {
+        return Some(next);
+    }
+    if let Command::Drift(drift) = command {
+        return crate::next::table(error, &drift.results);
+    }
     let (logs, axis) = match command {
         Command::Check(check) if check.init.is_none() || axis_is_no_way_out(error) => {
             (&check.logs, &check.axis)
         }
         Command::Identify(identify) => (&identify.logs, &identify.axis),
+        Command::Check(check) => return crate::next::many(error, &check.logs),
         _ => return None,
     };
+    if let Some(next) = crate::next::many(error, logs) {
+        return Some(next);
+    }
     let unclear = matches!(
         error.code(),
         Code::LogMissing | Code::LogAmbiguous | Code::LogUnit
@@ -171,6 +209,20 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         && (e.place.row.is_some() || error.code() == Code::LogFormat)
     {
         return Some(unread(e, logs, axis.as_deref()));
+    }
+    if let Some(axis) = axis
+        .as_deref()
+        .filter(|_| unclear && crate::next::corrected(error).is_none())
+    {
+        return Some(format!(
+            "next, with {} in {}: {}",
+            match wording::lines(error).len() {
+                1 => "that line",
+                _ => "those lines",
+            },
+            typed(axis),
+            crate::next::again()
+        ));
     }
     let log = faulty(logs, error).filter(|_| unclear && axis.is_none())?;
     Some(format!(
@@ -918,5 +970,6 @@ pub fn written_to(dir: &Path, written: &[PathBuf]) -> String {
         .iter()
         .filter_map(|p| p.file_name().map(|n| n.to_string_lossy().into_owned()))
         .collect();
-    format!("written to {}: {}\n", dir.display(), names.join(", "))
+    let dir = stiction::commands::shell::shown(&path_text(dir));
+    format!("written to {dir}: {}\n", names.join(", "))
 }

@@ -37,7 +37,7 @@ fn led_on(error: &clap::Error) -> String {
         return String::new();
     };
     let mut text = String::from("\n");
-    for line in refused.iter().flat_map(wording::lines) {
+    for (_, line) in refused.iter().flat_map(wording::lines) {
         let _ = writeln!(text, "stiction: {}", output::line(&line));
     }
     let _ = writeln!(text, "stiction: {}", output::line(&next));

@@ -49,6 +49,9 @@ pub fn other_form(error: &Error) -> Option<String> {
         return None;
     };
     let Some(instead) = instead else {
+        if let Some(next) = for_axis(file) {
+            return Some(next);
+        }
         let (takes, typed) = misplaced::typed()?;
         return misplaced::next(takes, typed.iter().find(|typed| *typed == file)?);
     };
@@ -57,6 +60,213 @@ pub fn other_form(error: &Error) -> Option<String> {
         "next: {}",
         stiction::commands::text::command(arguments.into_iter())
     ))
+}
+
+/// What makes an axis file where one is given to `--axis` that is none.
+fn for_axis(file: &Path) -> Option<String> {
+    let words: Vec<String> = std::env::args_os()
+        .skip(1)
+        .map(|word| path_text(Path::new(&word)))
+        .collect();
+    let given = words
+        .windows(2)
+        .any(|pair| pair[0] == "--axis" && Path::new(&pair[1]) == file);
+    let joined = path_text(file);
+    let given = given
+        || words
+            .iter()
+            .any(|w| w.strip_prefix("--axis=") == Some(&*joined));
+    let (takes, typed) = misplaced::typed()?;
+    let log = typed
+        .first()
+        .filter(|_| given && takes == misplaced::Takes::Logs)?;
+    let log = path_text(log);
+    let axis = stiction::commands::text::axis_file(&log);
+    Some(format!(
+        "next, for an axis file of that log: stiction check {} --init {axis}",
+        stiction::commands::shell::quoted(&log)
+    ))
+}
+
+/// What leads on from a file whose content is refused: where to correct it, and the same command again.
+pub fn corrected(error: &Error) -> Option<String> {
+    let Error::File(error) = error else {
+        return None;
+    };
+    let mut files: Vec<(&Path, Vec<usize>)> = Vec::new();
+    for (file, line) in error.to_correct() {
+        match files.iter_mut().find(|(known, _)| *known == file) {
+            Some((_, lines)) => lines.extend(line),
+            None => files.push((file, line.into_iter().collect())),
+        }
+    }
+    // What cannot be read at all, or is no text, is not corrected in an editor.
+    let is_typed = |file: &Path| {
+        file.is_file()
+            && file.extension().is_none_or(|end| end != "parquet")
+            && std::fs::File::open(file).is_ok()
+    };
+    if files.is_empty() || !files.iter().all(|(file, _)| is_typed(file)) {
+        return None;
+    }
+    let places = files.into_iter().map(|(file, mut lines)| {
+        lines.sort_unstable();
+        lines.dedup();
+        let numbers: Vec<String> = lines.iter().map(usize::to_string).collect();
+        let place = match numbers.as_slice() {
+            [] => String::new(),
+            [one] => format!(" (line {one})"),
+            [most @ .., last] => format!(" (lines {} and {last})", most.join(", ")),
+        };
+        format!("{}{place}", quoted_path(file))
+    });
+    let places: Vec<String> = places.collect();
+    Some(format!(
+        "next: correct {}, then: {}",
+        places.join(" and "),
+        again()
+    ))
+}
+
+/// What leads on where there is a file already that an axis file was to be begun in: another name for it.
+pub fn another_init(error: &Error, file: &Path, log: &Path) -> Option<String> {
+    let Error::File(FileError::Output { path, .. }) = error else {
+        return None;
+    };
+    if path != file || path.symlink_metadata().is_err() {
+        return None;
+    }
+    let log_as_typed = quoted_path(log);
+    Some(format!(
+        "next, where that is the axis file of this log: stiction check {log_as_typed} --axis {}, else: stiction check {log_as_typed} --init {}",
+        quoted_path(file),
+        stiction::commands::shell::new_axis_file(log)
+    ))
+}
+
+/// What leads on from a folder of logs, where one log is wanted: all of them, one by one.
+pub fn many(error: &Error, logs: &[PathBuf]) -> Option<String> {
+    let Error::File(FileError::Log(e)) = error else {
+        return None;
+    };
+    let folder = e
+        .file
+        .as_deref()
+        .filter(|file| file.is_dir() && logs.iter().any(|log| log == file))?;
+    // The options of one log that are also those of many.
+    const SHARED: [&str; 8] = [
+        "--axis",
+        "--law",
+        "--method",
+        "--split",
+        "--seed",
+        "--out",
+        "--threads",
+        "--max-memory",
+    ];
+    let mut kept = Vec::new();
+    let words: Vec<String> = std::env::args_os()
+        .skip(1)
+        .map(|a| path_text(Path::new(&a)))
+        .collect();
+    let mut words = words.iter();
+    while let Some(word) = words.next() {
+        let name = word.split('=').next().unwrap_or(word);
+        if SHARED.contains(&name) {
+            kept.push(word.clone());
+            kept.extend(words.next().filter(|_| name == word).cloned());
+        } else if word == "--asymmetric" {
+            kept.push(word.clone());
+        }
+    }
+    let mut command = vec!["batch".to_string()];
+    command.extend(logs.iter().map(|log| path_text(log)));
+    if !kept
+        .iter()
+        .any(|word| word.split('=').next() == Some("--out"))
+    {
+        kept.extend(["--out".to_string(), path_text(&beside(folder, "batch"))]);
+    }
+    command.extend(kept);
+    let command = stiction::commands::text::command(command.into_iter());
+    Some(format!("next, for every log of the folder: {command}"))
+}
+
+/// What leads on from a folder without a table of results: one in a folder below it, else what makes one of the logs in it.
+pub fn table(error: &Error, folder: &Path) -> Option<String> {
+    if !folder.is_dir()
+        || !matches!(error, Error::File(FileError::Config { file, .. }) if file == folder)
+    {
+        return None;
+    }
+    let entries = std::fs::read_dir(folder).ok()?.take(MOST_NAMES).flatten();
+    let mut tables: Vec<PathBuf> = entries
+        .map(|entry| entry.path().join("results.parquet"))
+        .collect();
+    tables.retain(|table| table.is_file());
+    if let Some(table) = tables.iter().min() {
+        let command = stiction::commands::text::command(with(folder, table).into_iter());
+        return Some(format!("next: {command}"));
+    }
+    let out = beside(folder, "batch");
+    Some(format!(
+        "next, where it is a folder of logs: stiction batch {} --law lugre --out {}, then: stiction drift {}",
+        quoted_path(folder),
+        quoted_path(&out),
+        quoted_path(&out.join("results.parquet"))
+    ))
+}
+
+/// A folder of this name beside another one.
+fn beside(folder: &Path, name: &str) -> PathBuf {
+    match folder.file_name() {
+        Some(_) => folder.with_file_name(name),
+        // `.` and `..` have none.
+        None => PathBuf::from(name),
+    }
+}
+
+/// The whole command, where nothing but the folder for what is written is missing.
+fn without_out() -> Option<String> {
+    let typed: Vec<_> = std::env::args_os().collect();
+    let name = typed.iter().skip(1).find_map(|word| {
+        let word = word.to_str()?;
+        let known = Arguments::command();
+        known
+            .find_subcommand(word)
+            .map(|command| command.get_name().to_string())
+    })?;
+    let (_, files) = misplaced::typed()?;
+    let first = files.first()?;
+    let out = match name.as_str() {
+        "plan" | "batch" | "compare" => first.with_file_name(&name),
+        _ => first.with_extension(""),
+    };
+    let out = match out == *first {
+        true => first.with_file_name("result"),
+        false => out,
+    };
+    let whole = typed
+        .iter()
+        .cloned()
+        .chain(["--out".into(), out.clone().into_os_string()]);
+    Arguments::command().try_get_matches_from(whole).ok()?;
+    let mut words: Vec<String> = typed
+        .iter()
+        .skip(1)
+        .map(|a| path_text(Path::new(a)))
+        .collect();
+    words.extend(["--out".to_string(), path_text(&out)]);
+    Some(format!(
+        "next: {}",
+        stiction::commands::text::command(words.into_iter())
+    ))
+}
+
+/// The command that was typed.
+pub fn again() -> String {
+    let arguments = std::env::args_os().skip(1);
+    stiction::commands::text::command(arguments.map(|a| path_text(Path::new(&a))))
 }
 
 /// What was typed, with another path in place of one.
@@ -71,13 +281,16 @@ fn with(file: &Path, instead: &Path) -> Vec<String> {
 
 /// What is wrong with the file of a command of which another argument is missing, and what leads on.
 pub fn incomplete() -> Option<(Option<Error>, String)> {
-    incomplete_export().or_else(|| {
+    let misplaced = || {
         let (takes, typed) = misplaced::typed()?;
         let (error, next) = typed
             .iter()
             .find_map(|file| misplaced::refused(takes, file))?;
         Some((Some(error), next))
-    })
+    };
+    incomplete_export()
+        .or_else(misplaced)
+        .or_else(|| Some((None, without_out()?)))
 }
 
 /// What leads on from an export without its target or its folder: the whole command, and before it what is wrong with the file that

@@ -1,14 +1,25 @@
 //! What an error says at the terminal: as the library says it, with options named as they are typed.
 
-use stiction::Error;
 use stiction::commands::export::ExportError;
 use stiction::commands::{FileError, Remedy, Setting};
+use stiction::{Code, Error};
 
-/// The message of an error, a line for each thing that is wrong.
-pub fn lines(error: &Error) -> Vec<String> {
+/// The message of an error, a line for each thing that is wrong, each with its code.
+pub fn lines(error: &Error) -> Vec<(Code, String)> {
     match error {
-        Error::File(FileError::Several(all)) => all.iter().map(FileError::to_string).collect(),
-        _ => vec![message(error)],
+        Error::File(FileError::Several(all)) => all.iter().flat_map(lines_of_file).collect(),
+        Error::File(e @ FileError::Log(_)) => lines_of_file(e),
+        _ => vec![(error.code(), message(error))],
+    }
+}
+
+fn lines_of_file(error: &FileError) -> Vec<(Code, String)> {
+    match error {
+        FileError::Log(e) => {
+            let each = e.clone().each().into_iter();
+            each.map(|e| (e.kind.code(), e.to_string())).collect()
+        }
+        _ => vec![(error.code(), error.to_string())],
     }
 }
 

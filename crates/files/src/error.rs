@@ -36,7 +36,7 @@ pub enum Error {
         /// A file of that form beside it.
         instead: Option<PathBuf>,
     },
-    /// Everything that is wrong with one file: two things or more, a line each.
+    /// Everything that is wrong with one file, or with a recording and its axis file: two things or more, a line each.
     #[error("{}", lines(.0))]
     Several(Vec<Error>),
     /// A value of an axis file that does not go with a recording.
@@ -115,11 +115,23 @@ impl Error {
     pub fn code(&self) -> Code {
         match self {
             Error::Log(e) => e.kind.code(),
-            Error::Config { .. } | Error::OtherForm { .. } | Error::Several(_) => Code::BadConfig,
+            Error::Several(all) => all.first().map_or(Code::BadConfig, Error::code),
+            Error::Config { .. } | Error::OtherForm { .. } => Code::BadConfig,
             Error::Misfit { code, .. } => *code,
             Error::Runs { .. } => Code::BadCheckpoint,
             Error::TooLarge { .. } => Code::TooLarge,
             Error::Output { .. } | Error::Taken { .. } => Code::Output,
+        }
+    }
+
+    /// The typed files that have to be corrected, each with its line where one is known, counted from 1.
+    pub fn to_correct(&self) -> Vec<(&Path, Option<usize>)> {
+        match self {
+            Error::Several(all) => all.iter().flat_map(Error::to_correct).collect(),
+            Error::Config { file, place, .. } | Error::Misfit { file, place, .. } => {
+                vec![(file, line(place))]
+            }
+            _ => Vec::new(),
         }
     }
 
@@ -151,6 +163,12 @@ impl Error {
             remedy,
         }
     }
+}
+
+/// The line of a place such as `line 3, column 8, rate: `.
+fn line(place: &str) -> Option<usize> {
+    let (number, _) = place.strip_prefix("line ")?.split_once(',')?;
+    number.parse().ok()
 }
 
 fn here(instead: Option<&Path>) -> String {

@@ -92,12 +92,58 @@ pub fn is_unseen(c: char) -> bool {
             | '\u{2060}'..='\u{206f}' | '\u{feff}' | '\u{fff9}'..='\u{fffb}' | '\u{e0000}'..='\u{e007f}')
 }
 
-/// What an axis file for a log may be called, as a shell takes it: by the log, so that those of several do not meet.
+/// What an axis file for a log may be called, as a shell takes it: by the log, so that those of several do not meet. Where one of
+/// that name is there and a log of the same name in another format lies beside, the ending is part of it.
 pub fn axis_file(log: &str) -> String {
-    let stem = Path::new(log)
-        .file_stem()
-        .map(|stem| stem.to_string_lossy());
-    quoted(&format!("{}.axis.toml", stem.as_deref().unwrap_or("log")))
+    let path = Path::new(log);
+    let short = named_by(path.file_stem());
+    match Path::new(&short).exists() && has_namesake(path) {
+        true => quoted(&named_by(path.file_name())),
+        false => quoted(&short),
+    }
+}
+
+/// An axis file for a log that is not there yet, as a shell takes it: by the whole name of the log, else with a number.
+pub fn new_axis_file(log: &Path) -> String {
+    let whole = named_by(log.file_name());
+    let numbered = (2..).map(|number| whole.replace(".axis.toml", &format!(".{number}.axis.toml")));
+    let mut names = [named_by(log.file_stem()), whole.clone()]
+        .into_iter()
+        .chain(numbered);
+    // A name that leads nowhere is one too.
+    let is_free = |name: &String| Path::new(name).symlink_metadata().is_err();
+    quoted(&names.find(is_free).unwrap_or(whole))
+}
+
+fn named_by(name: Option<&std::ffi::OsStr>) -> String {
+    let name = name.map(|name| name.to_string_lossy());
+    format!("{}.axis.toml", name.as_deref().unwrap_or("log"))
+}
+
+/// Most names of a folder that are looked at.
+const MOST_NAMES: usize = 10_000;
+
+/// Whether a file of the same name with another ending lies beside a log.
+fn has_namesake(log: &Path) -> bool {
+    let folder = match log.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    entries
+        .take(MOST_NAMES)
+        .map(|entry| entry.path())
+        .any(|path| {
+            path.file_stem() == log.file_stem()
+                && path.file_name() != log.file_name()
+                && path.extension().is_some_and(|end| end != "toml")
+                && path.is_file()
+        })
+}
+
+/// A name in the midst of a text: a line feed in it begins no line.
+pub fn shown(name: &str) -> String {
+    name.replace('\n', "\\n")
 }
 
 #[cfg(test)]

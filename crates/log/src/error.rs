@@ -1,6 +1,6 @@
 //! Why a recording was refused: the file, the place in it, what was found, what is allowed.
 //!
-//! The text of an [`Error`] ends in what is allowed or what to do; [`Kind::code`] names its page in `docs/codes`.
+//! The text of an [`Error`] ends in what is allowed or what to do, and has a line for each thing that has to be decided; [`Kind::code`] names its page in `docs/codes`.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -71,9 +71,14 @@ impl fmt::Display for Place {
     }
 }
 
-/// A key of the axis file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Key(Cow<'static, str>);
+/// What few errors have.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+struct Rest {
+    /// The key of the axis file that it is about.
+    setting: Option<Cow<'static, str>>,
+    /// What else is wrong with the same recording.
+    others: Vec<Error>,
+}
 
 /// A recording that was refused.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,8 +93,8 @@ pub struct Error {
     pub found: String,
     /// What is allowed, or what to do; empty where nothing useful can be said.
     pub allowed: String,
-    /// The key that it is about; boxed, so that an error stays small.
-    setting: Option<Box<Key>>,
+    /// Boxed, so that an error stays small.
+    rest: Option<Box<Rest>>,
 }
 
 impl Error {
@@ -101,26 +106,51 @@ impl Error {
             place: Place::default(),
             found: found.into(),
             allowed: allowed.into(),
-            setting: None,
+            rest: None,
         }
     }
 
     /// The same problem, about the value of this key of the axis file.
     #[must_use]
     pub fn of_setting(mut self, key: impl Into<Cow<'static, str>>) -> Self {
-        self.setting = Some(Box::new(Key(key.into())));
+        self.rest.get_or_insert_default().setting = Some(key.into());
         self
     }
 
     /// The key of the axis file whose value this is about, such as `log.crop`; `None` where it is about the recording alone.
     pub fn setting(&self) -> Option<&str> {
-        self.setting.as_ref().map(|key| &*key.0)
+        self.rest.as_ref()?.setting.as_deref()
+    }
+
+    /// One error of several of the same recording, each of which stands whatever is done about the others; `None` of none.
+    pub(crate) fn of_all(found: Vec<Error>) -> Option<Self> {
+        let mut found = found.into_iter();
+        let mut first = found.next()?;
+        let others: Vec<Error> = found.collect();
+        if !others.is_empty() {
+            first.rest.get_or_insert_default().others = others;
+        }
+        Some(first)
+    }
+
+    /// Everything that is wrong, an error each: first this one without what else is wrong.
+    pub fn each(mut self) -> Vec<Error> {
+        let others = self
+            .rest
+            .as_mut()
+            .map(|rest| std::mem::take(&mut rest.others));
+        let mut all = vec![self];
+        all.extend(others.unwrap_or_default());
+        all
     }
 
     /// The same problem, in this file.
     #[must_use]
     pub fn in_file(mut self, file: &Path) -> Self {
         self.file = Some(file.to_path_buf());
+        for other in self.rest.iter_mut().flat_map(|rest| &mut rest.others) {
+            other.file = Some(file.to_path_buf());
+        }
         self
     }
 
@@ -157,6 +187,9 @@ impl fmt::Display for Error {
         f.write_str(&self.found)?;
         if !self.allowed.is_empty() {
             write!(f, "; {}", self.allowed)?;
+        }
+        for other in self.rest.iter().flat_map(|rest| &rest.others) {
+            write!(f, "\n{other}")?;
         }
         Ok(())
     }

@@ -28,6 +28,7 @@
 mod cells;
 mod chosen;
 mod clock;
+pub(crate) mod coarse;
 mod credible;
 mod driven;
 mod dropout;
@@ -98,7 +99,7 @@ pub struct Log {
     pub load_unit: String,
     /// Force that acts on the axis from outside in `force_unit`, positive where it drives towards positive position.
     pub external: Option<Vec<f64>>,
-    /// Rate of the median time step, Hz, to nine digits; where steps are rounded to one of two, of their mean.
+    /// Rate of the median time step, Hz, to nine digits; where stamps are rounded, the one rate that they show.
     pub rate_hz: f64,
     /// Encoder step, m or rad: as given, or as detected in the data.
     pub quantum: Option<f64>,
@@ -320,6 +321,13 @@ impl Log {
         Ok(log)
     }
 
+    /// The rate of the rows of a table, Hz, where the clock of this mapping's time column is coarser than the sampling: its stamps are
+    /// rounded, or repeat. `None` where they are to be kept.
+    pub fn rate_of_coarse_clock(table: &Table, mapping: &Mapping) -> Option<f64> {
+        let source = Source::of(mapping, table, Role::Time).ok()??;
+        clock::rate_of_coarse(&table.columns[source.column].values, &source)
+    }
+
     /// Counts of the counter that overflows where the position jumps by this much, m or rad; `None` where the position is not
     /// logged in counts, or the jump is none of a counter of 8 to 48 bits.
     pub fn counter(&self, jump: f64) -> Option<u64> {
@@ -502,6 +510,9 @@ fn rate(time: &[f64]) -> f64 {
     const MISSING: f64 = 1.5;
     /// What is left of a step by the arithmetic of decimal numbers, of the step.
     const SAME: f64 = 1e-3;
+    if let Some(clock) = coarse::Coarse::of(time) {
+        return clock.rate_hz;
+    }
     let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
     let step = findings::median(&mut steps).unwrap_or(1.0);
     let whole = || steps.iter().copied().filter(|s| *s < MISSING * step);

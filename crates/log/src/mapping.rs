@@ -39,6 +39,7 @@ mod channel;
 mod choose;
 mod complete;
 mod convert;
+mod counted;
 mod describe;
 mod drive;
 pub(crate) mod enable;

@@ -45,7 +45,7 @@ pub fn outcome(outcome: &Outcome) -> String {
         let _ = writeln!(
             out,
             "{}{}: {} samples at {} Hz",
-            input.path,
+            stiction_files::shell::shown(&input.path),
             inputs::part(input),
             input.samples,
             short(input.rate_hz)

@@ -73,7 +73,9 @@ pub use stiction_workflows::identify::{presliding_length, slowest_turn};
 /// Forms in which a controller takes a planned motion, and how well a parameter is to be known.
 pub use stiction_workflows::plan::{Carrier, Want};
 /// A planned motion, from an axis file.
-pub use stiction_workflows::plan::{Known, PlanOptions, Planned, plan as plan_motion};
+pub use stiction_workflows::plan::{
+    Known, PlanOptions, Planned, limits_to_fill_in, plan as plan_motion,
+};
 /// Logs with the files they came from.
 pub use stiction_workflows::source::{Source, load, table};
 /// Exported C beside the compensator of a study's model; runs of a study that are kept as they are done.

@@ -2,6 +2,7 @@
 
 mod assume;
 mod band;
+mod block;
 mod carried;
 mod design;
 mod judged;
@@ -12,6 +13,7 @@ mod wanted;
 
 pub use assume::Given;
 pub use band::Band;
+pub use block::limits_to_fill_in;
 pub use known::Known;
 pub use outcome::Planned;
 pub use stiction_plan::carrier::Carrier;

@@ -369,6 +369,7 @@ impl Source {
     /// The path as given, and the part of the log that this is: what it is called where no command is made of it.
     pub fn name(&self) -> String {
         let path = stiction_files::shell::text(&self.path);
+        let path = stiction_files::shell::shown(&path);
         match &self.part {
             Some(part) => format!("{path}, {part}"),
             None => path,

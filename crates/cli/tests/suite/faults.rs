@@ -485,3 +485,174 @@ fn logs_in_which_other_joints_move_are_not_mixed() {
     let (code, _, err) = bench.run(&["identify", "first.csv", "--law=stribeck", "--out", "out"]);
     assert!(code < 2, "{err}");
 }
+
+/// What is wrong in a typed file leads to its lines and back to the same command; all columns that are wrong are told at once.
+#[test]
+fn a_typed_file_is_corrected_and_the_command_given_again() {
+    let bench = Bench::new();
+    let mut out = String::new();
+    for text in [
+        "kind = \"linear\"\n[columns]\ntime = \"Tme\"\nposition = \"Posn\"\n",
+        "kind = \"linear\"\nrate = \"-5 Hz\"\n",
+        "kind = \"rotary\"\n",
+        "kind = \n",
+    ] {
+        bench.write("my axis.toml", text);
+        let _ = writeln!(out, "{text}");
+        out += &bench.refused(&["check", "log.csv", "--axis", "my axis.toml"]);
+    }
+    out += &bench.refused(&["identify", "log.csv", "--axis=log.csv", "--out", "out"]);
+    insta::assert_snapshot!(out);
+}
+
+/// Everything that is to be decided of a log is told at once, and `--init` begins a file with it.
+#[test]
+fn all_that_is_to_be_decided_is_told_at_once() {
+    let bench = Bench::new();
+    let mut text = String::from("t;x;f1;f2\n");
+    for k in 0..500 {
+        let s = (0.02 * f64::from(k)).sin();
+        let _ = writeln!(text, "{k};{s};{};{}", 2.0 * s, 3.0 * s + 1.0);
+    }
+    bench.write("bare.csv", &text);
+    let mut out = bench.refused(&["check", "bare.csv"]);
+    let (code, said, _) = bench.run(&["check", "bare.csv", "--init", "bare.axis.toml"]);
+    assert_eq!(code, 0);
+    out += &said;
+    insta::assert_snapshot!(out);
+}
+
+/// A folder where one file is wanted leads to all of its logs; a missing folder for the output is filled in.
+#[test]
+fn a_folder_leads_to_all_of_its_logs() {
+    let bench = Bench::new();
+    std::fs::create_dir_all(bench.path("logs/sub")).unwrap();
+    bench.write("logs/a.csv", &log());
+    bench.write("study.toml", "[axis]\nmodel = \"model.toml\"\n");
+    let mut out = bench.refused(&["check", "logs", "--axis", "axis.toml"]);
+    out += &bench.refused(&["check", "logs"]);
+    out += &bench.refused(&["identify", "logs", "--law=lugre", "--out", "all"]);
+    out += &bench.refused(&["drift", "logs"]);
+    bench.write("logs/sub/results.parquet", "");
+    out += &bench.refused(&["drift", "logs"]);
+    out += &bench.refused(&["simulate", "study.toml"]);
+    out += &bench.refused(&["identify", "log.csv", "--law", "lugre"]);
+    insta::assert_snapshot!(out);
+}
+
+/// The logs of two formats with one name do not meet in one axis file.
+#[test]
+fn an_axis_file_is_named_by_the_format_where_another_has_the_name() {
+    let bench = Bench::new();
+    bench.write("log.txt", &log().replace(" [mm]", ""));
+    let (code, ..) = bench.run(&["check", "log.csv", "--init", "log.axis.toml"]);
+    assert_eq!(code, 0);
+    let mut out = bench.refused(&["check", "log.txt"]);
+    out += &bench.refused(&["check", "log.txt", "--init", "log.axis.toml"]);
+    bench.write("log.txt.axis.toml", "");
+    out += &bench.refused(&["check", "log.txt", "--init", "log.axis.toml"]);
+    insta::assert_snapshot!(out);
+}
+
+/// A line feed in a name begins no line, on either stream.
+#[cfg(unix)]
+#[test]
+fn a_line_feed_in_a_name_begins_no_line() {
+    let bench = Bench::new();
+    let name = "a\nfaked: b.csv";
+    bench.write(name, &log());
+    for arguments in [
+        &["check", name][..],
+        &[
+            "identify",
+            name,
+            "--law",
+            "coulomb-viscous",
+            "--out",
+            "o\nfaked",
+        ],
+        &["check", name, "--axis", "none\nfaked.toml"],
+    ] {
+        let (_, out, err) = bench.run(arguments);
+        let begins = |text: &str| {
+            text.lines()
+                .any(|line| line.trim_start().starts_with("faked"))
+        };
+        assert!(!begins(&out) && !begins(&err), "{out}{err}");
+    }
+}
+
+/// A plan without limits is given the lines to fill in, with what a log shows.
+#[test]
+fn limits_are_given_to_fill_in() {
+    let bench = Bench::new();
+    bench.write("axis.toml", "kind = \"linear\"\n");
+    let mut out = bench.refused(&["plan", "axis.toml", "--out", "plan"]);
+    out += &bench.refused(&["plan", "axis.toml", "--log", "log.csv", "--out", "plan"]);
+    bench.write(
+        "axis.toml",
+        "kind = \"rotary\"\n[limits]\nspeed = \"10 rad/s\"\nmass = \"5 kg cm2\"\n",
+    );
+    out += &bench.refused(&["plan", "axis.toml", "--out", "plan"]);
+    insta::assert_snapshot!(out);
+}
+
+/// A log beside a result in a folder below is left out of a batch, and that is said.
+#[test]
+fn a_log_beside_a_result_is_named() {
+    let bench = Bench::new();
+    for folder in ["logs", "logs/done"] {
+        std::fs::create_dir_all(bench.path(folder)).unwrap();
+    }
+    bench.write("logs/a.csv", &log());
+    bench.write("logs/done/b.csv", &log());
+    bench.write(
+        "logs/done/result.json",
+        "{\"schema\":\"stiction.result/1\"}",
+    );
+    let batch = ["batch", "logs", "--law", "coulomb-viscous", "--out", "out"];
+    let (_, _, err) = bench.run(&batch);
+    let said = "1 log lies beside the result of an earlier command, and what is in such a folder is left out: logs/done/b.csv; name";
+    assert!(err.contains(said), "{err}");
+}
+
+/// A force of another file whose clock is late: the offset that is offered is the right one, whichever one is there.
+#[test]
+fn the_offset_of_a_late_force_is_offered() {
+    let bench = Bench::new();
+    let mut motion = String::from("Time [s],Position [mm]\n");
+    let mut force = String::from("Time [s],Force [N]\n");
+    for k in 0..8000 {
+        let t = f64::from(k) * 1e-3;
+        let (mut x, mut v, mut a) = (0.0, 0.0, 0.0);
+        for (size, w) in [(0.05, 6.3), (0.008, 22.0)] {
+            x += size * (w * t).sin();
+            v += size * w * (w * t).cos();
+            a -= size * w * w * (w * t).sin();
+        }
+        let noise = 0.2 * ((1e4 * t).sin() + (2.3e4 * t).sin() + (3.1e4 * t * t).sin());
+        let f = 20.0 * f64::tanh(v / 1e-4) + 60.0 * v + 9.0 * a + noise;
+        let _ = writeln!(motion, "{t:.4},{:.6}", 1e3 * x);
+        let _ = writeln!(force, "{:.4},{f:.4}", t + 0.04);
+    }
+    bench.write("motion.csv", &motion);
+    bench.write("force.csv", &force);
+    let mut offset = 0.01;
+    let check = |offset: f64| {
+        let text = format!(
+            "mass = \"9 kg\"\n[columns]\nforce = {{ file = \"force.csv\", column = \"Force\", offset = \"{offset} s\" }}\n"
+        );
+        bench.write("axis.toml", &text);
+        let (_, out, err) = bench.run(&["check", "motion.csv", "--axis", "axis.toml"]);
+        format!("{out}{err}")
+    };
+    let late = check(offset);
+    let (_, rest) = late
+        .split_once("write offset = \"")
+        .unwrap_or_else(|| panic!("{late}"));
+    assert!(rest.contains("in place of the offset there"), "{late}");
+    offset = rest.split_once(" s\"").unwrap().0.parse().unwrap();
+    assert!((offset + 0.04).abs() < 2e-3, "{late}");
+    let mended = check(offset);
+    assert!(!mended.contains("[force-late]"), "{mended}");
+}

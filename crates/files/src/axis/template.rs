@@ -44,6 +44,8 @@ pub struct Found {
     pub wrap: Option<String>,
     /// Columns that have time stamps of their own.
     pub own_stamps: Vec<OwnStamps>,
+    /// The column of time stamps that are not read since their clock is coarser than the sampling.
+    pub coarse: Option<Channel>,
     /// What the numbers of each column look like; may be empty.
     pub columns: Vec<String>,
 }
@@ -60,11 +62,11 @@ pub fn template(
          # described in docs/axis.md; lines that start with # are off.\n\n",
     );
     if let Err((_, reason)) = detected {
-        let _ = writeln!(
-            out,
-            "# To decide: {}\n",
-            reason.replace(char::is_control, " ")
-        );
+        for reason in reason.lines() {
+            let reason = reason.replace(char::is_control, " ");
+            let _ = writeln!(out, "# To decide: {reason}");
+        }
+        out.push('\n');
     }
     let detected = detected.unwrap_or_else(|(clear, _)| clear);
     let kind = detected.motion;
@@ -86,7 +88,13 @@ pub fn template(
     );
     match (&detected.time, detected.rate_hz) {
         (None, Some(rate)) => {
-            let _ = writeln!(out, "rate = \"{rate} Hz\"    # as the file states it");
+            let why = match found.coarse {
+                Some(_) => {
+                    "from the first time stamp to the last: their clock is coarser than the sampling"
+                }
+                None => "as the file states it",
+            };
+            let _ = writeln!(out, "rate = \"{rate} Hz\"    # {why}");
         }
         (None, None) => out.push_str("# rate = \"1 kHz\"      # where there is no time column\n"),
         (Some(_), _) => {}
@@ -140,6 +148,14 @@ pub fn template(
                         "# with the size of a count add, such as: scale = \"0.1 um/count\" or scale = \"0.01 deg/count\"\n",
                     );
                 }
+            }
+            None if role == Role::Time && found.coarse.is_some() => {
+                let entries = found.coarse.iter().map(entry);
+                let _ = writeln!(
+                    out,
+                    "# time = {}    # rounded: the rate counts the rows",
+                    entries.collect::<String>()
+                );
             }
             None => {
                 let length = words.length;

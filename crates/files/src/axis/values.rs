@@ -232,6 +232,10 @@ impl Axis {
 
     /// The refusal of a recording, at the key of this file that it is about, where it is about one.
     pub fn at_key(&self, error: stiction_log::Error) -> Error {
+        each(error, |error| self.at_own_key(error))
+    }
+
+    fn at_own_key(&self, error: stiction_log::Error) -> Error {
         match error.setting().map(String::from) {
             Some(key) => self.at(&key, error),
             None => error.into(),
@@ -245,10 +249,10 @@ impl Axis {
         listed: Option<&ListedLog>,
         part: Use,
     ) -> Error {
-        match (listed, error.setting()) {
+        each(error, |error| match (listed, error.setting()) {
             (Some(log), Some(setting)) => self.at(&log.written(setting, part), error),
-            _ => self.at_key(error),
-        }
+            _ => self.at_own_key(error),
+        })
     }
 
     /// The refusal of a recording, at this key, where the file has it.
@@ -282,5 +286,15 @@ impl Axis {
             found: found.into(),
             allowed,
         }
+    }
+}
+
+/// Everything that is wrong with a recording, each at its own key.
+fn each(error: stiction_log::Error, place: impl Fn(stiction_log::Error) -> Error) -> Error {
+    let all: Vec<Error> = error.clone().each().into_iter().map(place).collect();
+    // Nothing is about a key: it stays the error of one recording.
+    match all.iter().all(|error| matches!(error, Error::Log(_))) {
+        true => error.into(),
+        false => Error::of_all(all).unwrap_or_else(|| error.into()),
     }
 }

@@ -3,6 +3,7 @@
 use super::finding::{
     Finding, MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, Severity, median, place,
 };
+use crate::log::coarse::Coarse;
 use crate::log::{Gap, Log};
 use stiction_codes::Code;
 use stiction_number::Percent;
@@ -22,9 +23,11 @@ pub(super) fn gaps(log: &mut Log) {
         return;
     };
     drop(steps);
+    // Two ticks in place of one are no gap.
+    let is_rounded = Coarse::of(&log.time).is_some();
     for (index, w) in log.time.windows(2).enumerate() {
         let seconds = w[1] - w[0];
-        if seconds > MIN_GAP_STEPS * step {
+        if !is_rounded && seconds > MIN_GAP_STEPS * step {
             let missing = ((seconds / step).round() as usize).saturating_sub(1).max(1);
             log.gaps.push(Gap {
                 start_index: index,
@@ -83,9 +86,10 @@ pub(super) fn jitter(log: &mut Log) {
     let step = 1.0 / log.rate_hz;
     let (mut squares, mut steps) = (0.0, 0_usize);
     let (mut worst, mut at) = (0.0, 0);
+    let clock = Coarse::of(&log.time);
     for (index, w) in log.time.windows(2).enumerate() {
         let off = (w[1] - w[0]) - step;
-        if off + step > MIN_GAP_STEPS * step {
+        if clock.is_none() && off + step > MIN_GAP_STEPS * step {
             continue;
         }
         squares += off * off;
@@ -106,6 +110,17 @@ pub(super) fn jitter(log: &mut Log) {
     } else {
         Severity::Note
     };
+    if let Some(clock) = clock {
+        let message = format!(
+            "the time stamps are rounded to {} s, and the rows are at one rate: above [columns] of axis.toml write {}, and delete time \
+             under it",
+            short(clock.tick),
+            clock.line()
+        );
+        log.findings
+            .push(Finding::new(Code::Jitter, severity, message));
+        return;
+    }
     let message = format!(
         "time steps deviate from their median of {} s by {} s rms ({}), at most {} s at {}",
         short(step),

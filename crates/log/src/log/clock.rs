@@ -1,5 +1,6 @@
 //! Time stamps to seconds: overflow, order, crop, duplicates.
 
+use super::coarse::Coarse;
 use crate::findings::{Finding, Severity, count, full, median, short};
 use crate::mapping::{LARGEST_VALUE, Mapping, Role, Source};
 use crate::{Error, Kind, Table};
@@ -123,6 +124,10 @@ fn stamped(
     let (mut stampless, mut repeated) = (Vec::new(), Vec::new());
     let mut base: Option<(f64, f64)> = None;
     let mut before = f64::NEG_INFINITY;
+    let coarse = || {
+        let all: Vec<f64> = range.clone().map(|row| since(row, origin)).collect();
+        Coarse::of(&all)
+    };
     for row in range.clone() {
         if !is_stamp(&raw[row]) {
             stampless.push(row);
@@ -156,7 +161,8 @@ fn stamped(
         );
         if share(&repeated) > MAX_DROPPED_SHARE {
             let lasted = since(range.end - 1, origin) - since(range.start, origin);
-            let allowed = match (range.len() - 1) as f64 / lasted {
+            let rate = (range.len() - 1) as f64 / lasted;
+            let allowed = match coarse().map_or(rate, |clock| clock.rate_hz) {
                 rate if rate.is_finite() && lasted > 0.0 => format!(
                     "at most 5 % of the rows: the clock is coarser than the sampling; give the rate instead of the time column, on average \
                      rate = \"{} Hz\" above [columns] of axis.toml",
@@ -167,8 +173,16 @@ fn stamped(
             };
             return Err(Error::new(Kind::Time, found, allowed).at_row(first as u64 + 1));
         }
+        let constant = coarse().map_or(String::new(), |clock| {
+            format!(
+                "; the stamps are rounded to {} s, and the rows are at one rate: above [columns] of axis.toml write {}, and delete \
+                 time under it",
+                short(clock.tick),
+                clock.line()
+            )
+        });
         let message = format!(
-            "{found}, first data row {} at {} s; the first of each is kept",
+            "{found}, first data row {} at {} s; the first of each is kept{constant}",
             first + 1,
             short(since(first, origin))
         );
@@ -208,6 +222,23 @@ fn stamped(
         range,
         dropped,
     })
+}
+
+/// The rate of the rows, Hz, whose stamps a clock rounds that is coarser than the sampling; `None` where the stamps are to be kept.
+pub(super) fn rate_of_coarse(raw: &[f64], source: &Source) -> Option<f64> {
+    let first = raw.first().copied().filter(is_stamp)?;
+    let time: Vec<f64> = raw
+        .iter()
+        .map(|t| source.si_difference(t - first))
+        .collect();
+    let repeated = time.windows(2).filter(|pair| pair[1] == pair[0]).count();
+    let mean = (time.len() - 1) as f64 / time.last()?;
+    let is_mostly_repeated = repeated as f64 > MAX_DROPPED_SHARE * time.len() as f64;
+    let mean = short(mean)
+        .parse()
+        .ok()
+        .filter(|_| is_mostly_repeated && mean.is_finite() && mean > 0.0 && time.is_sorted());
+    Coarse::of(&time).map(|clock| clock.rate_hz).or(mean)
 }
 
 /// Where the counter overflows, with what has to be added from there on, and the rows that go back

@@ -7,7 +7,7 @@ use super::flags::is_flag;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
 use super::still::{has_to_change, never_changes};
-use super::{Detected, Mapping, bases, describe, endings, motion, rate, wanted};
+use super::{Detected, Mapping, bases, counted, describe, endings, motion, rate, wanted};
 use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -34,8 +34,16 @@ struct Scan<'a> {
     group: Option<&'a str>,
 }
 
-/// Fills in the columns that are left open.
-pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
+/// Fills in the columns that are left open. What is refused, each of which stands whatever is done about the others, goes to
+/// `refused`.
+///
+/// # Errors
+/// Where nothing more can be said before it is mended.
+pub(super) fn columns(
+    out: &mut Detected,
+    table: &Table,
+    refused: &mut Vec<Error>,
+) -> Result<(), Error> {
     let given = out.mapping.clone();
     let mut scan = Scan::new(table);
     let mut told: Vec<(usize, Role)> = Vec::new();
@@ -50,12 +58,21 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
                     .push("acceleration = none: no such column in this recording".to_string());
                 continue;
             }
-            let column = selected.map_err(of_role)?;
+            let column = match selected {
+                Ok(column) => column,
+                Err(e) => {
+                    refused.push(of_role(e));
+                    *out.mapping.slot(role) = None;
+                    continue;
+                }
+            };
             let taken = told.iter().find(|(other, _)| *other == column);
             if let Some((_, other)) = taken {
                 let found = format!("{} is {other} already", describe::column(table, column));
                 let error = Error::new(Kind::Ambiguous, found, "a column of its own for each role");
-                return Err(of_role(error));
+                refused.push(of_role(error));
+                *out.mapping.slot(role) = None;
+                continue;
             }
             if scan.is_time(column) && role != Role::Time && given.time.is_none() {
                 let found = format!(
@@ -63,7 +80,9 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
                     describe::column(table, column)
                 );
                 let allowed = format!("the column of the {role}; {}", describe::columns(table));
-                return Err(of_role(Error::new(Kind::Ambiguous, found, allowed)));
+                refused.push(of_role(Error::new(Kind::Ambiguous, found, allowed)));
+                *out.mapping.slot(role) = None;
+                continue;
             }
             scan.used[column] = true;
             told.push((column, role));
@@ -75,12 +94,16 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
             }
         }
     }
-    if let Some(column) = Enable::of(&given, table)? {
+    let enable = Enable::of(&given, table).unwrap_or_else(|e| {
+        refused.push(e);
+        None
+    });
+    if let Some(column) = enable {
         if let Some((_, role)) = told.iter().find(|(other, _)| *other == column) {
             let found = format!("{} is {role} already", describe::column(table, column));
             let allowed = "a column of its own that says in which rows the axis is enabled";
             let error = Error::new(Kind::Ambiguous, found, allowed);
-            return Err(error.of_setting(format!("{}.column", enable::KEY)));
+            refused.push(error.of_setting(format!("{}.column", enable::KEY)));
         }
         scan.used[column] = true;
     }
@@ -88,7 +111,11 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
         let found = "both a time column and a rate are given";
         let allowed = "one of the two: delete the line time under [columns], where the clock is too coarse or wrong, or else the line rate";
         let error = Error::new(Kind::Ambiguous, found, allowed);
-        return Err(error.of_setting("rate"));
+        refused.push(error.of_setting("rate"));
+    }
+    // What else would be taken depends on these.
+    if !refused.is_empty() {
+        return Ok(());
     }
     let nothing_told = given.position.is_none() && given.velocity.is_none();
     if nothing_told && describe::unnamed(table) {
@@ -100,36 +127,38 @@ pub(super) fn columns(out: &mut Detected, table: &Table) -> Result<(), Error> {
     if let Some(hertz) = given.rate_hz {
         let stamps = scan.pick(Role::Time).ok().flatten();
         let stamps = stamps.map(|column| (column, scan.units[column].as_ref()));
-        out.findings.extend(rate::compare(table, stamps, hertz)?);
+        match rate::compare(table, stamps, hertz) {
+            Ok(finding) => out.findings.extend(finding),
+            Err(e) => refused.push(e),
+        }
     }
     if given.time.is_none() && given.rate_hz.is_none() {
-        match scan.pick(Role::Time)? {
-            Some(column) => out.mapping.time = Some(scan.take(column)),
-            None => out.mapping.rate_hz = Some(scan.stated_rate()?),
+        match scan.pick(Role::Time) {
+            Ok(Some(column)) => out.mapping.time = Some(scan.take(column)),
+            Ok(None) => match scan.stated_rate() {
+                Ok(rate) => out.mapping.rate_hz = Some(rate),
+                Err(e) => refused.push(e),
+            },
+            Err(e) => refused.push(e),
         }
     }
     if let Some(rate) = out.mapping.rate_hz {
         out.phrases.push(format!("time = row number at {rate} Hz"));
     }
+    let mut is_known = true;
     if given.position.is_none() && given.velocity.is_none() {
-        for role in [Role::Position, Role::Velocity] {
-            if let Some(column) = scan.pick(role)? {
-                scan.refuse_other_axis(&out.mapping, role, column)?;
-                scan.group = scan.group.or(names::group(&table.columns[column].name));
-                *out.mapping.slot(role) = Some(scan.take(column));
-            }
-        }
-        if out.mapping.position.is_none() && out.mapping.velocity.is_none() {
-            return Err(scan.no_motion());
+        if let Err(e) = scan.motion_columns(&mut out.mapping) {
+            refused.push(e);
+            is_known = false;
         }
     }
     if given.force.is_none() {
-        match scan.pick(Role::Force)? {
-            Some(column) => {
-                scan.refuse_other_axis(&out.mapping, Role::Force, column)?;
-                out.mapping.force = Some(scan.take(column));
-            }
-            None => out.findings.push(scan.no_force()),
+        match scan.force_column(&out.mapping) {
+            Ok(Some(column)) => out.mapping.force = Some(scan.take(column)),
+            Ok(None) => out.findings.push(scan.no_force()),
+            // Which force goes with it is clear once the motion is, where names tell axes apart.
+            Err(_) if !is_known && scan.tells_axes() => {}
+            Err(e) => refused.push(e),
         }
     }
     if none_named {
@@ -158,7 +187,11 @@ pub(crate) fn clear(table: &Table) -> Mapping {
     for role in Role::ALL {
         let picked = scan.pick(role).ok().flatten();
         if let Some(column) = picked.filter(|c| scan.refuse_other_axis(&out, role, *c).is_ok()) {
-            let unit = scan.units[column].clone();
+            let counted = || {
+                let is_counted = role == Role::Position && counted::is_counted(table, column);
+                Unit::parse("counts").ok().filter(|_| is_counted)
+            };
+            let unit = scan.units[column].clone().or_else(counted);
             let channel = scan.take(column);
             *out.slot(role) = Some(Channel { unit, ..channel });
         }
@@ -257,6 +290,40 @@ impl<'a> Scan<'a> {
                 *own = own.or(of_axis);
             }
         }
+    }
+
+    /// Takes position and velocity.
+    fn motion_columns(&mut self, out: &mut Mapping) -> Result<(), Error> {
+        for role in [Role::Position, Role::Velocity] {
+            if let Some(column) = self.pick(role)? {
+                self.refuse_other_axis(out, role, column)?;
+                let name = &self.table.columns[column].name;
+                self.group = self.group.or(names::group(name));
+                *out.slot(role) = Some(self.take(column));
+            }
+        }
+        match (&out.position, &out.velocity) {
+            (None, None) => Err(self.no_motion()),
+            _ => Ok(()),
+        }
+    }
+
+    /// The force of the motion that is taken.
+    fn force_column(&self, out: &Mapping) -> Result<Option<usize>, Error> {
+        let column = self.pick(Role::Force)?;
+        if let Some(column) = column {
+            self.refuse_other_axis(out, Role::Force, column)?;
+        }
+        Ok(column)
+    }
+
+    /// Whether the name of a force tells to which of several axes it belongs.
+    fn tells_axes(&self) -> bool {
+        let mut forces = (0..self.hints.len()).filter(|c| self.is_hinted(*c, Role::Force));
+        forces.any(|c| {
+            let name = &self.table.columns[c].name;
+            names::axis_letter(name).is_some() || names::group(name).is_some()
+        })
     }
 
     /// Whether a column is time by its name, in a unit of time or none.

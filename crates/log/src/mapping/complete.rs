@@ -3,7 +3,9 @@
 use super::channel::{Channel, Motion, Role};
 use super::convert::{Source, is_force};
 use super::select::select;
-use super::{Detected, Mapping, choose, describe, endings, motion, names, rate, understood};
+use super::{
+    Detected, Mapping, choose, counted, describe, endings, motion, names, rate, understood,
+};
 use crate::findings::{Finding, Severity};
 use crate::{Column, Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -29,7 +31,8 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
         findings: Vec::new(),
         columns: Vec::new(),
     };
-    choose::columns(&mut out, table)?;
+    let mut refused = Vec::new();
+    choose::columns(&mut out, table, &mut refused)?;
     let mut parts = Vec::new();
     for role in Role::ALL {
         let Some(channel) = out.mapping.channel(role) else {
@@ -37,30 +40,29 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
         };
         let channel = channel.clone();
         let column = select(table, &channel.column, role)?;
-        let unit = written_unit(table, column, &channel, role, &mut out.findings)?;
-        parts.push(Part {
-            role,
-            channel,
-            column,
-            unit,
-            assumed: false,
-        });
+        match written_unit(table, column, &channel, role, &mut out.findings) {
+            Ok(unit) => parts.push(Part {
+                role,
+                channel,
+                column,
+                unit,
+                assumed: false,
+            }),
+            Err(e) => refused.push(e),
+        }
     }
-    let written = |column: &Column| column.unit.is_some() && !column.stamps;
-    let labelled = table.columns.iter().any(written)
-        || parts
-            .iter()
-            .any(|p| p.channel.unit.is_some() || p.channel.scale.is_some());
-    refuse_half_labelled(table, &parts, labelled)?;
-    let kind = settle_motion(&mut out, table, &parts)?;
-    assume_units(&mut out.findings, table, &mut parts, kind)?;
+    let (kind, seconds) = settled(&mut out, table, &parts, refused)?;
+    assume_units(&mut out.findings, table, &mut parts, (kind, seconds))?;
+    let mut misfits = Vec::new();
     for part in &parts {
         let unit = part
             .unit
             .clone()
             .unwrap_or_else(|| Unit::si(Dimension::ONE));
         let source = Source::new(table, part.column, &unit, &part.channel, part.role)?;
-        source.check(table, part.role, kind)?;
+        if let Err(e) = source.check(table, part.role, kind) {
+            misfits.push((part.role, of_kind(e, (given, part), source.dimension)));
+        }
         out.phrases.push(phrase(table, part, &unit));
         // A motor makes a force of its current, voltage or duty.
         let driven = part.role == Role::Force && out.mapping.drive.is_some();
@@ -70,8 +72,99 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
             ..part.channel.clone()
         });
     }
+    // A wrong kind of motion is one thing, however many columns show it.
+    let mut moved = misfits.iter().filter(|(role, _)| is_moved(*role));
+    let first = moved.next().map(|(role, _)| *role);
+    misfits.retain(|(role, _)| !is_moved(*role) || Some(*role) == first);
+    let misfits = misfits.into_iter().map(|(_, e)| e).collect();
+    if let Some(e) = Error::of_all(misfits) {
+        return Err(e);
+    }
     out.columns = understood::all(table, given, &parts);
     Ok(out)
+}
+
+/// The refusal of a unit, at the kind of motion where that is given and the unit that the file gives is one of the other kind.
+fn of_kind(mut error: Error, (given, part): (&Mapping, &Part), dimension: Dimension) -> Error {
+    let is_own = given
+        .channel(part.role)
+        .is_some_and(|c| c.unit.is_some() || c.scale.is_some());
+    match motion::of(part.role, dimension) {
+        Some(other) if given.motion.is_some() && !is_own => {
+            error.allowed.push_str(&format!("; or kind = \"{other}\""));
+            error.of_setting("kind")
+        }
+        _ => error,
+    }
+}
+
+/// Whether the unit of a role follows from the kind of motion.
+fn is_moved(role: Role) -> bool {
+    use Role::{Acceleration, Position, Reference, Velocity};
+    matches!(role, Position | Velocity | Acceleration | Reference)
+}
+
+/// The kind of motion, and the unit of a time that has none; `refused` is what is wrong already.
+///
+/// # Errors
+/// With everything that has to be decided.
+fn settled(
+    out: &mut Detected,
+    table: &Table,
+    parts: &[Part],
+    mut refused: Vec<Error>,
+) -> Result<(Motion, Option<Unit>), Error> {
+    let clock = parts.iter().find(|p| p.role == Role::Time);
+    let clock = clock.filter(|part| part.unit.is_none());
+    let seconds = clock.map(|part| seconds(table, part)).transpose();
+    let missing = half_labelled(table, parts, seconds.is_err());
+    let is_bare = missing.is_some();
+    let seconds = seconds.unwrap_or_else(|e| {
+        refused.push(e);
+        None
+    });
+    refused.extend(missing);
+    let mut known = Vec::new();
+    for part in parts {
+        let Some(unit) = &part.unit else { continue };
+        match Source::new(table, part.column, unit, &part.channel, part.role) {
+            Ok(source) => known.push((part.role, source.dimension)),
+            Err(e) => refused.push(e),
+        }
+    }
+    let counted = match out.mapping.motion {
+        None if !is_bare => bare_counts(table, parts, &known),
+        _ => None,
+    };
+    // The units that are to be given tell the kind of motion, and so do columns that are not found yet.
+    let is_told = is_bare || counted.is_some() || lacks_column(&out.mapping, table, parts);
+    refused.extend(counted);
+    let kind = settle_motion(out, table, parts, &known);
+    if refused.is_empty() || !is_told {
+        refused.extend(kind.as_ref().err().cloned());
+    }
+    match Error::of_all(refused) {
+        Some(e) => Err(e),
+        None => Ok((kind?, seconds)),
+    }
+}
+
+/// Whether a column that tells the kind of motion is not known yet.
+fn lacks_column(mapping: &Mapping, table: &Table, parts: &[Part]) -> bool {
+    let tells = |column: usize| {
+        let hint = endings::hint(table, column);
+        hint.is_some_and(|hint| hint.role == Role::Force)
+            && names::motion(&table.columns[column].name).is_some()
+    };
+    if mapping.force.is_none() && (0..table.columns.len()).any(tells) {
+        return true;
+    }
+    let is_there = |role: Role| parts.iter().any(|part| part.role == role);
+    let core = [Role::Position, Role::Velocity, Role::Force];
+    let mut named = core
+        .into_iter()
+        .filter(|role| mapping.channel(*role).is_some());
+    named.any(|role| !is_there(role)) || !(is_there(Role::Position) || is_there(Role::Velocity))
 }
 
 /// The unit that follows from the mapping, the file or the scale.
@@ -139,18 +232,25 @@ fn usual(role: Role) -> &'static str {
     }
 }
 
-/// Refuses a motion or force column without a unit in a file where others have one.
-fn refuse_half_labelled(table: &Table, parts: &[Part], labelled: bool) -> Result<(), Error> {
+/// The refusal of motion or force columns without a unit in a file where others have one; `clock` where the time needs one.
+fn half_labelled(table: &Table, parts: &[Part], clock: bool) -> Option<Error> {
+    let written = |column: &Column| column.unit.is_some() && !column.stamps;
+    let labelled = table.columns.iter().any(written)
+        || parts
+            .iter()
+            .any(|p| p.channel.unit.is_some() || p.channel.scale.is_some());
     let core = [Role::Position, Role::Velocity, Role::Force];
     let mut bare = parts
         .iter()
         .filter(|p| p.unit.is_none() && core.contains(&p.role))
         .peekable();
-    let Some(part) = bare.peek().copied().filter(|_| labelled) else {
-        return Ok(());
-    };
-    let motion = likely(table, parts);
+    let part = bare.peek().copied().filter(|_| labelled || clock)?;
+    let told = likely(table, parts);
+    let motion = told.unwrap_or(Motion::Linear);
     let line = |part: &Part| {
+        if part.role == Role::Position && counted::is_counted(table, part.column) {
+            return counted::lines(table, part.column, told);
+        }
         let current = names::says_current(&table.columns[part.column].name);
         let unit = match (part.role, motion) {
             (Role::Position, Motion::Linear) => "mm",
@@ -164,19 +264,27 @@ fn refuse_half_labelled(table: &Table, parts: &[Part], labelled: bool) -> Result
         describe::line_with(table, part.column, part.role, &format!("unit = \"{unit}\""))
     };
     let lines: Vec<String> = bare.map(line).collect();
-    Err(Error::new(
-        Kind::Unit,
-        format!("{} has no unit while other columns have one", part.role),
-        format!(
-            "give it in axis.toml under [columns], as in: {}",
-            lines.join(" and ")
+    let found = match labelled {
+        true => format!("{} has no unit while other columns have one", part.role),
+        false => format!(
+            "{} has no unit, and needs one where the time is given one",
+            part.role
         ),
-    )
-    .in_column(describe::place(table, part.column)))
+    };
+    let allowed = format!(
+        "give it in axis.toml under [columns], as in: {}{}",
+        lines.join(" and "),
+        match told {
+            Some(_) => "",
+            None => "; deg and N m where the axis is rotary",
+        }
+    );
+    let error = Error::new(Kind::Unit, found, allowed);
+    Some(error.in_column(describe::place(table, part.column)))
 }
 
-/// The kind of motion that the units tell, else the names; linear where nothing tells it.
-fn likely(table: &Table, parts: &[Part]) -> Motion {
+/// The kind of motion that the units tell, else the names; `None` where nothing tells it.
+fn likely(table: &Table, parts: &[Part]) -> Option<Motion> {
     let known = parts.iter().filter_map(|part| {
         let unit = part.unit.as_ref()?;
         Some((part.role, unit.dimension()))
@@ -184,21 +292,18 @@ fn likely(table: &Table, parts: &[Part]) -> Motion {
     let names = parts.iter().map(|p| table.columns[p.column].name.as_str());
     let told = motion::from_units(&known.collect::<Vec<_>>()).map(|(motion, _)| motion);
     told.or_else(|| motion::from_names(names).ok())
-        .unwrap_or(Motion::Linear)
 }
 
-fn settle_motion(out: &mut Detected, table: &Table, parts: &[Part]) -> Result<Motion, Error> {
+fn settle_motion(
+    out: &mut Detected,
+    table: &Table,
+    parts: &[Part],
+    known: &[(Role, Dimension)],
+) -> Result<Motion, Error> {
     if let Some(kind) = out.mapping.motion {
         return Ok(kind);
     }
-    let mut known = Vec::new();
-    for part in parts {
-        let Some(unit) = &part.unit else { continue };
-        let source = Source::new(table, part.column, unit, &part.channel, part.role)?;
-        refuse_bare_counts(table, part, source.dimension)?;
-        known.push((part.role, source.dimension));
-    }
-    let kind = if let Some((kind, role)) = motion::from_units(&known) {
+    let kind = if let Some((kind, role)) = motion::from_units(known) {
         out.phrases
             .push(format!("kind = {kind}, from the unit of {role}"));
         kind
@@ -214,18 +319,20 @@ fn settle_motion(out: &mut Detected, table: &Table, parts: &[Part]) -> Result<Mo
     Ok(kind)
 }
 
-fn refuse_bare_counts(table: &Table, part: &Part, dimension: Dimension) -> Result<(), Error> {
-    if part.role != Role::Position || dimension != Dimension::COUNTS {
-        return Ok(());
-    }
-    let linear = describe::line_with(table, part.column, part.role, "scale = \"1 um/count\"");
-    let rotary = describe::line_with(table, part.column, part.role, "scale = \"0.5 mrad/count\"");
-    Err(Error::new(
+/// The refusal of a position in counts, by its unit or its name, whose size is not given.
+fn bare_counts(table: &Table, parts: &[Part], known: &[(Role, Dimension)]) -> Option<Error> {
+    let part = parts.iter().find(|part| part.role == Role::Position)?;
+    let by_unit = known.contains(&(Role::Position, Dimension::COUNTS));
+    let by_name = part.unit.is_none() && counted::is_counted(table, part.column);
+    (by_unit || by_name).then_some(())?;
+    let told = likely(table, parts).filter(|_| by_name);
+    let lines = counted::lines(table, part.column, told);
+    let error = Error::new(
         Kind::Unit,
         "position is in encoder counts, and the size of a count is not given",
-        format!("give it in axis.toml under [columns], as in: {linear} or {rotary}"),
-    )
-    .in_column(describe::place(table, part.column)))
+        format!("give it in axis.toml under [columns], as in: {lines}"),
+    );
+    Some(error.in_column(describe::place(table, part.column)))
 }
 
 /// Fills in the units that nothing tells, with one finding that lists them.
@@ -233,7 +340,7 @@ fn assume_units(
     findings: &mut Vec<Finding>,
     table: &Table,
     parts: &mut [Part],
-    kind: Motion,
+    (kind, seconds): (Motion, Option<Unit>),
 ) -> Result<(), Error> {
     let position = parts
         .iter()
@@ -245,7 +352,7 @@ fn assume_units(
     for part in parts.iter_mut().filter(|p| p.unit.is_none()) {
         let name = &table.columns[part.column].name;
         let unit = match part.role {
-            Role::Time => seconds(table, part)?,
+            Role::Time => seconds.clone().unwrap_or_else(|| Unit::si(Dimension::TIME)),
             Role::Position => Unit::si(kind.position()),
             Role::Velocity => Unit::si(kind.velocity()),
             Role::Acceleration => Unit::si(kind.acceleration()),

@@ -350,20 +350,35 @@ pub(super) fn says_current(name: &str) -> bool {
         .any(|w| ["current", "cur", "curr", "i", "iq", "strom"].contains(&w.as_str()))
 }
 
+/// Words for encoder counts.
+const COUNTS: &[&str] = &[
+    "cnt",
+    "cnts",
+    "counts",
+    "inc",
+    "incs",
+    "increments",
+    "inkremente",
+    "ticks",
+];
+
 /// Whether a name speaks of encoder counts and of nothing else.
 pub(super) fn says_counts(name: &str) -> bool {
     let words = words(name);
-    let counts = [
-        "cnt",
-        "cnts",
-        "counts",
-        "inc",
-        "incs",
-        "increments",
-        "ticks",
-    ];
     let mut all = words.iter();
-    all.any(|w| counts.contains(&w.as_str()) && alone(&words, w))
+    all.any(|w| COUNTS.contains(&w.as_str()) && alone(&words, w))
+}
+
+/// Whether a name speaks of encoder counts, whatever else it says.
+pub(super) fn speaks_of_counts(name: &str) -> bool {
+    words(name).iter().any(|w| COUNTS.contains(&w.as_str()))
+}
+
+/// Whether a name speaks of an encoder.
+pub(super) fn says_encoder(name: &str) -> bool {
+    words(name)
+        .iter()
+        .any(|w| ["enc", "encoder"].contains(&w.as_str()))
 }
 
 /// Which kind of motion a name speaks of.

@@ -107,8 +107,18 @@ fn take(left: usize, bytes: usize) -> io::Result<usize> {
         .ok_or_else(|| io::Error::other(format!("more than {MAX_TEXTS} bytes of texts")))
 }
 
-/// Names of the sheets and where they are told, in the order of the workbook.
-pub(super) fn sheets(reader: impl BufRead) -> io::Result<Vec<(String, String)>> {
+/// A sheet of the workbook.
+pub(super) struct Named {
+    /// As it is called.
+    pub name: String,
+    /// Where it is told.
+    pub id: String,
+    /// Whether Excel shows it.
+    is_hidden: bool,
+}
+
+/// The sheets in the order of the workbook, those that are shown before those that are hidden.
+pub(super) fn sheets(reader: impl BufRead) -> io::Result<Vec<Named>> {
     let mut xml = Xml::new(reader);
     let mut all = Vec::new();
     while let Some(part) = xml.next()? {
@@ -117,12 +127,15 @@ pub(super) fn sheets(reader: impl BufRead) -> io::Result<Vec<(String, String)>> 
             && all.len() < MAX_ENTRIES
         {
             let id = ["r:id", "id"].iter().find_map(|key| attribute(&tag, key));
-            all.extend(Some((
-                attribute(&tag, "name").unwrap_or_default(),
-                id.unwrap_or_default(),
-            )));
+            let state = attribute(&tag, "state").unwrap_or_default();
+            all.push(Named {
+                name: attribute(&tag, "name").unwrap_or_default(),
+                id: id.unwrap_or_default(),
+                is_hidden: matches!(state.as_str(), "hidden" | "veryHidden"),
+            });
         }
     }
+    all.sort_by_key(|sheet| sheet.is_hidden);
     Ok(all)
 }
 

@@ -112,7 +112,7 @@ fn may_be_thousands(text: &str) -> bool {
 }
 
 /// The name of a column as Excel shows it: A, B .. Z, AA (from 0).
-fn letters(column: usize) -> String {
+pub(super) fn letters(column: usize) -> String {
     let (mut left, mut name) = (column + 1, String::new());
     while left > 0 {
         left -= 1;

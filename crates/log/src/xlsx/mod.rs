@@ -1,11 +1,12 @@
 //! Workbooks of Excel (`.xlsx`).
 //!
 //! Format: ISO/IEC 29500-1. The rows of a sheet are read as the rows of a text table are: titles above, a header or none, units
-//! in it or in a row below it, empty cells, columns of text. The first sheet with a table of two columns of numbers and three rows is
+//! in it or in a row below it, empty cells, columns of text. The first sheet that is shown, else the first hidden one, with a table of two columns of numbers and three rows is
 //! taken (of smaller ones the first, where there is nothing else), and the others are named in [`Table::skipped`]. Numbers may
 //! be texts, with a decimal point or comma, where a whole column is so. Cells that are shown as dates or times become seconds from the first; of a formula its last result counts.
 
 mod book;
+mod booleans;
 mod commas;
 mod sheet;
 mod xml;
@@ -14,7 +15,7 @@ use std::fs::File;
 use std::io::{self, BufReader};
 
 use book::Book;
-use sheet::Sheet;
+use sheet::{Sheet, TooWide};
 use zip::ZipArchive;
 
 use crate::binary::guard;
@@ -51,7 +52,7 @@ pub(crate) fn read(file: File, limits: Limits) -> Result<Table, Error> {
         let mut found: Option<Table> = None;
         let mut small: Option<(String, Table)> = None;
         let mut skipped = Vec::new();
-        for (name, id) in sheets {
+        for book::Named { name, id, .. } in sheets {
             if found.is_some() {
                 skipped.push(format!("sheet {name}: not the first with a table"));
                 continue;
@@ -101,12 +102,13 @@ fn table(archive: &mut Archive, book: &Book, id: &str, limits: Limits) -> Result
     let target = target
         .flatten()
         .ok_or_else(|| broken("a sheet without a file"))?;
-    let (width, commas) = part(archive, &target, |reader| {
+    let (width, commas, booleans) = part(archive, &target, |reader| {
         Sheet::new(reader, book, 0, Budget::from(limits).samples()).survey()
     })?
     .ok_or_else(|| broken("a sheet whose file is missing"))?;
     commas.check()?;
     let has_commas = commas.any();
+    let missing: Vec<String> = booleans.said().collect();
     let options = TextOptions {
         separator: Some(Separator::Tab),
         decimal: Some(Decimal::Point),
@@ -119,11 +121,13 @@ fn table(archive: &mut Archive, book: &Book, id: &str, limits: Limits) -> Result
         width,
         Budget::from(limits).samples(),
     )
-    .with_points(commas);
+    .with_points(commas)
+    .without(booleans);
     let mut table = text::read_sized(sheet, None, &options, limits, &crate::open::everything)?;
     table
         .detected
         .retain(|said| !said.starts_with("separator") && !said.starts_with("decimal"));
+    table.skipped.extend(missing);
     if has_commas {
         table
             .detected
@@ -139,9 +143,15 @@ fn part<T>(
     read: impl FnOnce(BufReader<zip::read::ZipFile<'_, BufReader<File>>>) -> io::Result<T>,
 ) -> Result<Option<T>, Error> {
     match archive.by_name(name) {
-        Ok(member) => read(BufReader::new(member))
-            .map(Some)
-            .map_err(|error| broken(format!("{name}: {error}"))),
+        Ok(member) => read(BufReader::new(member)).map(Some).map_err(|error| {
+            let wide = error
+                .get_ref()
+                .and_then(|inner| inner.downcast_ref::<TooWide>());
+            match wide {
+                Some(wide) => wide.refusal(),
+                None => broken(format!("{name}: {error}")),
+            }
+        }),
         Err(zip::result::ZipError::FileNotFound) => Ok(None),
         Err(error) => Err(broken(error)),
     }

@@ -3,8 +3,10 @@
 use std::io::{self, BufRead, Read};
 
 use super::book::Book;
-use super::commas::Commas;
+use super::booleans::Booleans;
+use super::commas::{Commas, letters};
 use super::xml::{Part, Xml, attribute, name};
+use crate::{Error, Kind};
 
 /// Most columns, those of the text reader.
 const MAX_COLUMNS: usize = crate::text::MAX_COLUMNS;
@@ -20,6 +22,8 @@ pub(super) struct Sheet<'b, R> {
     width: usize,
     /// The columns whose cells are texts with a decimal comma.
     commas: Commas,
+    /// The columns of numbers with cells that say TRUE or FALSE.
+    booleans: Booleans,
     /// Cells that may still come.
     cells: u64,
     row: u64,
@@ -35,6 +39,7 @@ impl<'b, R: BufRead> Sheet<'b, R> {
             book,
             width,
             commas: Commas::default(),
+            booleans: Booleans::default(),
             cells,
             row: 0,
             line: Vec::new(),
@@ -48,16 +53,24 @@ impl<'b, R: BufRead> Sheet<'b, R> {
         self
     }
 
-    /// The cells of the widest row, and the decimal marks of all that are texts.
-    pub(super) fn survey(mut self) -> io::Result<(usize, Commas)> {
+    /// The same sheet, without the cells that say TRUE or FALSE among numbers.
+    pub(super) fn without(mut self, booleans: Booleans) -> Self {
+        self.booleans = booleans;
+        self
+    }
+
+    /// The cells of the widest row, the decimal marks of all that are texts, and what is no number among numbers.
+    pub(super) fn survey(mut self) -> io::Result<(usize, Commas, Booleans)> {
         let (mut most, mut commas) = (0, Commas::default());
+        let mut booleans = Booleans::default();
         while let Some(cells) = self.cells()? {
             most = most.max(cells.len());
             for (column, cell) in cells.iter().enumerate() {
                 commas.see(column, self.row, &cell.text, cell.is_text);
+                booleans.see(column, self.row, &cell.text, cell.is_boolean);
             }
         }
-        Ok((most, commas))
+        Ok((most, commas, booleans))
     }
 
     /// The cells of the next row, and how many rows without any are before it.
@@ -86,7 +99,13 @@ impl<'b, R: BufRead> Sheet<'b, R> {
                     "c" if in_row => {
                         let at = attribute(&tag, "r").and_then(|place| column(&place));
                         let at = at.unwrap_or(cells.len());
-                        if at >= MAX_COLUMNS || at < cells.len() {
+                        if at >= MAX_COLUMNS {
+                            return Err(io::Error::other(TooWide {
+                                column: at,
+                                row: self.row,
+                            }));
+                        }
+                        if at < cells.len() {
                             return Err(io::Error::other(format!(
                                 "column {} in row {}",
                                 at + 1,
@@ -118,6 +137,7 @@ impl<'b, R: BufRead> Sheet<'b, R> {
                         cells.resize(cell.at, Said::default());
                         cells.push(Said {
                             text: self.book.text(&cell.kind, cell.style, &cell.text),
+                            is_boolean: cell.kind == "b",
                             is_text: matches!(cell.kind.as_str(), "s" | "str" | "inlineStr"),
                         });
                     }
@@ -141,6 +161,9 @@ impl<'b, R: BufRead> Sheet<'b, R> {
         for (column, cell) in cells.iter_mut().enumerate() {
             if cell.is_text {
                 self.commas.to_point(column, &mut cell.text);
+            }
+            if cell.is_boolean && self.booleans.are_missing(column) {
+                cell.text.clear();
             }
         }
         let filled = cells.iter().filter(|cell| !cell.text.is_empty());
@@ -166,11 +189,46 @@ impl<'b, R: BufRead> Sheet<'b, R> {
     }
 }
 
-/// What a cell says, and whether it is a text.
+/// A sheet with a cell beyond the last column that is read.
+#[derive(Debug)]
+pub(super) struct TooWide {
+    /// From 0.
+    column: usize,
+    /// From 1.
+    row: u64,
+}
+
+impl std::fmt::Display for TooWide {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "row {} goes on to column {}",
+            self.row,
+            letters(self.column)
+        )
+    }
+}
+
+impl std::error::Error for TooWide {}
+
+impl TooWide {
+    /// What is said of the workbook.
+    pub(super) fn refusal(&self) -> Error {
+        let allowed = format!(
+            "at most {MAX_COLUMNS} columns, up to {}, with one sample in each row: where samples stand side by side, turn the table",
+            letters(MAX_COLUMNS - 1)
+        );
+        Error::new(Kind::Limit, self.to_string(), allowed)
+    }
+}
+
+/// What a cell says, and what it is.
 #[derive(Clone, Default)]
 struct Said {
     text: String,
     is_text: bool,
+    /// TRUE or FALSE.
+    is_boolean: bool,
 }
 
 #[derive(Default)]

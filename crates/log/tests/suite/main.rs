@@ -20,5 +20,6 @@ mod mapping_units;
 mod rests;
 mod stamped;
 mod text;
+mod undecided;
 mod wanted;
 mod without_readers;

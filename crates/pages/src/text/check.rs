@@ -5,7 +5,7 @@ use crate::next::{ANOTHER_LOG, axis_file};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::result::Cure;
-use stiction_files::shell::{quoted, quoted_path};
+use stiction_files::shell::{quoted, quoted_path, shown};
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
 use stiction_workflows::check::{Check, Lead, LogCheck, Started, TrackingChange};
@@ -26,7 +26,7 @@ pub fn check(check: &Check) -> String {
         let why = log.not_tracked.as_ref()?;
         Some(format!(
             "the following error of {} is not compared: {why}\n",
-            log.input.path
+            shown(&log.input.path)
         ))
     });
     // What changed is what several logs are given for; what each shows by itself comes after.
@@ -181,14 +181,14 @@ fn turns(angle: f64) -> Option<String> {
 
 /// What an axis file was begun with, and what to type next.
 pub fn started(started: &Started, log: &Path, file: &Path) -> String {
-    let mut out = format!("{} written\n", file.display());
+    let mut out = format!("{} written\n", shown(&file.display().to_string()));
     for change in &started.changes {
         let _ = writeln!(out, "  {change}");
     }
     if started.changes.is_empty() && started.undecided.is_none() {
         out.push_str("  nothing was added: the axis file gives all that the log shows\n");
     }
-    if let Some(reason) = &started.undecided {
+    for reason in started.undecided.iter().flat_map(|all| all.lines()) {
         let _ = writeln!(out, "to decide: {reason}");
     }
     let then = match started.undecided {
@@ -207,7 +207,7 @@ pub fn started(started: &Started, log: &Path, file: &Path) -> String {
 fn log_check(log: &LogCheck, axis: Option<&Path>) -> String {
     let mut out = format!(
         "{}\n  {} axis, {} samples, {} s at {} Hz\n",
-        log.input.path,
+        shown(&log.input.path),
         log.kind,
         log.input.samples,
         short(log.seconds),
@@ -216,13 +216,19 @@ fn log_check(log: &LogCheck, axis: Option<&Path>) -> String {
     out.push_str("  columns\n");
     out.push_str(&columns(log));
     for line in log.input.detected.iter().filter(|line| !is_column(line)) {
-        let _ = writeln!(out, "  detected   {line}");
+        let _ = writeln!(out, "  detected   {}", shown(line));
     }
     for line in &log.ranges {
         let _ = writeln!(out, "  range      {line}");
     }
     for f in &log.findings {
-        let _ = writeln!(out, "  {:<10} [{}] {}", f.severity, f.code, f.message);
+        let _ = writeln!(
+            out,
+            "  {:<10} [{}] {}",
+            f.severity,
+            f.code,
+            shown(&f.message)
+        );
     }
     for line in &log.conditioning {
         let _ = writeln!(out, "  condition  {line}");

@@ -5,7 +5,7 @@ use crate::drift::{few, level, noise_of, size, times, unnamed};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::drift_file::{Alarm, DriftFile};
-use stiction_files::shell::{quoted, quoted_path};
+use stiction_files::shell::{quoted, quoted_path, shown};
 use stiction_number::{counted, four_digits as short};
 
 /// Most alarms that are listed.
@@ -21,7 +21,7 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
     let _ = writeln!(
         text,
         "{}: {}{failed}, {}",
-        file.input.path,
+        shown(&file.input.path),
         counted(file.input.logs, "log"),
         counted(file.machines, "machine")
     );

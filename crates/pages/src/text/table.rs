@@ -2,6 +2,9 @@
 
 /// A table with aligned columns; the first row is the header.
 pub(super) fn table(rows: &[Vec<String>], right: &[bool]) -> String {
+    let shown = |cell: &String| stiction_files::shell::shown(cell);
+    let rows = rows.iter().map(|row| row.iter().map(shown).collect());
+    let rows: Vec<Vec<String>> = rows.collect();
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |c: usize| {
         rows.iter()
@@ -12,7 +15,7 @@ pub(super) fn table(rows: &[Vec<String>], right: &[bool]) -> String {
     };
     let widths: Vec<usize> = (0..columns).map(width).collect();
     let mut out = String::new();
-    for row in rows {
+    for row in &rows {
         let mut line = String::new();
         for (c, cell) in row.iter().enumerate() {
             let pad = widths[c] - cell.chars().count();

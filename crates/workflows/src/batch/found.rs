@@ -9,7 +9,13 @@ use stiction_files::batch::{Listed, is_list, read_list};
 use stiction_files::shell;
 
 /// The logs, each once, in the order of the inputs, those of a folder and a pattern in alphabetical order; but for what is in `out`.
-pub(super) fn found(inputs: &[PathBuf], out: &Path) -> Result<Vec<Listed>, Error> {
+///
+/// What lies beside the result of an earlier command goes to `beside`.
+pub(super) fn found(
+    inputs: &[PathBuf],
+    out: &Path,
+    beside: &mut Vec<PathBuf>,
+) -> Result<Vec<Listed>, Error> {
     let mut all = Vec::new();
     for input in inputs {
         let before = all.len();
@@ -24,16 +30,20 @@ pub(super) fn found(inputs: &[PathBuf], out: &Path) -> Result<Vec<Listed>, Error
             ));
         }
         if input.is_dir() {
-            walk(input, out, &mut all);
+            walk(input, out, &mut (&mut all, beside));
             if all.len() == before {
-                let found = format!("{} holds no logs", shell::text(input));
+                let but = match beside.first() {
+                    Some(log) => format!(" but beside results, such as {}", shell::text(log)),
+                    None => String::new(),
+                };
+                let found = format!("{} holds no logs{but}", shell::text(input));
                 return Err(Error::usage(
                     found,
                     "a folder with logs in it or in folders below it",
                 ));
             }
         } else if input.symlink_metadata().is_err() && is_pattern() {
-            matching(input, out, &mut all)?;
+            matching(input, out, &mut (&mut all, beside))?;
         } else if is_list(input) {
             all.extend(read_list(input)?);
         } else if let Err(e) = fs::metadata(input) {
@@ -48,6 +58,7 @@ pub(super) fn found(inputs: &[PathBuf], out: &Path) -> Result<Vec<Listed>, Error
     // One log may have several paths.
     let place = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
     all.retain(|listed| seen.insert(place(&listed.path)));
+    beside.retain(|log| seen.insert(place(log)));
     Ok(all)
 }
 
@@ -73,9 +84,13 @@ fn is_outcome(folder: &Path) -> bool {
 
 /// What is in a folder, and in those below it; hidden ones, links to folders, configuration and what was written by a command of
 /// this program are left out.
-fn walk(folder: &Path, out: &Path, all: &mut Vec<Listed>) {
+fn walk(folder: &Path, out: &Path, all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf>)) {
     let same = |a: &Path| Some(a.canonicalize().ok()? == out.canonicalize().ok()?);
-    if same(folder) == Some(true) || is_outcome(folder) {
+    if same(folder) == Some(true) {
+        return;
+    }
+    if is_outcome(folder) {
+        all.1.extend(logs_beside(folder));
         return;
     }
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
@@ -94,10 +109,46 @@ fn walk(folder: &Path, out: &Path, all: &mut Vec<Listed>) {
         match about.is_dir() {
             true => walk(&path, out, all),
             // A link that leads nowhere is a log that is not there.
-            false if !path.is_dir() && !is_configuration(&path) => all.push(log(path)),
+            false if !path.is_dir() && !is_configuration(&path) => all.0.push(log(path)),
             false => {}
         }
     }
+}
+
+/// The recordings in a folder of results, by their names: none of those that commands of this program write.
+fn logs_beside(folder: &Path) -> Vec<PathBuf> {
+    const ENDINGS: [&str; 17] = [
+        "csv", "tsv", "txt", "dat", "log", "mat", "npz", "npy", "parquet", "arrow", "feather",
+        "h5", "hdf5", "tdms", "mcap", "xlsx", "svb",
+    ];
+    const WRITTEN: [&str; 5] = [
+        "fit.csv",
+        "contours.csv",
+        "trajectories.csv",
+        "speeds.csv",
+        "results.parquet",
+    ];
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut logs: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    logs.retain(|path| {
+        let name = path
+            .file_name()
+            .and_then(|name| name.to_str())
+            .unwrap_or_default();
+        let ending = path
+            .extension()
+            .and_then(|end| end.to_str())
+            .unwrap_or_default();
+        let is_log = ENDINGS
+            .iter()
+            .any(|known| ending.eq_ignore_ascii_case(known));
+        let is_ours = WRITTEN.contains(&name)
+            || name.starts_with("setpoints.")
+            || name.ends_with("_drive_table.csv");
+        is_log && !is_ours && !name.starts_with('.') && path.is_file()
+    });
+    logs.sort();
+    logs
 }
 
 /// No log is TOML: axis and model files lie beside logs.
@@ -107,7 +158,11 @@ fn is_configuration(path: &Path) -> bool {
 }
 
 /// What a pattern names: `*` and `?` within a name, `**` over folders, `[a-c]`.
-fn matching(pattern: &Path, out: &Path, all: &mut Vec<Listed>) -> Result<(), Error> {
+fn matching(
+    pattern: &Path,
+    out: &Path,
+    all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf>),
+) -> Result<(), Error> {
     let text = shell::text(pattern);
     let options = glob::MatchOptions {
         require_literal_separator: true,
@@ -116,15 +171,15 @@ fn matching(pattern: &Path, out: &Path, all: &mut Vec<Listed>) -> Result<(), Err
     };
     let paths = glob::glob_with(&text, options)
         .map_err(|e| Error::usage(format!("{text}: {e}"), "a pattern with *, ?, ** and [a-c]"))?;
-    let before = all.len();
+    let before = all.0.len();
     for path in paths.flatten() {
         match path.is_dir() {
             true => walk(&path, out, all),
-            false if !is_configuration(&path) => all.push(log(path)),
+            false if !is_configuration(&path) => all.0.push(log(path)),
             false => {}
         }
     }
-    if all.len() == before {
+    if all.0.len() == before {
         return Err(Error::usage(
             format!("{text} names no logs"),
             "a pattern of files that are there",
@@ -161,7 +216,7 @@ mod tests {
         .unwrap();
         let found = |inputs: &[&str]| {
             let inputs: Vec<PathBuf> = inputs.iter().map(|name| at.join(name)).collect();
-            let all = found(&inputs, &at.join("out"));
+            let all = found(&inputs, &at.join("out"), &mut Vec::new());
             all.map(|all| {
                 let name = |l: &Listed| l.path.strip_prefix(at).unwrap().display().to_string();
                 all.iter().map(name).collect::<Vec<_>>()
@@ -182,6 +237,24 @@ mod tests {
             "{\"schema\":\"stiction.result/1\"}",
         )
         .unwrap();
+        // Beside a result in a folder below a log is left out, and named.
+        for name in [
+            "fit.csv",
+            "setpoints.csv",
+            "run.csv",
+            "run.mat",
+            "report.html",
+        ] {
+            fs::write(at.join("done").join(name), "t,x\n").unwrap();
+        }
+        let mut beside = Vec::new();
+        let all = super::found(&[at.into()], &at.join("out"), &mut beside).unwrap();
+        assert_eq!(all.len(), 5);
+        assert_eq!(beside, [at.join("done/run.csv"), at.join("done/run.mat")]);
+        let named = [at.into(), at.join("done/run.csv")];
+        beside.clear();
+        let all = super::found(&named, &at.join("out"), &mut beside).unwrap();
+        assert_eq!((all.len(), beside), (6, vec![at.join("done/run.mat")]));
         for (input, said) in [
             ("out", "holds no logs"),
             ("done", "holds what an earlier command has written"),

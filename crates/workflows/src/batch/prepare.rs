@@ -20,6 +20,8 @@ pub struct Batch {
     settings: String,
     /// What the logs were found by.
     inputs: Vec<String>,
+    /// Logs in folders of results, which are left out.
+    beside: Vec<PathBuf>,
 }
 
 /// One log.
@@ -129,7 +131,8 @@ impl Batch {
         let mut axes = vec![common];
         let mut places: HashMap<PathBuf, usize> = HashMap::new();
         let mut logs = Vec::new();
-        for listed in found(inputs, out)? {
+        let mut beside = Vec::new();
+        for listed in found(inputs, out, &mut beside)? {
             let place = match &listed.axis {
                 None => 0,
                 Some(file) => *places.entry(file.clone()).or_insert_with(|| {
@@ -149,7 +152,10 @@ impl Batch {
         let others: HashSet<PathBuf> = logs.iter().flat_map(others).collect();
         logs.retain(|entry| !others.contains(&entry.listed.path));
         let inputs = inputs.iter().map(|input| shell::text(input)).collect();
-        Ok(Self::of(logs, axes, options, reports, inputs))
+        Ok(Self {
+            beside,
+            ..Self::of(logs, axes, options, reports, inputs)
+        })
     }
 
     /// One log by itself, for whoever spreads logs over processes and machines. What is wrong with it, or with its axis file, is
@@ -188,12 +194,18 @@ impl Batch {
             reports,
             settings: sha256_of(settings.as_bytes()),
             inputs,
+            beside: Vec::new(),
         }
     }
 
     /// The logs with what is known of them, in their order.
     pub fn logs(&self) -> impl Iterator<Item = &Listed> {
         self.logs.iter().map(|entry| &entry.listed)
+    }
+
+    /// Logs that lie beside the result of an earlier command and are left out unless they are named.
+    pub fn beside_results(&self) -> &[PathBuf] {
+        &self.beside
     }
 
     /// How many logs there are.

@@ -6,7 +6,7 @@ use std::path::Path;
 use stiction_codes::Code;
 use stiction_files::Axis;
 use stiction_files::axis::{Addition, Found, extend, template};
-use stiction_log::{Log, Mapping, Role, Table};
+use stiction_log::{Channel, Log, Mapping, Role, Table};
 
 /// An axis file to write, and what is in it that was not given.
 #[derive(Clone, Debug)]
@@ -43,10 +43,20 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
         });
     }
     Ok(match Mapping::detect(&table) {
-        Ok(detected) => {
-            let log = Log::from_table(&table, &Mapping::default());
+        Ok(mut detected) => {
+            let own_stamps = detected.mapping.own_stamps(&table);
+            let coarse = match own_stamps.is_empty() {
+                true => counted(&mut detected.mapping, &table),
+                false => None,
+            };
+            let given = Mapping {
+                rate_hz: coarse.as_ref().and(detected.mapping.rate_hz),
+                ..Mapping::default()
+            };
+            let log = Log::from_table(&table, &given);
             let mut found = log.as_ref().map(found).unwrap_or_default();
-            found.own_stamps = detected.mapping.own_stamps(&table);
+            found.own_stamps = own_stamps;
+            found.coarse = coarse;
             let lacks = |f: &&stiction_log::Finding| f.code == Code::NoForce;
             let lacking = detected.findings.iter().find(lacks);
             let lacking = lacking.map(|finding| finding.message.clone());
@@ -67,9 +77,13 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
             }
         }
         Err(e) => {
-            let clear = Mapping::clear_columns(&table);
+            let mut clear = Mapping::clear_columns(&table);
             let found = Found {
+                coarse: counted(&mut clear, &table),
                 columns: described(&table),
+                wrap: clear
+                    .counter(&table)
+                    .map(|counts| format!("{counts} counts")),
                 ..Found::default()
             };
             Started {
@@ -79,6 +93,13 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
             }
         }
     })
+}
+
+/// Counts the rows at their one rate in place of a time whose clock is coarser than the sampling; the column that is no longer read.
+fn counted(mapping: &mut Mapping, table: &Table) -> Option<Channel> {
+    let rate = Log::rate_of_coarse_clock(table, mapping)?;
+    mapping.rate_hz = Some(rate);
+    mapping.time.take()
 }
 
 /// What a log shows beside its columns.
@@ -91,6 +112,7 @@ fn found(log: &Log) -> Found {
             None => length(log, travel),
         }),
         own_stamps: Vec::new(),
+        coarse: None,
         columns: Vec::new(),
     }
 }

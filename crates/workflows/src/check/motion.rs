@@ -55,7 +55,7 @@ pub struct Motion {
 
 impl Motion {
     /// `None` for a log without motion.
-    pub(super) fn of(log: &Log) -> Option<Self> {
+    pub(crate) fn of(log: &Log) -> Option<Self> {
         let n = log.time.len();
         let seconds = log.time.last()? - log.time.first()?;
         let (velocity, error, window) = speeds_within(log)?;

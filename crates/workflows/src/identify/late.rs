@@ -6,10 +6,10 @@ use super::logs::paths;
 use crate::error::Error;
 use crate::source::Source;
 use stiction_codes::Code;
-use stiction_files::Warning;
-use stiction_files::shell;
+use stiction_files::{Axis, Warning, shell};
 use stiction_identify::{Delay, FittedLaw, lateness};
-use stiction_number::four_digits;
+use stiction_log::{Offset, Role};
+use stiction_number::{four_digits, full};
 use stiction_parameters::Quantity;
 
 /// Lays force and motion beside each other, where no delay is given and whole records are fitted.
@@ -49,10 +49,8 @@ pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &
         (None, Delay::Given(delay)) => (delay, ""),
         (None, Delay::Fitted) => (0.0, ""),
     };
-    let line = format!(
-        "delay = \"{} ms\"",
-        four_digits(1e3 * (loaded.late + further))
-    );
+    let late = loaded.late + further;
+    let line = format!("delay = \"{} ms\"", four_digits(1e3 * late));
     let logs = paths(&loaded.sources);
     let typed: Vec<String> = logs.iter().map(|log| shell::quoted(log)).collect();
     let options = disagree::options(asked);
@@ -63,9 +61,36 @@ pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &
             (format!("in a new file {file}"), format!(" --axis {file}"))
         }
     };
+    if let Some(added) = of_another_clock(asked.axis) {
+        warning.message.push_str(&format!(
+            ". {row}The force comes from another file, whose clock may be late: to say so, write offset = \"{} s\" beside its file \
+             under [columns] {place}{}, then: stiction identify {}{options} --out RESULT",
+            full((1e6 * (added - late)).round() / 1e6),
+            match added == 0.0 {
+                true => "",
+                false => " in place of the offset there",
+            },
+            typed.join(" ")
+        ));
+        return;
+    }
     warning.message.push_str(&format!(
         ". {row}Find out where it comes from; to state it, write {line} under [terms] {place}, \
          then: stiction identify {}{axis}{options} --out RESULT",
         typed.join(" ")
     ));
+}
+
+/// What is added to the time stamps of a force that comes from another file, s; `None` where it comes from the log.
+fn of_another_clock(axis: &Axis) -> Option<f64> {
+    let mut joined = axis.joined.iter().filter(|column| column.file.is_some());
+    match joined
+        .find(|column| column.from.role == Role::Force)?
+        .from
+        .offset
+    {
+        Offset::Given(added) => Some(added),
+        // What was estimated has been laid upon the motion already.
+        Offset::Estimated => None,
+    }
 }

@@ -65,6 +65,65 @@ const NOISE: f64 = 0.005;
 const BANDWIDTH: f64 = 40.0;
 const OF_RATE: f64 = 1.0 / 20.0;
 
+/// A limit that no plan goes without and the axis file does not give.
+pub(super) struct Lacking {
+    pub key: &'static str,
+    /// What it is.
+    pub what: &'static str,
+    /// A value as it is written.
+    pub example: &'static str,
+}
+
+/// The limits that are missing.
+pub(super) fn lacking(axis: &Axis, has_mass: bool) -> impl Iterator<Item = Lacking> {
+    let limits = axis.limits.as_ref();
+    let rotary = is_rotary(axis);
+    let one = |is_given: bool, key, what, [linear, turning]: [&'static str; 2]| {
+        let example = if rotary { turning } else { linear };
+        (!is_given).then_some(Lacking { key, what, example })
+    };
+    [
+        one(
+            limits.is_some_and(|l| l.stroke.is_some()),
+            "limits.stroke",
+            "how far the axis may go from where it stands",
+            ["[\"-100 mm\", \"100 mm\"]", "[\"-180 deg\", \"180 deg\"]"],
+        ),
+        one(
+            limits.is_some_and(|l| l.speed.is_some()),
+            "limits.speed",
+            "the largest speed",
+            ["\"0.2 m/s\"", "\"300 rpm\""],
+        ),
+        one(
+            limits.is_some_and(|l| l.acceleration.is_some()),
+            "limits.acceleration",
+            "the largest acceleration",
+            ["\"6 m/s2\"", "\"200 rad/s2\""],
+        ),
+        one(
+            limits.is_some_and(|l| l.rated_force.is_some()),
+            "limits.rated_force",
+            "the force or torque that the drive can give for long",
+            ["\"150 N\"", "\"1.3 N m\""],
+        ),
+        one(
+            has_mass,
+            "limits.mass",
+            "what moves, within a factor of two",
+            ["\"10 kg\"", "\"5 kg cm2\""],
+        ),
+    ]
+    .into_iter()
+    .flatten()
+}
+
+fn is_rotary(axis: &Axis) -> bool {
+    let limits = axis.limits.as_ref();
+    limits.is_some_and(|l| l.motion == Motion::Rotary)
+        || axis.mapping.motion == Some(Motion::Rotary)
+}
+
 /// What the axis file gives, and what is assumed where it may be.
 pub(super) fn given(
     axis: &Axis,
@@ -72,61 +131,13 @@ pub(super) fn given(
     options: &PlanOptions,
 ) -> Result<Given, Error> {
     let limits = axis.limits.as_ref();
-    let rotary = limits.is_some_and(|l| l.motion == Motion::Rotary)
-        || axis.mapping.motion == Some(Motion::Rotary);
-    let examples = match rotary {
-        false => [
-            "[\"-100 mm\", \"100 mm\"]",
-            "\"0.2 m/s\"",
-            "\"6 m/s2\"",
-            "\"150 N\"",
-            "\"10 kg\"",
-        ],
-        true => [
-            "[\"-180 deg\", \"180 deg\"]",
-            "\"300 rpm\"",
-            "\"200 rad/s2\"",
-            "\"1.3 N m\"",
-            "\"5 kg cm2\"",
-        ],
-    };
     let mass = limits.and_then(|l| l.mass).or(match axis.terms.mass {
         Mass::Given(mass) => Some(mass),
         Mass::Fitted | Mass::Absent => None,
     });
     let mass = mass.or(told.as_ref().map(|told| told.belief.axis.mass));
-    let wanted = [
-        (
-            limits.and_then(|l| l.stroke).is_none(),
-            "limits.stroke",
-            "how far the axis may go from where it stands",
-        ),
-        (
-            limits.and_then(|l| l.speed).is_none(),
-            "limits.speed",
-            "the largest speed",
-        ),
-        (
-            limits.and_then(|l| l.acceleration).is_none(),
-            "limits.acceleration",
-            "the largest acceleration",
-        ),
-        (
-            limits.and_then(|l| l.rated_force).is_none(),
-            "limits.rated_force",
-            "the force or torque that the drive can give for long",
-        ),
-        (
-            mass.is_none(),
-            "limits.mass",
-            "what moves, within a factor of two",
-        ),
-    ];
-    let missing: Vec<(&str, String)> = wanted
-        .iter()
-        .zip(examples)
-        .filter(|((missing, ..), _)| *missing)
-        .map(|((_, key, what), example)| (*key, format!("{what}, such as {example}")))
+    let missing: Vec<(&str, String)> = lacking(axis, mass.is_some())
+        .map(|lack| (lack.key, format!("{}, such as {}", lack.what, lack.example)))
         .collect();
     let (Some(l), Some(mass), true) = (limits, mass, missing.is_empty()) else {
         return Err(axis.missing(&missing).into());

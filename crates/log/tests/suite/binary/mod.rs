@@ -7,3 +7,4 @@ mod mapping_recordings;
 mod recordings;
 mod roundtrip;
 mod svb;
+mod workbooks;

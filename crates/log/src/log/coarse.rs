@@ -1,0 +1,120 @@
+//! Time stamps of a clock that is coarser than the sampling: rows at one rate, whose stamps are rounded to its ticks.
+
+/// What is left of a step by the arithmetic of decimal numbers, of a tick.
+const SAME: f64 = 1e-3;
+/// Fewest steps that show a pattern.
+const FEWEST: usize = 20;
+/// Least tick, of the step, that is worth a word.
+const LEAST: f64 = 0.01;
+
+/// A clock that rounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Coarse {
+    /// What its stamps are rounded to, s.
+    pub tick: f64,
+    /// The one rate of the rows, Hz: of those that the stamps leave open the one with the fewest digits.
+    pub rate_hz: f64,
+}
+
+impl Coarse {
+    /// The clock of these stamps, s: where their steps are but two neighbouring multiples of a tick, one of which may be none, and no
+    /// stamp is further than a tick from where one rate has it.
+    pub fn of(time: &[f64]) -> Option<Self> {
+        let (first, last) = (*time.first()?, *time.last()?);
+        let steps = time.len() - 1;
+        if steps < FEWEST || !(last - first).is_finite() {
+            return None;
+        }
+        let step = (last - first) / steps as f64;
+        let tick = tick(time, step)?;
+        let near =
+            |(k, t): (usize, &f64)| (t - first - k as f64 * step).abs() <= tick * (1.0 + SAME);
+        if !time.iter().enumerate().all(near) {
+            return None;
+        }
+        let of = |seconds: f64| steps as f64 / seconds;
+        let rate_hz = roundest(of(last - first + tick), of(last - first - tick));
+        Some(Self { tick, rate_hz })
+    }
+
+    /// What is to be written instead of the time.
+    pub fn line(&self) -> String {
+        format!("rate = \"{} Hz\"", self.rate_hz)
+    }
+}
+
+/// How far two steps are apart that are all that there are, the shorter of which is a multiple of that.
+fn tick(time: &[f64], step: f64) -> Option<f64> {
+    let steps = || time.windows(2).map(|pair| pair[1] - pair[0]);
+    let (least, most) = steps().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(s), b.max(s)));
+    let tick = most - least;
+    let same = |a: f64, b: f64| (a - b).abs() <= SAME * tick;
+    let multiple = (least / tick).round();
+    let is_rounded = least >= -SAME * tick
+        && tick >= LEAST * step
+        && same(multiple * tick, least)
+        && steps().all(|s| same(s, least) || same(s, most));
+    is_rounded.then_some(tick)
+}
+
+/// The number with the fewest digits between two above zero.
+fn roundest(low: f64, high: f64) -> f64 {
+    let mid = 0.5 * (low + high);
+    let mut rounded = (0..9).filter_map(|digits| format!("{mid:.digits$e}").parse().ok());
+    rounded
+        .find(|rate| (low..=high).contains(rate))
+        .unwrap_or(mid)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Coarse;
+
+    /// Stamps at a rate, rounded down to a tick.
+    fn stamps(rate: f64, tick: f64, count: usize) -> Vec<f64> {
+        let at = |k: usize| (k as f64 / rate / tick).floor() * tick;
+        (0..count).map(at).collect()
+    }
+
+    #[test]
+    fn rows_at_one_rate_have_it_whatever_rounds_their_stamps() {
+        for rate in [
+            300.0, 600.0, 666.7, 700.0, 733.0, 800.0, 1020.0, 1500.0, 4000.0,
+        ] {
+            let found = Coarse::of(&stamps(rate, 1e-3, 20_000)).map(|clock| clock.rate_hz);
+            let Some(found) = found else {
+                panic!("{rate} Hz is not seen");
+            };
+            assert!((found / rate - 1.0).abs() < 1e-4, "{rate} Hz: {found}");
+        }
+        let found = Coarse::of(&stamps(700.0, 1e-3, 20_000)).unwrap();
+        assert_eq!(found.rate_hz, 700.0);
+        assert!((found.tick - 1e-3).abs() < 1e-9);
+    }
+
+    #[test]
+    fn other_stamps_are_not_taken_for_rounded() {
+        // Exact ones, and such as double arithmetic leaves.
+        assert_eq!(Coarse::of(&stamps(1000.0, 1e-6, 5000)), None);
+        let decimal: Vec<f64> = (0..5000).map(|k| f64::from(k) * 1e-3).collect();
+        assert_eq!(Coarse::of(&decimal), None);
+        // Some rows are missing.
+        let mut missing = stamps(700.0, 1e-3, 5000);
+        missing.drain(2000..2005);
+        assert_eq!(Coarse::of(&missing), None);
+        // A rate that changes on the way.
+        let mut other = stamps(600.0, 1e-3, 2000);
+        let end = other[1999];
+        other.extend(stamps(800.0, 1e-3, 2000).iter().skip(1).map(|t| end + t));
+        assert_eq!(Coarse::of(&other), None);
+        // Steps of one and two ticks in no even pattern.
+        let mut random = vec![0.0];
+        let mut state = 1_u32;
+        for _ in 0..5000 {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let before = random[random.len() - 1];
+            random.push(before + 1e-3 * f64::from(1 + (state >> 31)));
+        }
+        assert_eq!(Coarse::of(&random), None);
+    }
+}
