@@ -21,7 +21,7 @@ fn odd_workbooks_are_told() {
     assert_eq!(booleans.columns[2].values[..4], [0.0, 0.0, 0.0, 1.0]);
 
     let hidden = read("hidden.xlsx").unwrap();
-    assert_eq!(hidden.columns[1].values[3], 0.1 * 3.0);
+    assert_eq!(hidden.columns[1].values[3], 0.3);
     assert!(
         hidden.skipped[0].starts_with("sheet old: "),
         "{:?}",
