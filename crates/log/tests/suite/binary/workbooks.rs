@@ -31,6 +31,6 @@ fn odd_workbooks_are_told() {
     let wide = read("wide.xlsx").unwrap_err();
     assert_eq!(wide.kind, Kind::Limit);
     let said = wide.to_string();
-    assert!(said.contains("row 1 goes on to column FAA"), "{said}");
+    assert!(said.contains("row 1 goes on to column FAO"), "{said}");
     assert!(said.contains("at most 4096 columns"), "{said}");
 }
