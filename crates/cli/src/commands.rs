@@ -13,6 +13,7 @@ use crate::wording;
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use stiction::commands::Settled;
 use stiction::commands::number::full;
 use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
 use stiction::commands::shell::{quoted, quoted_path, text as path_text};
@@ -245,8 +246,7 @@ fn unread(error: &stiction::commands::LogError, logs: &[PathBuf], axis: Option<&
     for log in logs {
         check.push_str(&format!(" {}", typed(log)));
     }
-    let of_text = error.allowed.contains("[text]");
-    if of_text || error.allowed.contains("axis.toml") {
+    if let Some(settled) = error.settled_by_line() {
         let file = axis.map_or_else(
             || {
                 let log = error.file.as_deref().unwrap_or(Path::new("log"));
@@ -254,9 +254,9 @@ fn unread(error: &stiction::commands::LogError, logs: &[PathBuf], axis: Option<&
             },
             typed,
         );
-        let line = match of_text {
-            true => "[text] and that line",
-            false => "that line",
+        let line = match settled {
+            Settled::InText => "[text] and that line",
+            Settled::Elsewhere => "that line",
         };
         return format!("next, with {line} in {file}: {check} --axis {file}");
     }

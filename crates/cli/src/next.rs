@@ -174,7 +174,9 @@ pub fn many(error: &Error, logs: &[PathBuf]) -> Option<String> {
         let name = word.split('=').next().unwrap_or(word);
         if SHARED.contains(&name) {
             kept.push(word.clone());
-            kept.extend(words.next().filter(|_| name == word).cloned());
+            if name == word {
+                kept.extend(words.next().cloned());
+            }
         } else if word == "--asymmetric" {
             kept.push(word.clone());
         }

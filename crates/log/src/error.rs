@@ -71,11 +71,22 @@ impl fmt::Display for Place {
     }
 }
 
+/// Where in the axis file a line can settle what is refused; `allowed` has the line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Settled {
+    /// Under `[text]`.
+    InText,
+    /// Where `allowed` says.
+    Elsewhere,
+}
+
 /// What few errors have.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Rest {
     /// The key of the axis file that it is about.
     setting: Option<Cow<'static, str>>,
+    /// Where a line of the axis file settles it.
+    settled: Option<Settled>,
     /// What else is wrong with the same recording.
     others: Vec<Error>,
 }
@@ -120,6 +131,18 @@ impl Error {
     /// The key of the axis file whose value this is about, such as `log.crop`; `None` where it is about the recording alone.
     pub fn setting(&self) -> Option<&str> {
         self.rest.as_ref()?.setting.as_deref()
+    }
+
+    /// The same problem, which a line of the axis file settles.
+    #[must_use]
+    pub(crate) fn settled(mut self, settled: Settled) -> Self {
+        self.rest.get_or_insert_default().settled = Some(settled);
+        self
+    }
+
+    /// Where a line of the axis file settles a row that cannot be read as it is; `None` where the recording is to be mended.
+    pub fn settled_by_line(&self) -> Option<Settled> {
+        self.rest.as_ref()?.settled
     }
 
     /// One error of several of the same recording, each of which stands whatever is done about the others; `None` of none.

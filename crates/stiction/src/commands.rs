@@ -25,7 +25,7 @@ pub mod recording {
 }
 
 /// Why a recording was refused.
-pub use stiction_log::Error as LogError;
+pub use stiction_log::{Error as LogError, Settled};
 
 /// A table as its file has it.
 pub mod log_table {

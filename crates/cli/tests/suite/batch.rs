@@ -225,7 +225,8 @@ fn a_list_says_of_which_machine_and_when_a_log_is() {
     assert_eq!((code, out.as_str()), (2, ""));
     assert_eq!(
         err,
-        "stiction: [bad-config] list.csv: row 2, column time: \"noon\"; a time in ISO 8601, as 2026-03-01T06:30:00Z, or a number of seconds\n"
+        "stiction: [bad-config] list.csv: row 2, column time: \"noon\"; a time in ISO 8601, as 2026-03-01T06:30:00Z, or a number of seconds\n\
+         stiction: next: correct list.csv, then: stiction batch list.csv --out out\n"
     );
     for (input, said) in [
         ("nowhere", "[log-io] nowhere: cannot be read"),

@@ -757,6 +757,7 @@ proptest! {
             resolution: Some("5e-8 rad".into()),
             wrap: Some("25 rad".into()),
             own_stamps: Vec::new(),
+            coarse: None,
             columns: names.iter().map(|(name, _)| name.clone()).collect(),
         };
         let text = template(&table, Ok(&mapping), &found);

@@ -1,6 +1,7 @@
 //! Time stamps to seconds: overflow, order, crop, duplicates.
 
 use super::coarse::Coarse;
+use crate::error::Settled;
 use crate::findings::{Finding, Severity, count, full, median, short};
 use crate::mapping::{LARGEST_VALUE, Mapping, Role, Source};
 use crate::{Error, Kind, Table};
@@ -171,7 +172,8 @@ fn stamped(
                 _ => "time stamps that go on; give the rate instead of the time column, as in rate = \"1 kHz\" above [columns] of axis.toml"
                     .to_string(),
             };
-            return Err(Error::new(Kind::Time, found, allowed).at_row(first as u64 + 1));
+            let error = Error::new(Kind::Time, found, allowed).settled(Settled::Elsewhere);
+            return Err(error.at_row(first as u64 + 1));
         }
         let constant = coarse().map_or(String::new(), |clock| {
             format!(
@@ -291,6 +293,7 @@ fn backward(raw: &[f64], row: usize, end: Option<f64>) -> Error {
         full(raw[row]),
         row + 1
     );
+    let in_order = end.is_some();
     let allowed = match end {
         Some(end) => format!(
             "increasing time stamps; if two recordings are in one file, keep the first under [log] of axis.toml: crop = [\"0 s\", \
@@ -299,7 +302,11 @@ fn backward(raw: &[f64], row: usize, end: Option<f64>) -> Error {
         ),
         None => "increasing time stamps: sort the rows by them, or give the rate instead of the time column".into(),
     };
-    Error::new(Kind::Time, found, allowed).at_row(row as u64 + 1)
+    let error = Error::new(Kind::Time, found, allowed).at_row(row as u64 + 1);
+    match in_order {
+        true => error.settled(Settled::Elsewhere),
+        false => error,
+    }
 }
 
 /// The rows between the first at or after the begin of the crop and the last before its end.

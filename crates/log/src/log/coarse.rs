@@ -4,6 +4,8 @@
 const SAME: f64 = 1e-3;
 /// Fewest steps that show a pattern.
 const FEWEST: usize = 20;
+/// Fewest steps of either length: a few long ones are rows that are missing.
+const FEWEST_EACH: usize = 10;
 /// Least tick, of the step, that is worth a word.
 const LEAST: f64 = 0.01;
 
@@ -54,7 +56,9 @@ fn tick(time: &[f64], step: f64) -> Option<f64> {
         && tick >= LEAST * step
         && same(multiple * tick, least)
         && steps().all(|s| same(s, least) || same(s, most));
-    is_rounded.then_some(tick)
+    let long = steps().filter(|s| same(*s, most)).count();
+    let short = time.len() - 1 - long;
+    (is_rounded && long.min(short) >= FEWEST_EACH).then_some(tick)
 }
 
 /// The number with the fewest digits between two above zero.
@@ -102,6 +106,12 @@ mod tests {
         let mut missing = stamps(700.0, 1e-3, 5000);
         missing.drain(2000..2005);
         assert_eq!(Coarse::of(&missing), None);
+        // One row is missing, or a few.
+        let mut gaps = stamps(1000.0, 1e-3, 5000);
+        gaps.remove(2500);
+        assert_eq!(Coarse::of(&gaps), None);
+        gaps.remove(1500);
+        assert_eq!(Coarse::of(&gaps), None);
         // A rate that changes on the way.
         let mut other = stamps(600.0, 1e-3, 2000);
         let end = other[1999];

@@ -319,7 +319,12 @@ impl<'a> Scan<'a> {
 
     /// Whether the name of a force tells to which of several axes it belongs.
     fn tells_axes(&self) -> bool {
-        let mut forces = (0..self.hints.len()).filter(|c| self.is_hinted(*c, Role::Force));
+        let by_unit = |c: usize| {
+            let unit = self.units[c].as_ref().map(Unit::dimension);
+            unit.is_some_and(|unit| unit != Dimension::ONE && is_force(unit))
+        };
+        let mut forces =
+            (0..self.hints.len()).filter(|c| self.is_hinted(*c, Role::Force) || by_unit(*c));
         forces.any(|c| {
             let name = &self.table.columns[c].name;
             names::axis_letter(name).is_some() || names::group(name).is_some()

@@ -13,6 +13,7 @@ use super::scope::Scope;
 use super::source::Source;
 use super::split::{self, Ends};
 use super::twincat;
+use crate::error::Settled;
 use crate::open::Wanted;
 use crate::{Column, Error, Kind, Table};
 
@@ -263,6 +264,7 @@ fn best(lines: &[Line], skip: usize, row_end: u8, options: &TextOptions) -> Resu
                 ),
                 "separator = \"comma\" or separator = \"blanks\" under [text] of the axis file",
             )
+            .settled(Settled::InText)
             .at_row(lines[row].number))
         }
     }

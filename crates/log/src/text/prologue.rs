@@ -8,6 +8,7 @@ use super::lines::Line;
 use super::options::{Decimal, Separator, TextOptions};
 use super::problem;
 use super::split::{self, Ends};
+use crate::error::Settled;
 use crate::{Error, Kind};
 
 /// What the lines above the samples say.
@@ -129,6 +130,7 @@ pub(super) fn read(
                 lines[last].number
             ),
         )
+        .settled(Settled::InText)
         .at_row(lines[last].number));
     }
     if adjacent
@@ -183,7 +185,8 @@ pub(super) fn wrong_header(line: u64, names: usize, fit: &Fit) -> Error {
             format!(
                 "one name for each cell (separator {separator}), or header = false under [text] of the axis file"
             ),
-        ),
+        )
+        .settled(Settled::InText),
     };
     error.at_row(line)
 }
@@ -221,6 +224,7 @@ fn refuse_counted_row(lines: &[Line], fit: &Fit) -> Result<(), Error> {
         ),
         "header = true (column numbers) or header = false (a sample) under [text] of the axis file",
     )
+    .settled(Settled::InText)
     .at_row(line.number))
 }
 
@@ -270,6 +274,7 @@ pub(super) fn refuse_comma_twice(
             }
         ),
     )
+    .settled(Settled::InText)
     .at_row(line.number)
     .in_column(column.to_string()))
 }

@@ -868,7 +868,7 @@ fn time_that_goes_back_or_stands_leads_on() {
     // Two recordings in one file, all in the wrong order, a clock of 10 ms, and none.
     insta::assert_snapshot!(said(&|i| 0.001 * (i % 1200) as f64), @r#"increasing time stamps; if two recordings are in one file, keep the first under [log] of axis.toml: crop = ["0 s", "1.199 s"], or give the rate instead of the time column"#);
     insta::assert_snapshot!(said(&|i| -0.001 * i as f64), @r#"increasing time stamps: sort the rows by them, or give the rate instead of the time column"#);
-    insta::assert_snapshot!(said(&|i| 0.01 * (i / 10) as f64), @r#"at most 5 % of the rows: the clock is coarser than the sampling; give the rate instead of the time column, on average rate = "1005 Hz" above [columns] of axis.toml"#);
+    insta::assert_snapshot!(said(&|i| 0.01 * (i / 10) as f64), @r#"at most 5 % of the rows: the clock is coarser than the sampling; give the rate instead of the time column, on average rate = "1000 Hz" above [columns] of axis.toml"#);
     insta::assert_snapshot!(said(&|_| 5.0), @r#"time stamps that go on; give the rate instead of the time column, as in rate = "1 kHz" above [columns] of axis.toml"#);
     // The line that is named reads the first recording.
     let mut table = axis(2000).table();
