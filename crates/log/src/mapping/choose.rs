@@ -146,11 +146,12 @@ pub(super) fn columns(
         out.phrases.push(format!("time = row number at {rate} Hz"));
     }
     let mut is_known = true;
-    if given.position.is_none() && given.velocity.is_none() {
-        if let Err(e) = scan.motion_columns(&mut out.mapping) {
-            refused.push(e);
-            is_known = false;
-        }
+    if given.position.is_none()
+        && given.velocity.is_none()
+        && let Err(e) = scan.motion_columns(&mut out.mapping)
+    {
+        refused.push(e);
+        is_known = false;
     }
     if given.force.is_none() {
         match scan.force_column(&out.mapping) {
