@@ -510,7 +510,7 @@ fn rate(time: &[f64]) -> f64 {
     const MISSING: f64 = 1.5;
     /// What is left of a step by the arithmetic of decimal numbers, of the step.
     const SAME: f64 = 1e-3;
-    if let Some(clock) = coarse::Coarse::of(time) {
+    if let Some((clock, _)) = coarse::Coarse::of_a_part(time) {
         return clock.rate_hz;
     }
     let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();

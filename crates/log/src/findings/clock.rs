@@ -24,10 +24,13 @@ pub(super) fn gaps(log: &mut Log) {
     };
     drop(steps);
     // Two ticks in place of one are no gap.
-    let is_rounded = Coarse::of(&log.time).is_some();
+    let (step, longest) = match Coarse::of_a_part(&log.time) {
+        Some((clock, _)) => (1.0 / clock.rate_hz, 1.0 / clock.rate_hz + 1.01 * clock.tick),
+        None => (step, MIN_GAP_STEPS * step),
+    };
     for (index, w) in log.time.windows(2).enumerate() {
         let seconds = w[1] - w[0];
-        if !is_rounded && seconds > MIN_GAP_STEPS * step {
+        if seconds > longest {
             let missing = ((seconds / step).round() as usize).saturating_sub(1).max(1);
             log.gaps.push(Gap {
                 start_index: index,
@@ -87,9 +90,14 @@ pub(super) fn jitter(log: &mut Log) {
     let (mut squares, mut steps) = (0.0, 0_usize);
     let (mut worst, mut at) = (0.0, 0);
     let clock = Coarse::of(&log.time);
+    let part = Coarse::of_a_part(&log.time).map(|(clock, _)| clock);
+    let longest = match part {
+        Some(clock) => step + 1.01 * clock.tick,
+        None => MIN_GAP_STEPS * step,
+    };
     for (index, w) in log.time.windows(2).enumerate() {
         let off = (w[1] - w[0]) - step;
-        if clock.is_none() && off + step > MIN_GAP_STEPS * step {
+        if off + step > longest {
             continue;
         }
         squares += off * off;
@@ -116,6 +124,16 @@ pub(super) fn jitter(log: &mut Log) {
              under it",
             short(clock.tick),
             clock.line()
+        );
+        log.findings
+            .push(Finding::new(Code::Jitter, severity, message));
+        return;
+    }
+    if let Some(clock) = part {
+        let message = format!(
+            "the time stamps are rounded to {} s; the rows are at {} Hz, and some are missing",
+            short(clock.tick),
+            clock.rate_hz
         );
         log.findings
             .push(Finding::new(Code::Jitter, severity, message));

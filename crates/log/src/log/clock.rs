@@ -163,7 +163,21 @@ fn stamped(
         if share(&repeated) > MAX_DROPPED_SHARE {
             let lasted = since(range.end - 1, origin) - since(range.start, origin);
             let rate = (range.len() - 1) as f64 / lasted;
+            let all: Vec<f64> = range.clone().map(|row| since(row, origin)).collect();
+            let part = Coarse::of_a_part(&all).filter(|(_, rows)| rows.len() < all.len());
             let allowed = match coarse().map_or(rate, |clock| clock.rate_hz) {
+                _ if let Some((clock, rows)) = &part => {
+                    let at = |row: usize| short((range.start + row) as f64 / clock.rate_hz);
+                    format!(
+                        "at most 5 % of the rows: the clock is coarser than the sampling, at {} Hz, and rows are missing beside; a log \
+                         with finer time stamps, or, above [columns] of axis.toml in place of time, {} and, under [log], a stretch of \
+                         rows without a gap, counted at that rate: crop = [\"{} s\", \"{} s\"]",
+                        clock.rate_hz,
+                        clock.line(),
+                        at(rows.start),
+                        at(rows.end - 1)
+                    )
+                }
                 rate if rate.is_finite() && lasted > 0.0 => format!(
                     "at most 5 % of the rows: the clock is coarser than the sampling; give the rate instead of the time column, on average \
                      rate = \"{} Hz\" above [columns] of axis.toml",
@@ -236,11 +250,13 @@ pub(super) fn rate_of_coarse(raw: &[f64], source: &Source) -> Option<f64> {
     let repeated = time.windows(2).filter(|pair| pair[1] == pair[0]).count();
     let mean = (time.len() - 1) as f64 / time.last()?;
     let is_mostly_repeated = repeated as f64 > MAX_DROPPED_SHARE * time.len() as f64;
-    let mean = short(mean)
-        .parse()
-        .ok()
-        .filter(|_| is_mostly_repeated && mean.is_finite() && mean > 0.0 && time.is_sorted());
-    Coarse::of(&time).map(|clock| clock.rate_hz).or(mean)
+    let whole = Coarse::of(&time);
+    // Where rows are missing no rate counts them.
+    let is_whole = whole.is_some() || Coarse::of_a_part(&time).is_none();
+    let mean = short(mean).parse().ok().filter(|_| {
+        is_mostly_repeated && is_whole && mean.is_finite() && mean > 0.0 && time.is_sorted()
+    });
+    whole.map(|clock| clock.rate_hz).or(mean)
 }
 
 /// Where the counter overflows, with what has to be added from there on, and the rows that go back

@@ -1,11 +1,16 @@
 //! Time stamps of a clock that is coarser than the sampling: rows at one rate, whose stamps are rounded to its ticks.
 
+use std::ops::Range;
+
 /// What is left of a step by the arithmetic of decimal numbers, of a tick.
 const SAME: f64 = 1e-3;
 /// Fewest steps that show a pattern.
 const FEWEST: usize = 20;
 /// Fewest steps of either length: a few long ones are rows that are missing.
 const FEWEST_EACH: usize = 10;
+/// Most halvings of a record, and fewest rows, in which a stretch without missing rows is looked for.
+const HALVINGS: u32 = 6;
+const FEWEST_ROWS: usize = 200;
 /// Least tick, of the step, that is worth a word.
 const LEAST: f64 = 0.01;
 
@@ -37,6 +42,20 @@ impl Coarse {
         let of = |seconds: f64| steps as f64 / seconds;
         let rate_hz = roundest(of(last - first + tick), of(last - first - tick));
         Some(Self { tick, rate_hz })
+    }
+
+    /// The clock of the longest stretch that has one, and its rows, where rows are missing elsewhere: halves of the stamps, quarters,
+    /// and so on.
+    pub fn of_a_part(time: &[f64]) -> Option<(Self, Range<usize>)> {
+        (0..=HALVINGS).find_map(|halved| {
+            let parts = 1 << halved;
+            let ends = |part: usize| part * time.len() / parts..(part + 1) * time.len() / parts;
+            let long = (0..parts)
+                .map(ends)
+                .filter(|rows| rows.len() >= FEWEST_ROWS);
+            let mut found = long.filter_map(|rows| Some((Self::of(&time[rows.clone()])?, rows)));
+            found.next()
+        })
     }
 
     /// What is to be written instead of the time.
@@ -97,6 +116,22 @@ mod tests {
     }
 
     #[test]
+    fn rows_that_are_missing_leave_a_part_with_the_rate() {
+        for rate in [700.0, 1600.0, 3000.0] {
+            let mut stamps = stamps(rate, 1e-3, 13_000);
+            for row in [12_000, 9000, 5000, 1800] {
+                stamps.drain(row..row + 3);
+            }
+            assert_eq!(Coarse::of(&stamps), None);
+            let (clock, rows) = Coarse::of_a_part(&stamps).unwrap();
+            assert_eq!(clock.rate_hz, rate);
+            assert!(rows.len() >= 1500, "{rows:?}");
+        }
+        let exact: Vec<f64> = (0..5000).map(|k| f64::from(k) * 1e-3).collect();
+        assert_eq!(Coarse::of_a_part(&exact), None);
+    }
+
+    #[test]
     fn other_stamps_are_not_taken_for_rounded() {
         // Exact ones, and such as double arithmetic leaves.
         assert_eq!(Coarse::of(&stamps(1000.0, 1e-6, 5000)), None);
@@ -126,5 +161,6 @@ mod tests {
             random.push(before + 1e-3 * f64::from(1 + (state >> 31)));
         }
         assert_eq!(Coarse::of(&random), None);
+        assert_eq!(Coarse::of_a_part(&random), None);
     }
 }
