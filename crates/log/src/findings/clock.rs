@@ -25,7 +25,7 @@ pub(super) fn gaps(log: &mut Log) {
     drop(steps);
     // Two ticks in place of one are no gap.
     let (step, longest) = match Coarse::of_a_part(&log.time) {
-        Some((clock, _)) => (1.0 / clock.rate_hz, 1.0 / clock.rate_hz + 1.01 * clock.tick),
+        Some((clock, _)) => (1.0 / clock.rate_hz, clock.longest_step()),
         None => (step, MIN_GAP_STEPS * step),
     };
     for (index, w) in log.time.windows(2).enumerate() {
@@ -89,10 +89,9 @@ pub(super) fn jitter(log: &mut Log) {
     let step = 1.0 / log.rate_hz;
     let (mut squares, mut steps) = (0.0, 0_usize);
     let (mut worst, mut at) = (0.0, 0);
-    let clock = Coarse::of(&log.time);
-    let part = Coarse::of_a_part(&log.time).map(|(clock, _)| clock);
-    let longest = match part {
-        Some(clock) => step + 1.01 * clock.tick,
+    let clock = Coarse::of_a_part(&log.time);
+    let longest = match &clock {
+        Some((clock, _)) => clock.longest_step(),
         None => MIN_GAP_STEPS * step,
     };
     for (index, w) in log.time.windows(2).enumerate() {
@@ -118,23 +117,19 @@ pub(super) fn jitter(log: &mut Log) {
     } else {
         Severity::Note
     };
-    if let Some(clock) = clock {
-        let message = format!(
-            "the time stamps are rounded to {} s, and the rows are at one rate: above [columns] of axis.toml write {}, and delete time \
-             under it",
-            short(clock.tick),
-            clock.line()
-        );
-        log.findings
-            .push(Finding::new(Code::Jitter, severity, message));
-        return;
-    }
-    if let Some(clock) = part {
-        let message = format!(
-            "the time stamps are rounded to {} s; the rows are at {} Hz, and some are missing",
-            short(clock.tick),
-            clock.rate_hz
-        );
+    if let Some((clock, rows)) = clock {
+        let tick = short(clock.tick);
+        let message = match rows.len() == log.time.len() {
+            true => format!(
+                "the time stamps are rounded to {tick} s, and the rows are at one rate: above [columns] of axis.toml write {}, and \
+                 delete time under it",
+                clock.line()
+            ),
+            false => format!(
+                "the time stamps are rounded to {tick} s; the rows are at {} Hz, and some are missing",
+                clock.rate_hz
+            ),
+        };
         log.findings
             .push(Finding::new(Code::Jitter, severity, message));
         return;

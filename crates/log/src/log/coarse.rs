@@ -4,11 +4,13 @@ use std::ops::Range;
 
 /// What is left of a step by the arithmetic of decimal numbers, of a tick.
 const SAME: f64 = 1e-3;
+/// What the digits that a rate is rounded to leave of a step, of a tick.
+const ROUNDED_RATE: f64 = 0.01;
 /// Fewest steps that show a pattern.
 const FEWEST: usize = 20;
 /// Fewest steps of either length: a few long ones are rows that are missing.
 const FEWEST_EACH: usize = 10;
-/// Most halvings of a record, and fewest rows, in which a stretch without missing rows is looked for.
+/// Most halvings of a record, and fewest rows of a part, in which a stretch without missing rows is looked for.
 const HALVINGS: u32 = 6;
 const FEWEST_ROWS: usize = 200;
 /// Least tick, of the step, that is worth a word.
@@ -52,10 +54,15 @@ impl Coarse {
             let ends = |part: usize| part * time.len() / parts..(part + 1) * time.len() / parts;
             let long = (0..parts)
                 .map(ends)
-                .filter(|rows| rows.len() >= FEWEST_ROWS);
+                .filter(|rows| halved == 0 || rows.len() >= FEWEST_ROWS);
             let mut found = long.filter_map(|rows| Some((Self::of(&time[rows.clone()])?, rows)));
             found.next()
         })
+    }
+
+    /// The longest step of stamps between which no row is missing, s.
+    pub fn longest_step(&self) -> f64 {
+        1.0 / self.rate_hz + self.tick * (1.0 + ROUNDED_RATE)
     }
 
     /// What is to be written instead of the time.
