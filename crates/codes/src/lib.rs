@@ -81,6 +81,7 @@ codes! {
     ConstantVelocity = "constant-velocity": "the axis moves at one speed only",
     Joined = "joined": "a column comes from another file, joined by its time stamps",
     OffsetEstimated = "offset-estimated": "the offset between the clocks of two files was estimated from what they share",
+    EnableIgnored = "enable-ignored": "a column says where the axis is enabled, and is not used",
     NotEnabled = "not-enabled": "rows in which the axis was not enabled, or in another mode, are left out",
     RestAtEnd = "rest-at-end": "the axis stands still at the start or the end of the record",
     RestBetween = "rest-between": "the axis stands still between two motions",

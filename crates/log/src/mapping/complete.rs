@@ -4,7 +4,7 @@ use super::channel::{Channel, Motion, Role};
 use super::convert::{Source, is_force};
 use super::select::select;
 use super::{
-    Detected, Mapping, choose, counted, describe, endings, motion, names, rate, understood,
+    Detected, Mapping, choose, counted, describe, enable, endings, motion, names, rate, understood,
 };
 use crate::findings::{Finding, Severity};
 use crate::{Column, Dimension, Error, Kind, Table, Unit};
@@ -80,6 +80,7 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
     if let Some(e) = Error::of_all(misfits) {
         return Err(e);
     }
+    out.findings.extend(enable::ignored(given, table));
     out.columns = understood::all(table, given, &parts);
     Ok(out)
 }

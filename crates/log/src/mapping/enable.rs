@@ -1,9 +1,12 @@
 //! The column that says in which rows the axis is enabled, or in which mode it is.
 
 use super::channel::Selector;
+use super::flags::{has_zeros, is_flag};
 use super::select::select;
-use super::{Mapping, describe};
+use super::{Mapping, describe, names};
+use crate::findings::{Finding, Severity};
 use crate::{Error, Table};
+use stiction_codes::Code;
 
 /// The key of the axis file.
 pub(crate) const KEY: &str = "columns.enable";
@@ -43,6 +46,30 @@ impl Enable {
     pub(crate) fn line(table: &Table, column: usize, equals: &str) -> String {
         describe::line_with(table, column, NAME, &format!("equals = {equals}"))
     }
+}
+
+/// Warns of a column that says by its name and its zeros that the axis was not enabled in some rows, where a mapping keeps them all.
+pub(super) fn ignored(given: &Mapping, table: &Table) -> Option<Finding> {
+    if given.enable.is_some() {
+        return None;
+    }
+    let says = |column: &usize| {
+        names::says_enabled(&table.columns[*column].name)
+            && is_flag(table, *column)
+            && has_zeros(table, *column)
+    };
+    let column = (0..table.columns.len()).find(says)?;
+    let message = format!(
+        "column {} is 0 in some rows, and all rows are used: where the axis is not enabled, the force is not what moves it; if it \
+         is enabled where the column is 1, leave out the others: {} under [columns] of the axis file",
+        place(table, column),
+        Enable::whole_line(table, column)
+    );
+    Some(Finding::new(
+        Code::EnableIgnored,
+        Severity::Warning,
+        message,
+    ))
 }
 
 /// The column in words: `7 "Enabled"`.

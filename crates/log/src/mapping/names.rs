@@ -343,6 +343,15 @@ pub(super) fn says_mode(name: &str) -> bool {
     words(own).iter().any(says)
 }
 
+/// Whether a name speaks of an axis that is enabled, or a drive that is switched on.
+pub(super) fn says_enabled(name: &str) -> bool {
+    let own = name.rsplit_once('.').map_or(name, |(_, own)| own);
+    let words = words(own);
+    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
+    has(&["enable", "enabled", "powered", "freigabe"])
+        || has(&["on"]) && has(&["servo", "drive", "motor", "axis", "power"])
+}
+
 /// Whether a name speaks of current.
 pub(super) fn says_current(name: &str) -> bool {
     words(name)

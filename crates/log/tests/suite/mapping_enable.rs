@@ -48,6 +48,24 @@ fn rows_that_are_not_enabled_leave_a_gap() {
 }
 
 #[test]
+fn a_column_that_says_enabled_and_is_not_used_is_a_warning() {
+    let some_off = |i: usize| flag(!(500..900).contains(&i));
+    for name in ["Drive enabled", "bEnable", "axis1.ServoOn", "Freigabe"] {
+        let log = Log::from_table(&with(name, some_off), &Mapping::default()).unwrap();
+        assert_eq!(warnings(&log), ["enable-ignored"], "{name}");
+        assert_eq!(log.time.len(), 4000);
+    }
+    let log = Log::from_table(&with("Drive enabled", some_off), &Mapping::default()).unwrap();
+    insta::assert_snapshot!(message(&log, "enable-ignored"));
+    // Always enabled, no flag, or a flag of something else.
+    for (name, value) in [("Drive enabled", 1.0), ("Enabled", 3.0), ("Brake on", 0.0)] {
+        let late = |i: usize| if i < 2000 { value } else { 1.0 };
+        let log = Log::from_table(&with(name, late), &Mapping::default()).unwrap();
+        assert_eq!(warnings(&log), [""; 0], "{name}");
+    }
+}
+
+#[test]
 fn a_mode_keeps_its_rows() {
     let mode = |i: usize| match i {
         0..1000 => 6.0,
