@@ -116,6 +116,7 @@ codes! {
     LawShape = "law-shape": "friction or inertia has another shape than the law",
     CorrelatedResidual = "correlated-residual": "the residual is not noise: a systematic effect is left",
     ForceLate = "force-late": "the force was logged much later than the motion it belongs to",
+    MotionLate = "motion-late": "the motion was logged much later than the force it belongs to",
     LogsDisagree = "logs-disagree": "logs that are fitted together have a parameter differently",
     DelayOutOfRange = "delay-out-of-range": "the fitted delay between force and motion is implausibly long",
     StaticLawAtRest = "static-law-at-rest": "a static law is fitted to an axis at rest or in presliding",

@@ -7,8 +7,8 @@
 //! force is least where both belong together.
 //!
 //! The Stribeck peak that follows each reversal is in none of these columns, and a force some rows early has one: on sines the
-//! least is up to 16 rows early where the force is in time. So only a late force is looked for; where it is late on a sine the
-//! fit that follows finds its delay at the end of its range, as before.
+//! least is up to 16 rows early where the force is in time. So only a late force is looked for; one that is early, or late on a
+//! sine, the fit that follows finds at the end of its range, and goes on from there (see `alignment`).
 
 use crate::conditioning::record::Samples;
 use crate::conditioning::{median_step, stretches};
@@ -17,7 +17,7 @@ use std::ops::Range;
 use stiction_signal::{Sos, gradient, second_derivative};
 
 /// Rows either way that are tried.
-const MOST: usize = 64;
+pub(crate) const MOST: usize = 64;
 /// Rows that a fit finds by itself.
 const FOUND_BY_A_FIT: usize = 3;
 /// What is left of the square of the force at the best lag, in parts of what is left where a fit would find it, at most.
@@ -39,14 +39,28 @@ const FEWEST: usize = 20 * COLUMNS;
 ///
 /// Costs two filters of the log and, for one sample in ten, as many products as there are columns and lags.
 pub fn lateness(logs: &[Samples]) -> Option<usize> {
-    let mut sums = Sums::new();
-    for log in logs {
-        let step = median_step(&log.time);
-        for stretch in stretches(log, step) {
-            sums.add(log, stretch, step);
-        }
-    }
-    sums.best()
+    let left = Sums::of(logs).left()?;
+    let best = (0..left.len()).min_by(|&a, &b| left[a].total_cmp(&left[b]))?;
+    let near = (MOST - FOUND_BY_A_FIT)..=(MOST + FOUND_BY_A_FIT);
+    let own = near.map(|i| left[i]).fold(f64::INFINITY, f64::min);
+    let rows = best.checked_sub(MOST)?;
+    (rows > FOUND_BY_A_FIT && rows < MOST && left[best] < LEFT * own).then_some(rows)
+}
+
+/// Where the force goes best with its motion among the rows that are later (`way` 1) or earlier (-1) than a fit finds by itself,
+/// however well that is; `None` where it is no better there than further on.
+pub(crate) fn likely(logs: &[Samples], way: isize) -> Option<isize> {
+    let left = Sums::of(logs).left()?;
+    let at = |rows: usize| MOST.checked_add_signed(way * rows as isize);
+    let rows = (FOUND_BY_A_FIT + 1)..MOST;
+    let least = rows.min_by(|&a, &b| {
+        let of = |rows| at(rows).and_then(|i| left.get(i)).copied();
+        let [a, b] = [a, b].map(|rows| of(rows).unwrap_or(f64::INFINITY));
+        a.total_cmp(&b)
+    });
+    least
+        .filter(|rows| *rows < MOST - 1)
+        .map(|rows| way * rows as isize)
 }
 
 /// Normal equations of the force at every lag.
@@ -65,6 +79,17 @@ impl Sums {
             force: vec![0.0; 2 * MOST + 1],
             count: 0,
         }
+    }
+
+    fn of(logs: &[Samples]) -> Self {
+        let mut sums = Self::new();
+        for log in logs {
+            let step = median_step(&log.time);
+            for stretch in stretches(log, step) {
+                sums.add(log, stretch, step);
+            }
+        }
+        sums
     }
 
     fn add(&mut self, log: &Samples, range: Range<usize>, step: f64) {
@@ -91,7 +116,8 @@ impl Sums {
         }
     }
 
-    fn best(&self) -> Option<usize> {
+    /// What is left of the square of the force at every lag.
+    fn left(&self) -> Option<Vec<f64>> {
         if self.count < FEWEST {
             return None;
         }
@@ -105,20 +131,12 @@ impl Sums {
             self.square[(i, j)] * scale[i] * scale[j] + ridge
         });
         let factor = scaled.cholesky()?;
-        let left: Vec<f64> = self
-            .products
-            .iter()
-            .zip(&self.force)
-            .map(|(products, force)| {
-                let b = products.component_mul(&scale);
-                force - b.dot(&factor.solve(&b))
-            })
-            .collect();
-        let best = (0..left.len()).min_by(|&a, &b| left[a].total_cmp(&left[b]))?;
-        let near = (MOST - FOUND_BY_A_FIT)..=(MOST + FOUND_BY_A_FIT);
-        let own = near.map(|i| left[i]).fold(f64::INFINITY, f64::min);
-        let rows = best.checked_sub(MOST)?;
-        (rows > FOUND_BY_A_FIT && rows < MOST && left[best] < LEFT * own).then_some(rows)
+        let each = self.products.iter().zip(&self.force);
+        let left = each.map(|(products, force)| {
+            let b = products.component_mul(&scale);
+            force - b.dot(&factor.solve(&b))
+        });
+        Some(left.collect())
     }
 }
 

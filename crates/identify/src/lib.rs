@@ -53,6 +53,7 @@
 //! Nothing here prints, sleeps or reads a clock; an [`Observer`] sees progress and may stop a run.
 
 mod agreement;
+mod alignment;
 mod along;
 #[cfg(test)]
 mod answered;
@@ -88,6 +89,7 @@ mod tune;
 mod watch;
 
 pub use agreement::{Disagreement, NOT_CONSTANT};
+pub use alignment::alignment;
 pub use along::{Along, lugre_along};
 pub use choice::{NEVER_EQUAL_RATIO, Standing, choose};
 pub use conditioning::accelerometer::Accelerometer;

@@ -49,7 +49,7 @@ use crate::mapping::Mapping;
 pub(crate) use encoder::quantum;
 pub use finding::{Finding, Severity};
 pub(crate) use finding::{MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, extremes, median};
-pub(crate) use force::levels;
+pub(crate) use force::{levels, sign_of_another_clock};
 pub(crate) use stiction_number::{counted as count, full, short};
 
 /// Inspects a log whose columns are complete, adds what it finds, and excludes what it must.

@@ -81,6 +81,8 @@ pub struct Joined {
     /// Rows that not all files have.
     pub(crate) outside: Vec<bool>,
     pub(crate) findings: Vec<Finding>,
+    /// Whether the force is of another file, by time stamps as they are.
+    pub(crate) force_as_stamped: bool,
 }
 
 /// Samples of the other column by the clock of the recording.
@@ -99,6 +101,7 @@ impl Joined {
             own: table.columns.len(),
             table,
             findings: Vec::new(),
+            force_as_stamped: false,
         }
     }
 
@@ -157,6 +160,7 @@ impl Joined {
         for (outside, value) in self.outside.iter_mut().zip(&values) {
             *outside |= value.is_nan();
         }
+        self.force_as_stamped |= role == Role::Force && from.offset == Offset::Given(0.0);
         let index = select(other, &channel.column, role).map_err(in_other)?;
         self.table.columns.push(Column {
             name: other.columns[index].name.clone(),

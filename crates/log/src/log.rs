@@ -170,6 +170,9 @@ impl Log {
             &joined.mapping,
             (&joined.outside, joined.own),
         )?;
+        if joined.force_as_stamped {
+            findings::sign_of_another_clock(&mut log.findings);
+        }
         log.findings.splice(0..0, joined.findings.iter().cloned());
         Ok(log)
     }
@@ -439,35 +442,50 @@ impl Log {
             .collect();
     }
 
-    /// Takes the force of every row so many rows later, within each segment, since it was logged late; rows at the end of one
-    /// whose force is not in it are excluded.
-    pub fn take_force_later(&mut self, rows: usize) {
-        let message = format!(
-            "the force was logged {rows} rows ({} ms) later than the motion that it belongs to; that of every row is taken that \
-             much later",
-            stiction_number::short(1e3 * rows as f64 / self.rate_hz)
+    /// Takes the force of every row so many rows later (earlier where negative), within each segment, since it was logged beside
+    /// other motion than its own; rows at the end of a segment whose force is not in it are excluded.
+    pub fn take_force_from(&mut self, rows: isize) {
+        let code = match rows > 0 {
+            true => Code::ForceLate,
+            false => Code::MotionLate,
+        };
+        let by = format!(
+            "{} rows ({} ms) later than",
+            rows.unsigned_abs(),
+            stiction_number::short(1e3 * rows.unsigned_abs() as f64 / self.rate_hz)
         );
-        let finding = Finding::new(Code::ForceLate, Severity::Warning, message);
-        self.findings.push(finding);
+        let message = match code {
+            Code::ForceLate => format!(
+                "the force was logged {by} the motion that it belongs to; that of every row is taken that much later"
+            ),
+            _ => format!(
+                "the motion was logged {by} the force that it belongs to; the force of every row is taken that much earlier"
+            ),
+        };
+        self.findings
+            .push(Finding::new(code, Severity::Warning, message));
         let segments = self.segments.clone();
-        if let Some(force) = &mut self.force {
-            for segment in &segments {
+        for segment in &segments {
+            let lost = rows.unsigned_abs().min(segment.len());
+            if let Some(force) = &mut self.force {
                 let own = &mut force[segment.clone()];
-                let rows = rows.min(own.len());
-                own.copy_within(rows.., 0);
+                match rows > 0 {
+                    true => own.copy_within(lost.., 0),
+                    false => own.copy_within(..own.len() - lost, lost),
+                }
             }
+            let without = match rows > 0 {
+                true => segment.end - lost..segment.end,
+                false => segment.start..segment.start + lost,
+            };
+            self.exclude(without, code);
         }
+        let end = self.time.len();
+        let own = |row: usize| row.saturating_add_signed(-rows).min(end);
         for excluded in &mut self.excluded {
             if excluded.code == Code::Saturation {
-                let earlier = |row: usize| row.saturating_sub(rows);
-                excluded.samples = earlier(excluded.samples.start)..earlier(excluded.samples.end);
+                excluded.samples = own(excluded.samples.start)..own(excluded.samples.end);
             }
-        }
-        for segment in segments {
-            self.exclude(
-                segment.end.saturating_sub(rows).max(segment.start)..segment.end,
-                Code::ForceLate,
-            );
         }
         self.excluded
             .sort_by_key(|e| (e.samples.start, e.samples.end));

@@ -278,7 +278,8 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
             out.conditioning = outcome.result.axis.conditioning;
             // What only the fit shows of the log itself.
             let shown = outcome.result.warnings.into_iter();
-            let of_the_log = shown.filter(|w| [Code::Jitter, Code::ForceLate].contains(&w.code));
+            let of_the_log = shown
+                .filter(|w| [Code::Jitter, Code::ForceLate, Code::MotionLate].contains(&w.code));
             for warning in of_the_log {
                 let known = |f: &Finding| warning.message.ends_with(&f.message);
                 if !out.findings.iter().any(known) {

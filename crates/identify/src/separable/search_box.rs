@@ -6,7 +6,7 @@ use crate::law::{Law, Layout};
 use stiction_search::descent::Region;
 
 /// Longest delay between force and motion that is looked for, either way, in samples.
-const MOST_DELAY: f64 = 4.0;
+pub(crate) const MOST_DELAY: f64 = 4.0;
 
 /// Bounds of the nonlinear unknowns, in logarithms and in the order of the law.
 #[derive(Clone, Debug, PartialEq)]

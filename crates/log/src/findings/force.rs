@@ -189,6 +189,23 @@ pub(super) fn steps(log: &mut Log) {
         .push(Finding::new(Code::CoarseForce, Severity::Warning, message));
 }
 
+/// What turns the sign of a force.
+const TURN_ROUND: &str =
+    "if the column is the friction force rather than the driving force, set invert = true";
+
+/// Says of a force that brakes, and comes from another file by time stamps whose offset nothing tells, that its clock may be the
+/// cause.
+pub(crate) fn sign_of_another_clock(findings: &mut [Finding]) {
+    let sign = findings.iter_mut().filter(|f| f.code == Code::ForceSign);
+    for finding in sign {
+        let found = finding.message.split("; ").next().unwrap_or_default();
+        finding.message = format!(
+            "{found}; it comes from another file, whose clock may be another: set offset = \"estimate\" beside its file first; where it \
+             brakes then too, {TURN_ROUND}"
+        );
+    }
+}
+
 /// Compares work done along and against the motion: a force that drives an axis with friction
 /// puts energy in. Only for motion to and fro, since a weight may well brake one way; a jump of the position is no motion.
 pub(super) fn sign(log: &mut Log) {
@@ -217,7 +234,7 @@ pub(super) fn sign(log: &mut Log) {
         let cure = if inverted {
             "the axis file inverts its sign already (invert or a negative scale): undo that"
         } else {
-            "if the column is the friction force rather than the driving force, set invert = true"
+            TURN_ROUND
         };
         let message = format!(
             "the force brakes: its net work is -{} of all the work it does, as if it opposed the motion; {cure}",

@@ -69,6 +69,28 @@ fn what_lies_outside_one_of_the_files_is_cut() {
     insta::assert_snapshot!(message(&log, "joined"));
 }
 
+/// Of a force from another file, by stamps as they are, that brakes, the clock is doubted before the sign.
+#[test]
+fn a_force_of_another_clock_that_brakes_is_told_its_offset() {
+    let whole = axis(4000).table();
+    let at = |name: &str| {
+        let mut columns = whole.columns.iter();
+        columns.find(|c| c.name == name).unwrap().values.clone()
+    };
+    let stamps: Vec<f64> = at("time").iter().map(|t| t + 100.0).collect();
+    let against = at("force").iter().map(|f| -f).collect();
+    let other = table(vec![column("stamp [s]", stamps), column("x [N]", against)]);
+    let sign = |offset: f64| {
+        let from = Elsewhere {
+            offset: Offset::Given(offset),
+            ..from(Role::Force)
+        };
+        message(&joined(log(), &other, &from).unwrap(), "force-sign").to_owned()
+    };
+    insta::assert_snapshot!(sign(0.0));
+    assert!(!sign(1e-4).contains("estimate"));
+}
+
 #[test]
 fn a_slower_force_keeps_the_rows_beside_its_samples() {
     let times = (0..400).map(|i| 100.0042 + 0.01 * f64::from(i));

@@ -430,6 +430,54 @@ fn what_a_recorder_did_is_named() {
     assert!(late.claims.len() >= 5, "{late}");
 }
 
+/// A force that stands before its motion, as where the position comes by a slower bus, is taken as it belongs, and so is a late one
+/// that no likeness without a law tells.
+#[test]
+fn a_force_beside_other_motion_is_taken_as_it_belongs() {
+    const ROWS: usize = 12;
+    let cases = [
+        (
+            "stage",
+            Motion::Commissioning,
+            World::Faithful,
+            "motion-late",
+        ),
+        ("joint", Motion::Trapezoid, World::Faithful, "motion-late"),
+        (
+            "screw",
+            Motion::Commissioning,
+            World::Late(ROWS),
+            "force-late",
+        ),
+    ];
+    for (axis, motion, world, code) in cases {
+        let mut machines = Machine::all(SEED).into_iter();
+        let machine = machines.find(|(name, _)| *name == axis).unwrap().1;
+        let mut log = record(&machine, motion, world, SEED);
+        if world == World::Faithful {
+            log.force.drain(..ROWS);
+            log.time.truncate(log.force.len());
+            log.position.as_mut().unwrap().truncate(log.force.len());
+        }
+        let fit = identified(&machine, &[log], &Axis::default(), &Options::default());
+        let rate = fit.as_ref().unwrap().result().inputs[0].rate_hz;
+        let delay = fit.as_ref().unwrap().parameter("delay").unwrap().value();
+        let way = if code == "force-late" { 1.0 } else { -1.0 };
+        let rows = way * delay * rate;
+        assert!((rows - ROWS as f64).abs() < 1.5, "{axis}: {rows} rows");
+        let found = judged(&[machine], fit);
+        assert!(found.codes.contains(&code), "{axis}: {found}");
+        assert!(
+            !found.codes.contains(&"delay-out-of-range"),
+            "{axis}: {found}"
+        );
+        assert!(
+            found.claims.len() >= 6 && !found.is_silent(),
+            "{axis}: {found}"
+        );
+    }
+}
+
 /// The delay that is stated is that against the rows, and the warning has the line to write and the command that takes it.
 #[test]
 fn the_whole_delay_of_a_late_force_is_stated() {

@@ -1,5 +1,6 @@
-//! A force that was logged much later than its motion is taken as it belongs.
+//! A force that was logged much later or earlier than its motion is taken as it belongs.
 
+use super::condition::{Conditioned, condition};
 use super::disagree;
 use super::load::{Asked, Loaded};
 use super::logs::paths;
@@ -7,42 +8,78 @@ use crate::error::Error;
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::{Axis, Warning, shell};
-use stiction_identify::{Delay, FittedLaw, lateness};
+use stiction_identify::{Delay, FittedLaw, Observer, alignment, lateness};
 use stiction_log::{Offset, Role};
 use stiction_number::{four_digits, full};
 use stiction_parameters::Quantity;
 
 /// Lays force and motion beside each other, where no delay is given and whole records are fitted.
 pub(super) fn aligned(asked: Asked, mut loaded: Loaded) -> Result<Loaded, Error> {
-    let is_sought = asked.axis.terms.delay == Delay::Fitted;
+    if !is_sought(asked, &loaded) {
+        return Ok(loaded);
+    }
+    let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
+    if let Some(rows) = lateness(&samples?) {
+        loaded.take_force_from(rows as isize);
+    }
+    Ok(loaded)
+}
+
+/// The same where the fits that choose the cut-offs found the delay at the end of its range: by fits further on.
+pub(super) fn realigned(
+    asked: Asked,
+    mut loaded: Loaded,
+    conditioned: Conditioned,
+    observer: &mut dyn Observer,
+) -> Result<(Loaded, Conditioned), Error> {
+    let near = conditioned.settings.near.as_ref();
+    let Some(near) = near.filter(|_| is_sought(asked, &loaded) && loaded.late == 0.0) else {
+        return Ok((loaded, conditioned));
+    };
+    let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
+    let rows = alignment(
+        &samples?,
+        &conditioned.conditioning,
+        near,
+        conditioned.terms(false),
+        &conditioned.settings,
+        observer,
+    );
+    let Some(rows) = rows else {
+        return Ok((loaded, conditioned));
+    };
+    loaded.take_force_from(rows);
+    let conditioned = condition(asked, &loaded, observer)?;
+    Ok((loaded, conditioned))
+}
+
+/// Whether a delay is looked for.
+fn is_sought(asked: Asked, loaded: &Loaded) -> bool {
     // A force of the wrong sign looks late, by half of a period.
     let is_inverted = |source: &Source| {
         let mut findings = source.log.findings.iter();
         findings.any(|finding| finding.code == Code::ForceSign)
     };
-    if !is_sought
-        || !asked.options.procedures.method.fits_force()
-        || loaded.sources.iter().any(is_inverted)
-    {
-        return Ok(loaded);
-    }
-    let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
-    let Some(rows) = lateness(&samples?) else {
-        return Ok(loaded);
-    };
-    loaded.late = rows as f64 / loaded.sources[0].log.rate_hz;
-    for source in loaded.sources.iter_mut().chain(&mut loaded.held_out) {
-        source.log.take_force_later(rows);
-    }
-    Ok(loaded)
+    asked.axis.terms.delay == Delay::Fitted
+        && asked.options.procedures.method.fits_force()
+        && !loaded.sources.iter().any(is_inverted)
 }
 
-/// Adds to the warning of a late force the line that states the whole delay, and the command that then takes it.
+impl Loaded {
+    fn take_force_from(&mut self, rows: isize) {
+        self.late = rows as f64 / self.sources[0].log.rate_hz;
+        for source in self.sources.iter_mut().chain(&mut self.held_out) {
+            source.log.take_force_from(rows);
+        }
+    }
+}
+
+/// Adds to the warning of a force that is late or early the line that states the whole delay, and the command that then takes it.
 pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &mut [Warning]) {
     let late = warnings
         .iter_mut()
         .rev()
-        .find(|w| w.code == Code::ForceLate);
+        .find(|w| [Code::ForceLate, Code::MotionLate].contains(&w.code));
     let Some(warning) = late else { return };
     let (further, row) = match (law.value(Quantity::Delay), law.terms.delay) {
         (Some(delay), _) => (delay, "The delay in the table is the whole one. "),
@@ -63,7 +100,7 @@ pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &
     };
     if let Some(added) = of_another_clock(asked.axis) {
         warning.message.push_str(&format!(
-            ". {row}The force comes from another file, whose clock may be late: to say so, write offset = \"{} s\" beside its file \
+            ". {row}The force comes from another file, whose clock may be another: to say so, write offset = \"{} s\" beside its file \
              under [columns] {place}{}, then: stiction identify {}{options} --out RESULT",
             full((1e6 * (added - late)).round() / 1e6),
             match added == 0.0 {
