@@ -79,7 +79,7 @@ const AS_LIKELY: f64 = 3.0;
 const NOTHING: f64 = -30.0;
 
 /// Why a top is not believed where more of the force is left than noise.
-const MORE_ACTS: &str = "something acts on the axis that is not in the law";
+const MORE_ACTS: &str = "they leave more of the force than its noise, as where something acts on the axis that the law does not describe";
 
 /// The top of the likelihood.
 pub(super) struct Likely {

@@ -143,28 +143,32 @@ fn search(motion: (&Course, Is), target: (&Course, Is), allowed: f64) -> Result<
     let same = (motion.1 == Is::Force) == (target.1 == Is::Force);
     let beyond = if same { RIVAL_SAME } else { RIVAL_FORCE };
     let rivals = rivals(&left, best, (RIVAL * left[best]).max(left[best] + beyond));
+    let fine = Pair::new(motion, target, 1).ok_or(Unclear::Little)?;
+    let half = 0.5 * motion.0.step.max(target.0.step);
+    let half = if same { half } else { half.max(FRICTION) };
+    let around = |n: usize| {
+        let lag = fine.around(
+            seconds(n) - (ends.0 - ends.1),
+            2.0 * coarse.step + 1.5 * allowed,
+        )?;
+        Some(Lag {
+            seconds: lag.seconds + ends.0 - ends.1,
+            half_width: lag.half_width.max(half),
+            ..lag
+        })
+    };
     if !rivals.is_empty() {
-        let lag = |n: &usize| Lag {
-            seconds: seconds(*n),
-            half_width: coarse.step,
-            explained: 1.0 - left[*n],
+        let lag = |n: &usize| {
+            around(*n).unwrap_or(Lag {
+                seconds: seconds(*n),
+                half_width: coarse.step.max(half),
+                explained: 1.0 - left[*n],
+            })
         };
         let all = std::iter::once(&best).chain(&rivals);
         return Err(Unclear::Several(all.take(NAMED).map(lag).collect()));
     }
-    let fine = Pair::new(motion, target, 1).ok_or(Unclear::Little)?;
-    let lag = fine.around(
-        seconds(best) - (ends.0 - ends.1),
-        2.0 * coarse.step + 1.5 * allowed,
-    );
-    let lag = lag.ok_or(Unclear::Little)?;
-    let half = 0.5 * motion.0.step.max(target.0.step);
-    let half = if same { half } else { half.max(FRICTION) };
-    let lag = Lag {
-        seconds: lag.seconds + ends.0 - ends.1,
-        half_width: lag.half_width.max(half),
-        ..lag
-    };
+    let lag = around(best).ok_or(Unclear::Little)?;
     if lag.half_width > allowed {
         return Err(Unclear::Blunt(lag));
     }

@@ -246,11 +246,14 @@ fn refusal(unclear: &Unclear, by: &str, between: f64, allowed: f64) -> Error {
                 .into(),
         ),
         Unclear::Several(lags) => {
-            let each = lags.iter().map(|lag| format!("{} s ({})", micro(between + lag.seconds), Percent::error(100.0 * lag.explained).decimals(1)));
+            let each = lags.iter().map(|lag| {
+                let part = Percent::error(100.0 * lag.explained).decimals(1);
+                format!("{} s, to {} s ({part})", micro(between + lag.seconds), short(lag.half_width))
+            });
             let each: Vec<String> = each.collect();
             let lines: Vec<String> = lags.iter().map(line).collect();
             (
-                format!("{cannot}: several explain about as much, {}", each.join(", ")),
+                format!("{cannot}: several explain about as much, {}", each.join("; ")),
                 format!(
                     "the one that is right: {}; or a record of a motion that does not repeat itself",
                     lines.join(" or ")
