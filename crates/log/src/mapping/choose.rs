@@ -127,7 +127,7 @@ pub(super) fn columns(
     if let Some(hertz) = given.rate_hz {
         let stamps = scan.pick(Role::Time).ok().flatten();
         let stamps = stamps.map(|column| (column, scan.units[column].as_ref()));
-        match rate::compare(table, stamps, hertz) {
+        match rate::compare(table, stamps, (hertz, given.crop)) {
             Ok(finding) => out.findings.extend(finding),
             Err(e) => refused.push(e),
         }

@@ -4,7 +4,9 @@ use super::channel::Role;
 use super::complete::PLAUSIBLE_SPACING;
 use super::describe;
 use crate::findings::{Finding, Severity, median, short};
+use crate::log::coarse::Coarse;
 use crate::{Error, Kind, Table, Unit};
+use std::ops::Range;
 use stiction_codes::Code;
 
 /// How much a given rate and that of the time stamps may differ, as a fraction.
@@ -14,7 +16,7 @@ const MANY_REPEATED: f64 = 0.05;
 /// Units that time stamps without one may be in, the likeliest first.
 const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
 
-/// What there is to say of a given rate (Hz), where the time stamps of `column`, in a unit if one is written, or the sample time
+/// What there is to say of a given rate (Hz) and the seconds that it crops, where the time stamps of `column`, in a unit if one is written, or the sample time
 /// of the file contradict it.
 ///
 /// # Errors
@@ -22,14 +24,19 @@ const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
 pub(super) fn compare(
     table: &Table,
     column: Option<(usize, Option<&Unit>)>,
-    rate: f64,
+    (rate, crop): (f64, Option<(f64, f64)>),
 ) -> Result<Option<Finding>, Error> {
     match column {
-        Some((column, Some(unit))) => match Steps::of(table, column) {
-            Some(steps) if !steps.agree(rate, unit) => {
-                Err(other(table, column, rate, &steps, unit))
-            }
-            _ => Ok(None),
+        Some((column, Some(unit))) => match Rounded::of(table, column, unit, (rate, crop)) {
+            Some(rounded) if rounded.agrees(rate) => Ok(rounded.missing(table, column, rate)),
+            Some(rounded) => Err(other(table, column, rate, rounded.clock.rate_hz)),
+            None => match Steps::of(table, column) {
+                Some(steps) if !steps.agree(rate, unit) => {
+                    let stamped = 1.0 / (unit.factor() * steps.usual);
+                    Err(other(table, column, rate, stamped))
+                }
+                _ => Ok(None),
+            },
         },
         Some((column, None)) => Ok(without_unit(table, column, rate)),
         None => Ok(stated(table, rate)),
@@ -95,11 +102,62 @@ impl Steps {
     }
 }
 
-fn other(table: &Table, column: usize, rate: f64, steps: &Steps, unit: &Unit) -> Error {
+/// Stamps that a coarse clock has rounded.
+struct Rounded {
+    clock: Coarse,
+    /// The first of the rows that are kept.
+    first: usize,
+    /// Where rows are missing among them, the longest stretch without, counted from the first.
+    stretch: Option<Range<usize>>,
+}
+
+impl Rounded {
+    fn of(
+        table: &Table,
+        column: usize,
+        unit: &Unit,
+        (rate, crop): (f64, Option<(f64, f64)>),
+    ) -> Option<Self> {
+        let stamps = &table.columns[column].values;
+        let row = |seconds: f64| ((seconds * rate) as usize).min(stamps.len());
+        let kept = crop.map_or(0..stamps.len(), |(from, to)| row(from)..row(to));
+        let first = kept.start;
+        let time: Vec<f64> = stamps[kept].iter().map(|t| unit.factor() * t).collect();
+        let whole = Coarse::of(&time).map(|clock| (clock, None));
+        let part = || Coarse::of_a_part(&time).map(|(clock, rows)| (clock, Some(rows)));
+        let (clock, stretch) = whole.or_else(part)?;
+        Some(Self {
+            clock,
+            first,
+            stretch,
+        })
+    }
+
+    fn agrees(&self, rate: f64) -> bool {
+        (rate / self.clock.rate_hz - 1.0).abs() <= MAX_DEVIATION
+    }
+
+    /// What there is to say of rows that are missing, which a rate does not count.
+    fn missing(&self, table: &Table, column: usize, rate: f64) -> Option<Finding> {
+        let rows = self.stretch.as_ref()?;
+        let at = |row: usize| short((self.first + row) as f64 / rate);
+        let message = format!(
+            "the rows are counted at rate = \"{} Hz\" of axis.toml, which is that of the longest stretches of {}; rows are missing \
+             between them, which it does not count; take rate out, or keep rows without a gap, under [log]: crop = [\"{} s\", \"{} s\"]",
+            short(rate),
+            describe::column(table, column),
+            at(rows.start),
+            at(rows.end - 1)
+        );
+        Some(Finding::new(Code::RateOverride, Severity::Warning, message))
+    }
+}
+
+fn other(table: &Table, column: usize, rate: f64, stamped: f64) -> Error {
     let found = format!(
         "rate is {} Hz, but the time stamps run at {} Hz",
         short(rate),
-        short(1.0 / (unit.factor() * steps.usual))
+        short(stamped)
     );
     let allowed = "rate is for logs without time; take it out of axis.toml, or correct it";
     let place = describe::place(table, column);

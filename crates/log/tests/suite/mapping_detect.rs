@@ -711,6 +711,34 @@ fn a_rate_that_contradicts_the_time_stamps_is_refused() {
     insta::assert_snapshot!(error.to_string());
 }
 
+/// Of stamps that a coarse clock has rounded, between which rows are missing, a rate counts a stretch without gaps, and elsewhere it
+/// is said that it does not count the gap.
+#[test]
+fn a_rate_beside_rounded_stamps_with_a_gap_counts_a_stretch() {
+    let mut table = axis(8000).table();
+    table.columns[0] = column(
+        "time [ms]",
+        (0..8000).map(|i| (i as f64 / 0.7).floor()).collect(),
+    );
+    for column in &mut table.columns {
+        column.values.drain(2000..2200);
+    }
+    let read = |hertz: f64, crop: Option<(f64, f64)>| {
+        let mapping = Mapping {
+            rate_hz: Some(hertz),
+            crop,
+            ..Mapping::default()
+        };
+        Log::from_table(&table, &mapping)
+    };
+    let whole = read(700.0, None).unwrap();
+    insta::assert_snapshot!(message(&whole, "rate-override"));
+    let part = read(700.0, Some((5.572, 11.14))).unwrap();
+    assert!(!codes(&part).contains(&"rate-override"));
+    assert_eq!(part.rate_hz, 700.0);
+    assert!(read(1000.0, None).is_err());
+}
+
 /// Every column of a file, what it became and why.
 #[test]
 fn every_column_is_accounted_for() {
