@@ -443,45 +443,53 @@ impl Log {
     }
 
     /// Takes the force of every row so many rows later (earlier where negative), within each segment, since it was logged beside
-    /// other motion than its own; rows at the end of a segment whose force is not in it are excluded.
-    pub fn take_force_from(&mut self, rows: isize) {
-        let code = match rows > 0 {
-            true => Code::ForceLate,
-            false => Code::MotionLate,
-        };
-        let by = format!(
-            "{} rows ({} ms) later than",
-            rows.unsigned_abs(),
-            stiction_number::short(1e3 * rows.unsigned_abs() as f64 / self.rate_hz)
-        );
-        let message = match code {
-            Code::ForceLate => format!(
-                "the force was logged {by} the motion that it belongs to; that of every row is taken that much later"
+    /// other motion than its own; with those before, `whole` rows. Rows at the ends of a segment whose force is not in it are
+    /// excluded.
+    pub fn take_force_from(&mut self, rows: isize, whole: isize) {
+        const CODES: [Code; 2] = [Code::ForceLate, Code::MotionLate];
+        let ms = stiction_number::short(1e3 * whole.unsigned_abs() as f64 / self.rate_hz);
+        let by = format!("{} rows ({ms} ms) later than", whole.unsigned_abs());
+        let (code, message) = match whole > 0 {
+            true => (
+                Code::ForceLate,
+                format!(
+                    "the force was logged {by} the motion that it belongs to; that of every row is taken that much later"
+                ),
             ),
-            _ => format!(
-                "the motion was logged {by} the force that it belongs to; the force of every row is taken that much earlier"
+            false => (
+                Code::MotionLate,
+                format!(
+                    "the motion was logged {by} the force that it belongs to; the force of every row is taken that much earlier"
+                ),
             ),
         };
-        self.findings
-            .push(Finding::new(code, Severity::Warning, message));
-        let segments = self.segments.clone();
-        for segment in &segments {
-            let lost = rows.unsigned_abs().min(segment.len());
+        self.findings.retain(|f| !CODES.contains(&f.code));
+        if whole != 0 {
+            self.findings
+                .push(Finding::new(code, Severity::Warning, message));
+        }
+        for segment in self.segments.clone() {
+            let moved = rows.unsigned_abs().min(segment.len());
             if let Some(force) = &mut self.force {
                 let own = &mut force[segment.clone()];
                 match rows > 0 {
-                    true => own.copy_within(lost.., 0),
-                    false => own.copy_within(..own.len() - lost, lost),
+                    true => own.copy_within(moved.., 0),
+                    false => own.copy_within(..own.len() - moved, moved),
                 }
             }
-            let without = match rows > 0 {
-                true => segment.end - lost..segment.end,
-                false => segment.start..segment.start + lost,
-            };
-            self.exclude(without, code);
+            let lost = |way: isize| (way * whole).max(way * rows).max(0) as usize;
+            let [start, end] = [lost(-1), lost(1)].map(|rows| rows.min(segment.len()));
+            for without in [
+                segment.start..segment.start + start,
+                segment.end - end..segment.end,
+            ] {
+                if !without.is_empty() {
+                    self.exclude(without, code);
+                }
+            }
         }
-        let end = self.time.len();
-        let own = |row: usize| row.saturating_add_signed(-rows).min(end);
+        let length = self.time.len();
+        let own = |row: usize| row.saturating_add_signed(-rows).min(length);
         for excluded in &mut self.excluded {
             if excluded.code == Code::Saturation {
                 excluded.samples = own(excluded.samples.start)..own(excluded.samples.end);

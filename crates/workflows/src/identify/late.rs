@@ -33,7 +33,7 @@ pub(super) fn realigned(
     observer: &mut dyn Observer,
 ) -> Result<(Loaded, Conditioned), Error> {
     let near = conditioned.settings.near.as_ref();
-    let Some(near) = near.filter(|_| is_sought(asked, &loaded) && loaded.late == 0.0) else {
+    let Some(near) = near.filter(|_| is_sought(asked, &loaded)) else {
         return Ok((loaded, conditioned));
     };
     let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
@@ -67,9 +67,11 @@ fn is_sought(asked: Asked, loaded: &Loaded) -> bool {
 
 impl Loaded {
     fn take_force_from(&mut self, rows: isize) {
-        self.late = rows as f64 / self.sources[0].log.rate_hz;
+        let rate = self.sources[0].log.rate_hz;
+        let whole = (self.late * rate).round() as isize + rows;
+        self.late = whole as f64 / rate;
         for source in self.sources.iter_mut().chain(&mut self.held_out) {
-            source.log.take_force_from(rows);
+            source.log.take_force_from(rows, whole);
         }
     }
 }
