@@ -345,6 +345,13 @@ impl Log {
         unwrap::bits(jump, count).map(|bits| 1 << bits)
     }
 
+    /// Whether the position begins again, as a counter that overflows or an angle after each turn does, and no wrap is given: then
+    /// it is not the position of the axis.
+    pub fn begins_again(&self) -> bool {
+        let position = self.position.as_deref();
+        position.is_some_and(|position| findings::begins_again(self, position))
+    }
+
     /// Counts of a position that is logged in counts with a scale, in place of m or rad; `None` of any other.
     pub(crate) fn counts(&self) -> Option<Vec<f64>> {
         let channel = self.mapping.position.as_ref()?;

@@ -161,6 +161,11 @@ fn again(log: &Log, position: &[f64]) -> Option<Again> {
     })
 }
 
+/// Whether the position begins again though the axis file has no wrap.
+pub(crate) fn begins_again(log: &Log, position: &[f64]) -> bool {
+    again(log, position).is_some()
+}
+
 /// Finds jumps of the position and splits the record there.
 pub(super) fn jumps(log: &mut Log) {
     let Some(position) = &log.position else {
