@@ -37,6 +37,7 @@ mod held;
 pub(crate) mod overflow;
 pub(crate) mod unwrap;
 
+use crate::error::Settled;
 use crate::findings::{self, Finding, Severity};
 use crate::join::Joined;
 use crate::mapping::{
@@ -345,11 +346,17 @@ impl Log {
         unwrap::bits(jump, count).map(|bits| 1 << bits)
     }
 
-    /// Whether the position begins again, as a counter that overflows or an angle after each turn does, and no wrap is given: then
-    /// it is not the position of the axis.
-    pub fn begins_again(&self) -> bool {
-        let position = self.position.as_deref();
-        position.is_some_and(|position| findings::begins_again(self, position))
+    /// The refusal of a position that begins again, as a counter that overflows or an angle after each turn does, where no wrap is
+    /// given: then it is not the position of the axis. `None` of any other.
+    pub fn overflow(&self) -> Option<Error> {
+        let position = self.position.as_deref()?;
+        let mut found = self.findings.iter();
+        let jump = found.find(|finding| finding.code == Code::PositionJump)?;
+        findings::begins_again(self, position).then(|| {
+            Error::new(Kind::Value, jump.message.clone(), "")
+                .in_column("position")
+                .settled(Settled::Elsewhere)
+        })
     }
 
     /// Counts of a position that is logged in counts with a scale, in place of m or rad; `None` of any other.

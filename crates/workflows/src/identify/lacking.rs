@@ -43,7 +43,7 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     let is_refused = evidence
         .sources
         .iter()
-        .any(|source| source.log.begins_again());
+        .any(|source| source.log.overflow().is_some());
     let jumps = found(Code::PositionJump)
         .filter(|_| !is_refused && (poor || found(Code::ForceSign).is_some()));
     if let Some(finding) = jumps {

@@ -616,12 +616,8 @@ fn no_machine(sources: &[Source], reasons: &mut Reasons) {
 /// Refuses logs whose position begins again, as a counter that overflows does: what is between two overflows is not how the axis
 /// moved.
 fn overflown(sources: &[Source], reasons: &mut Reasons) {
-    let Some(source) = sources.iter().find(|source| source.log.begins_again()) else {
-        return;
-    };
-    let mut findings = source.log.findings.iter();
-    if let Some(found) = findings.find(|finding| finding.code == Code::PositionJump) {
-        reasons.push(found.message.clone(), Next::AxisFile);
+    if let Some(refused) = sources.iter().find_map(|source| source.log.overflow()) {
+        reasons.push(refused.found, Next::AxisFile);
     }
 }
 
