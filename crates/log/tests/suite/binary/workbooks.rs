@@ -30,7 +30,7 @@ fn odd_workbooks_are_told() {
 
     // A hidden one is read where no other has a table, which is said.
     let alone = read("only_hidden.xlsx").unwrap();
-    assert_eq!(alone.detected[0], "sheet raw, which is hidden");
+    assert_eq!(alone.detected[1], "sheet raw, which is hidden");
 
     let wide = read("wide.xlsx").unwrap_err();
     assert_eq!(wide.kind, Kind::Limit);
