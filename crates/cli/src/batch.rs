@@ -9,11 +9,11 @@ use crate::looking::looking;
 use crate::output;
 use crate::progress::Bar;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use stiction::commands::batch::{Batch, SCHEMA};
 use stiction::commands::shell::text as path_text;
 use stiction::commands::{check_folder_of, check_inputs, has_runs};
-use stiction::{Error, Options, bundle};
+use stiction::{Code, Error, Options, bundle};
 
 /// Runs the batch, writes its table and says what became of the logs.
 pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
@@ -70,6 +70,17 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
         output::json(&file)?;
     } else if !common.quiet {
         output::print(&stiction::commands::text::batch(&file, dir, axis))?;
+        let unread = file
+            .failed
+            .iter()
+            .find(|failed| failed.code == Code::LogFormat);
+        let logs: Vec<&Path> = batch.inputs().collect();
+        let left = unread.and_then(|failed| without(Path::new(&failed.path), &typed.inputs, &logs));
+        if let Some(command) = left {
+            output::print(&format!(
+                "next, where that is no log, to leave it out: {command}\n"
+            ))?;
+        }
     }
     if !done.is_whole() {
         large::how_to_resume();
@@ -80,6 +91,20 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
         return Ok(Exit::Interrupted);
     }
     Ok(stiction::commands::verdict::of_batch(&file).into())
+}
+
+/// The same batch of the logs of a folder that end otherwise than one that is none, where those have one ending.
+fn without(none: &Path, inputs: &[PathBuf], logs: &[&Path]) -> Option<String> {
+    let [folder] = inputs else { return None };
+    let others = || {
+        logs.iter()
+            .filter(|log| log.extension() != none.extension())
+    };
+    let ending = others().next()?.extension()?.to_str()?;
+    let is_plain =
+        |log: &&Path| log.parent() == Some(folder) && log.extension() == Some(ending.as_ref());
+    let is_one = folder.is_dir() && others().all(is_plain);
+    is_one.then(|| crate::next::in_place_of(folder, &folder.join(format!("*.{ending}"))))
 }
 
 /// Says which logs lie beside results and are not identified.

@@ -109,6 +109,7 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     }
     if let Some(next) = crate::next::missing(error)
         .or_else(|| crate::next::other_form(error))
+        .or_else(|| crate::next::table_as_log(error))
         .or_else(|| crate::next::no_room(error))
     {
         return Some(next);
@@ -187,8 +188,19 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     {
         return Some(next);
     }
+    if let Some(next) = crate::next::no_folder(error) {
+        return Some(next);
+    }
     if let Command::Drift(drift) = command {
         return crate::next::table(error, &drift.results);
+    }
+    if let Command::Batch(batch) = command
+        && error.code() == Code::Usage
+    {
+        return crate::next::no_logs(&batch.inputs);
+    }
+    if let Some(next) = crate::next::no_file(error) {
+        return Some(next);
     }
     let (logs, axis) = match command {
         Command::Check(check) if check.init.is_none() || axis_is_no_way_out(error) => {
@@ -207,7 +219,7 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     );
     if let Error::File(FileError::Log(e)) = error
         && e.file.as_ref().is_some_and(|file| logs.contains(file))
-        && (e.place.row.is_some() || error.code() == Code::LogFormat)
+        && (e.place.row.is_some() || is_read(error) || e.settled_by_line().is_some())
     {
         return Some(unread(e, logs, axis.as_deref()));
     }
@@ -226,17 +238,20 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         ));
     }
     let log = faulty(logs, error).filter(|_| unclear && axis.is_none())?;
-    Some(format!(
-        "next, for an axis file with the columns that are clear filled in: stiction check {} --init {}",
-        typed(log),
-        stiction::commands::text::axis_file(&path_text(log))
-    ))
+    Some(crate::next::begun(log))
+}
+
+/// Whether a log was refused while it was read, for what is written in it.
+fn is_read(error: &Error) -> bool {
+    // Columns that are too many are of the file; of memory more may be allowed.
+    let is_wide = error.code() == Code::LogLimit && wording::message(error).contains("columns");
+    error.code() == Code::LogFormat || is_wide
 }
 
 /// Whether a log could not be read at all, so that no axis file can be made of it either.
 fn axis_is_no_way_out(error: &Error) -> bool {
     let read = |e: &stiction::commands::LogError| e.place.row.is_none();
-    error.code() == Code::LogFormat || matches!(error, Error::File(FileError::Log(e)) if !read(e))
+    is_read(error) || matches!(error, Error::File(FileError::Log(e)) if !read(e))
 }
 
 /// What leads on from a text whose rows cannot be read: the line of the axis file that says how, else the same again once the
@@ -506,6 +521,10 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
         return Err(FileError::output(file, reason).into());
     };
     let started = stiction::commands::check::init(log, check.axis.as_deref())?;
+    let mut logs: Vec<&Path> = check.logs.iter().map(PathBuf::as_path).collect();
+    if logs.is_empty() {
+        logs.push(log);
+    }
     write_atomic(file, visible::toml(started.text.clone()).as_bytes())?;
     if common.json {
         output::json(&serde_json::json!({
@@ -514,7 +533,7 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
             "undecided": started.undecided,
         }))?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::started(&started, log, file))?;
+        output::print(&stiction::commands::text::started(&started, &logs, file))?;
     }
     Ok(Exit::Done)
 }

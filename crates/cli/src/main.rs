@@ -16,6 +16,7 @@ mod panics;
 mod progress;
 #[cfg(feature = "studio")]
 mod studio;
+mod typed;
 mod wording;
 
 use arguments::Arguments;

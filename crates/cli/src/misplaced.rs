@@ -1,7 +1,8 @@
 //! What to type next where a file is given to a command that is for another: a log to export, a result to identify.
 
+use crate::typed::Typed;
 use std::path::{Path, PathBuf};
-use stiction::commands::shell::quoted_path;
+use stiction::commands::shell::{quoted_path, text as path_text};
 use stiction::commands::{FileError, Looks, looks, refuse_as_log};
 use stiction::{Axis, Error, ModelFile, Study};
 
@@ -81,6 +82,20 @@ pub fn next(takes: Takes, file: &Path) -> Option<String> {
             let log = if listed { "" } else { " LOG" };
             format!("next: stiction check{log} --axis {path}")
         }
+        (Takes::Table, Looks::Result) => {
+            let logs = logs_of(file).join(" ");
+            if logs.is_empty() {
+                return crate::next::shown(file.parent()?);
+            }
+            // Not in the folder of the result, which holds that of one log.
+            let out = file.parent()?.with_file_name("batch");
+            format!(
+                "next, with every log that is to be followed beside it: stiction batch {logs} --law lugre --out {}, then: stiction \
+                 drift {}",
+                quoted_path(&out),
+                quoted_path(&out.join("results.parquet"))
+            )
+        }
         (Takes::Study, Looks::Model) => {
             let study = beside("study.toml");
             format!(
@@ -90,6 +105,45 @@ pub fn next(takes: Takes, file: &Path) -> Option<String> {
         }
         _ => return None,
     })
+}
+
+/// What leads on from a folder where one of its files is wanted: that file, what a result in it is good for, or one of its logs.
+pub fn inside(takes: Takes, folder: &Path) -> Option<String> {
+    let entries = std::fs::read_dir(folder).ok()?.take(MOST_NAMES).flatten();
+    let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    files.retain(|file| file.is_file());
+    files.sort();
+    let of = |wanted: Looks| files.iter().find(|file| looks(file) == Some(wanted));
+    let wanted = match takes {
+        Takes::Study => of(Looks::Study),
+        Takes::Axis => of(Looks::Axis),
+        Takes::Model => of(Looks::Model),
+        Takes::Logs | Takes::Table => None,
+    };
+    if let Some(file) = wanted {
+        return Some(format!("next: {}", crate::next::in_place_of(folder, file)));
+    }
+    let result = match takes {
+        Takes::Table => of(Looks::Result),
+        _ => of(Looks::Model),
+    };
+    result
+        .or_else(|| of(Looks::Log).filter(|_| takes != Takes::Logs))
+        .and_then(|file| next(takes, file))
+        .or_else(|| crate::next::shown(folder))
+}
+
+/// Most names of a folder that are looked at.
+const MOST_NAMES: usize = 10_000;
+
+/// The logs that a result was made of and that are still there, as a shell takes them.
+fn logs_of(result: &Path) -> Vec<String> {
+    let text = std::fs::read_to_string(result).unwrap_or_default();
+    let json: serde_json::Value = serde_json::from_str(&text).unwrap_or_default();
+    let inputs = json["inputs"].as_array().cloned().unwrap_or_default();
+    let paths = inputs.iter().filter_map(|input| input["path"].as_str());
+    let paths = paths.map(Path::new).filter(|path| path.is_file());
+    paths.map(quoted_path).collect()
 }
 
 fn exported(model: &Path) -> String {
@@ -102,39 +156,46 @@ fn exported(model: &Path) -> String {
 
 /// What is wrong with the file of a command whose other arguments are missing, and what leads on from it.
 pub fn refused(takes: Takes, file: &Path) -> Option<(Error, String)> {
-    let error = match takes {
-        Takes::Logs => refuse_as_log(file).err(),
-        Takes::Model => ModelFile::read(file).err(),
-        Takes::Axis => Axis::read(file).err(),
-        Takes::Study => Study::read(file).err(),
-        Takes::Table => None,
+    let error: Error = match takes {
+        // A folder of logs is one of the inputs of a batch.
+        Takes::Logs if file.is_dir() => return None,
+        Takes::Logs
+            if !path_text(file).contains(['*', '?', '[']) && file.symlink_metadata().is_err() =>
+        {
+            let error = Error::Usage {
+                found: format!("{} is not there", path_text(file)).into(),
+                allowed: "the path of a recording is wanted".into(),
+            };
+            return Some((error, crate::next::not_there(file)?));
+        }
+        Takes::Logs => refuse_as_log(file).err()?.into(),
+        Takes::Model => ModelFile::read(file).err()?.into(),
+        Takes::Axis => Axis::read(file).err()?.into(),
+        Takes::Study => Study::read(file).err()?.into(),
+        Takes::Table => return None,
     };
-    let error = error.filter(|error| matches!(error, FileError::OtherForm { .. }))?;
-    Some((error.into(), next(takes, file)?))
+    let next = match &error {
+        Error::File(FileError::OtherForm {
+            instead: Some(instead),
+            ..
+        }) => {
+            let out = match takes {
+                Takes::Study => instead.with_file_name("study"),
+                Takes::Axis => instead.with_file_name("plan"),
+                _ => instead.with_extension(""),
+            };
+            let command = crate::next::in_place_of(file, instead);
+            Some(format!("next: {command} --out {}", quoted_path(&out)))
+        }
+        _ if file.is_dir() => inside(takes, file),
+        Error::File(FileError::OtherForm { .. }) => next(takes, file),
+        _ => crate::next::missing(&error),
+    };
+    Some((error, next?))
 }
 
-/// The command that was typed, and what stands behind it without an option before it.
+/// What the command that was typed takes, and what stands behind it without an option before it.
 pub fn typed() -> Option<(Takes, Vec<PathBuf>)> {
-    /// Options that have no value.
-    const FLAGS: [&str; 6] = [
-        "--json",
-        "--quiet",
-        "--force",
-        "--asymmetric",
-        "--resume",
-        "--adapt",
-    ];
-    let words: Vec<String> = std::env::args_os()
-        .skip(1)
-        .map(|word| word.to_string_lossy().into_owned())
-        .collect();
-    let at = words.iter().position(|word| Takes::of(word).is_some())?;
-    let takes = Takes::of(&words[at])?;
-    let has_value =
-        |word: &str| word.starts_with("--") && !word.contains('=') && !FLAGS.contains(&word);
-    let files = words[at..].windows(2).filter_map(|pair| {
-        let is_file = !has_value(&pair[0]) && !pair[1].starts_with('-');
-        is_file.then(|| PathBuf::from(&pair[1]))
-    });
-    Some((takes, files.collect()))
+    let typed = Typed::new()?;
+    Some((Takes::of(&typed.command)?, typed.files()))
 }

@@ -2,10 +2,11 @@
 
 use crate::arguments::{Arguments, Target};
 use crate::misplaced;
+use crate::typed::Typed;
 use clap::{CommandFactory, ValueEnum};
 use std::path::{Path, PathBuf};
 use stiction::commands::shell::{quoted_path, text as path_text};
-use stiction::commands::{FileError, has_runs};
+use stiction::commands::{FileError, Looks, has_runs, looks};
 use stiction::{Axis, Code, Error, ModelFile};
 
 /// What leads on from an input that is not there: the same command with the file that was probably meant, or a look at the folder.
@@ -22,6 +23,11 @@ pub fn missing(error: &Error) -> Option<String> {
         Error::File(FileError::Config { file, .. }) => file,
         _ => return None,
     };
+    not_there(path)
+}
+
+/// What leads on from a path at which there is nothing.
+pub fn not_there(path: &Path) -> Option<String> {
     if path.as_os_str().is_empty() || path.symlink_metadata().is_ok() {
         return None;
     }
@@ -35,10 +41,79 @@ pub fn missing(error: &Error) -> Option<String> {
         let command = stiction::commands::text::command(arguments.into_iter());
         return Some(format!("next: was another file meant? {command}"));
     }
+    shown(folder)
+}
+
+/// The command that shows what is in a folder, or in the nearest one above it that is there.
+pub fn shown(folder: &Path) -> Option<String> {
     let there = folder.ancestors().map(or_here).find(|dir| dir.is_dir())?;
     Some(format!(
         "next: ls {} shows which files there are",
         quoted_path(there)
+    ))
+}
+
+/// What leads on from a folder, or from what is no regular file, where a file is wanted.
+pub fn no_file(error: &Error) -> Option<String> {
+    let Error::File(FileError::Config { file, .. }) = error else {
+        return None;
+    };
+    if file.is_file() || file.symlink_metadata().is_err() {
+        return None;
+    }
+    if let Some(next) = for_axis(file) {
+        return Some(next);
+    }
+    let (takes, _) = misplaced::typed().filter(|(_, files)| files.contains(file))?;
+    misplaced::inside(takes, file)
+}
+
+/// What leads on where the folder of a file that is to be written is not there.
+pub fn no_folder(error: &Error) -> Option<String> {
+    let Error::File(FileError::Output { path, .. }) = error else {
+        return None;
+    };
+    let folder = folder(path);
+    let is_missing = folder.symlink_metadata().is_err() && path.symlink_metadata().is_err();
+    is_missing.then(|| format!("next: mkdir -p {}, then: {}", quoted_path(folder), again()))
+}
+
+/// What leads on from a batch of a folder that holds no logs, or the result of an earlier command.
+pub fn no_logs(inputs: &[PathBuf]) -> Option<String> {
+    let folder = inputs
+        .iter()
+        .find(|input| input.is_dir() && !has_logs(input, DEPTH))?;
+    misplaced::inside(misplaced::Takes::Logs, folder)
+}
+
+/// Folders below each other in which logs are looked for.
+const DEPTH: usize = 4;
+
+/// Whether a folder that holds no result, or one below it, holds a recording.
+fn has_logs(folder: &Path, depth: usize) -> bool {
+    let holds_result = ["result.json", "batch.json", "study.json", "drift.json"];
+    if holds_result.iter().any(|name| folder.join(name).is_file()) {
+        return false;
+    }
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut paths = entries.take(MOST_NAMES).flatten().map(|entry| entry.path());
+    paths.any(|path| match path.is_dir() {
+        true => depth > 0 && !path.is_symlink() && has_logs(&path, depth - 1),
+        false => looks(&path) == Some(Looks::Log),
+    })
+}
+
+/// What leads on from a table that a batch wrote where a log is wanted.
+pub fn table_as_log(error: &Error) -> Option<String> {
+    let Error::File(FileError::Log(e)) = error else {
+        return None;
+    };
+    let is_table = |file: &&Path| file.extension().is_some_and(|end| end == "parquet");
+    let file = e.file.as_deref().filter(is_table)?;
+    stiction::commands::drift::drift(file, &[]).ok()?;
+    Some(format!(
+        "next, since it is a table that stiction batch writes: stiction drift {}",
+        quoted_path(file)
     ))
 }
 
@@ -53,7 +128,11 @@ pub fn other_form(error: &Error) -> Option<String> {
             return Some(next);
         }
         let (takes, typed) = misplaced::typed()?;
-        return misplaced::next(takes, typed.iter().find(|typed| *typed == file)?);
+        let file = typed.iter().find(|typed| *typed == file)?;
+        return match file.is_dir() {
+            true => misplaced::inside(takes, file),
+            false => misplaced::next(takes, file),
+        };
     };
     let arguments = with(file, instead);
     Some(format!(
@@ -64,24 +143,16 @@ pub fn other_form(error: &Error) -> Option<String> {
 
 /// What makes an axis file where one is given to `--axis` that is none.
 fn for_axis(file: &Path) -> Option<String> {
-    let words: Vec<String> = std::env::args_os()
-        .skip(1)
-        .map(|word| path_text(Path::new(&word)))
-        .collect();
-    let given = words
-        .windows(2)
-        .any(|pair| pair[0] == "--axis" && Path::new(&pair[1]) == file);
-    let joined = path_text(file);
-    let given = given
-        || words
-            .iter()
-            .any(|w| w.strip_prefix("--axis=") == Some(&*joined));
+    let given = Typed::new()?
+        .values("axis")
+        .iter()
+        .any(|axis| axis == file.as_os_str());
     let (takes, typed) = misplaced::typed()?;
     let log = typed
         .first()
         .filter(|_| given && takes == misplaced::Takes::Logs)?;
     let log = path_text(log);
-    let axis = stiction::commands::text::axis_file(&log);
+    let axis = stiction::commands::shell::new_axis_file(Path::new(&log));
     Some(format!(
         "next, for an axis file of that log: stiction check {} --init {axis}",
         stiction::commands::shell::quoted(&log)
@@ -137,10 +208,16 @@ pub fn another_init(error: &Error, file: &Path, log: &Path) -> Option<String> {
         return None;
     }
     let log_as_typed = quoted_path(log);
-    Some(format!(
-        "next, where that is the axis file of this log: stiction check {log_as_typed} --axis {}, else: stiction check {log_as_typed} --init {}",
-        quoted_path(file),
+    let begun = format!(
+        "stiction check {log_as_typed} --init {}",
         stiction::commands::shell::new_axis_file(log)
+    );
+    if Axis::read(file).is_err() {
+        return Some(format!("next: {begun}"));
+    }
+    Some(format!(
+        "next, where that is the axis file of this log: stiction check {log_as_typed} --axis {}, else: {begun}",
+        quoted_path(file)
     ))
 }
 
@@ -153,43 +230,34 @@ pub fn many(error: &Error, logs: &[PathBuf]) -> Option<String> {
         .file
         .as_deref()
         .filter(|file| file.is_dir() && logs.iter().any(|log| log == file))?;
+    all_of(folder, logs)
+}
+
+/// The batch of all logs in a folder and the others that were typed beside it; where it holds none, what leads on from it.
+fn all_of(folder: &Path, logs: &[PathBuf]) -> Option<String> {
+    if !has_logs(folder, DEPTH) {
+        return misplaced::inside(misplaced::Takes::Logs, folder);
+    }
     // The options of one log that are also those of many.
     const SHARED: [&str; 8] = [
-        "--axis",
-        "--law",
-        "--method",
-        "--split",
-        "--seed",
-        "--out",
-        "--threads",
-        "--max-memory",
+        "axis",
+        "law",
+        "method",
+        "asymmetric",
+        "split",
+        "seed",
+        "threads",
+        "max-memory",
     ];
-    let mut kept = Vec::new();
-    let words: Vec<String> = std::env::args_os()
-        .skip(1)
-        .map(|a| path_text(Path::new(&a)))
-        .collect();
-    let mut words = words.iter();
-    while let Some(word) = words.next() {
-        let name = word.split('=').next().unwrap_or(word);
-        if SHARED.contains(&name) {
-            kept.push(word.clone());
-            if name == word {
-                kept.extend(words.next().cloned());
-            }
-        } else if word == "--asymmetric" {
-            kept.push(word.clone());
-        }
-    }
+    let typed = Typed::new()?;
     let mut command = vec!["batch".to_string()];
     command.extend(logs.iter().map(|log| path_text(log)));
-    if !kept
-        .iter()
-        .any(|word| word.split('=').next() == Some("--out"))
-    {
-        kept.extend(["--out".to_string(), path_text(&beside(folder, "batch"))]);
+    command.extend(typed.again(&SHARED));
+    let out = typed.again(&["out"]);
+    match out.is_empty() {
+        true => command.extend(["--out".to_string(), path_text(&beside(folder, "batch"))]),
+        false => command.extend(out),
     }
-    command.extend(kept);
     let command = stiction::commands::text::command(command.into_iter());
     Some(format!("next, for every log of the folder: {command}"))
 }
@@ -207,8 +275,10 @@ pub fn table(error: &Error, folder: &Path) -> Option<String> {
         .collect();
     tables.retain(|table| table.is_file());
     if let Some(table) = tables.iter().min() {
-        let command = stiction::commands::text::command(with(folder, table).into_iter());
-        return Some(format!("next: {command}"));
+        return Some(format!("next: {}", in_place_of(folder, table)));
+    }
+    if !has_logs(folder, DEPTH) {
+        return misplaced::inside(misplaced::Takes::Table, folder);
     }
     let out = beside(folder, "batch");
     Some(format!(
@@ -231,15 +301,12 @@ fn beside(folder: &Path, name: &str) -> PathBuf {
 /// The whole command, where nothing but the folder for what is written is missing.
 fn without_out() -> Option<String> {
     let typed: Vec<_> = std::env::args_os().collect();
-    let name = typed.iter().skip(1).find_map(|word| {
-        let word = word.to_str()?;
-        let known = Arguments::command();
-        known
-            .find_subcommand(word)
-            .map(|command| command.get_name().to_string())
-    })?;
+    let Typed { command: name, .. } = Typed::new()?;
     let (_, files) = misplaced::typed()?;
     let first = files.first()?;
+    if first.is_dir() && matches!(name.as_str(), "check" | "identify") {
+        return all_of(first, &files);
+    }
     let out = match name.as_str() {
         "plan" | "batch" | "compare" => first.with_file_name(&name),
         _ => first.with_extension(""),
@@ -269,6 +336,26 @@ fn without_out() -> Option<String> {
 pub fn again() -> String {
     let arguments = std::env::args_os().skip(1);
     stiction::commands::text::command(arguments.map(|a| path_text(Path::new(&a))))
+}
+
+/// The command that was typed, with another path in place of one.
+pub fn in_place_of(file: &Path, instead: &Path) -> String {
+    stiction::commands::text::command(with(file, instead).into_iter())
+}
+
+/// What leads on from a log of which not all is clear: its axis file where one of that name is there, else one to begin.
+pub fn begun(log: &Path) -> String {
+    let log_as_typed = quoted_path(log);
+    let file = stiction::commands::text::axis_file(&path_text(log));
+    let new = stiction::commands::shell::new_axis_file(log);
+    let begin = "for an axis file with the columns that are clear filled in";
+    match file == new {
+        true => format!("next, {begin}: stiction check {log_as_typed} --init {file}"),
+        false => format!(
+            "next, where {file} is the axis file of this log: stiction check {log_as_typed} --axis {file}, else, {begin}: \
+             stiction check {log_as_typed} --init {new}"
+        ),
+    }
 }
 
 /// What was typed, with another path in place of one.

@@ -145,6 +145,16 @@ impl Error {
         self.rest.as_ref()?.settled
     }
 
+    /// The same problem, with what is allowed for it and for everything else that is wrong in other words.
+    #[must_use]
+    pub fn reworded(mut self, words: &dyn Fn(&str) -> String) -> Self {
+        self.allowed = words(&self.allowed);
+        for other in self.rest.iter_mut().flat_map(|rest| &mut rest.others) {
+            other.allowed = words(&other.allowed);
+        }
+        self
+    }
+
     /// One error of several of the same recording, each of which stands whatever is done about the others; `None` of none.
     pub(crate) fn of_all(found: Vec<Error>) -> Option<Self> {
         let mut found = found.into_iter();

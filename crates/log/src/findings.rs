@@ -46,7 +46,7 @@ mod velocity;
 
 use crate::log::Log;
 use crate::mapping::Mapping;
-pub(crate) use encoder::quantum;
+pub(crate) use encoder::{begins_again, quantum};
 pub use finding::{Finding, Severity};
 pub(crate) use finding::{MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, extremes, median};
 pub(crate) use force::{levels, sign_of_another_clock};

@@ -34,11 +34,15 @@ mod driven;
 mod dropout;
 mod filled;
 mod held;
+pub(crate) mod overflow;
 pub(crate) mod unwrap;
 
+use crate::error::Settled;
 use crate::findings::{self, Finding, Severity};
 use crate::join::Joined;
-use crate::mapping::{Enable, MAX_CUT_SHARE, Mapping, Motion, Role, Source, Understood, parts};
+use crate::mapping::{
+    Enable, MAX_CUT_SHARE, Mapping, Motion, Role, Source, Understood, Wrap, parts,
+};
 use crate::{Dimension, Error, Kind, Table};
 use cells::LeftOut;
 pub use chosen::NotEnabled;
@@ -230,7 +234,12 @@ impl Log {
             let unit = motion.position().si_text();
             unwrap::resolved(&position, period, mapping.resolution, &unit)?;
             let reference = columns.get_mut(Role::Reference).map(Vec::as_mut_slice);
-            findings.push(unwrap::unwrap(&mut position, reference, period, &unit));
+            let counts = match given {
+                Wrap::Counts(counts) => Some(counts),
+                Wrap::Travel(_) => None,
+            };
+            let wrapped = (period, counts);
+            findings.push(unwrap::unwrap(&mut position, reference, wrapped, &unit));
             if let Some(slot) = columns.get_mut(Role::Position) {
                 *slot = position;
             }
@@ -338,6 +347,28 @@ impl Log {
         let counts = channel.unit.as_ref()?.dimension() == Dimension::COUNTS;
         let count = channel.scale.as_ref().filter(|_| counts)?.si();
         unwrap::bits(jump, count).map(|bits| 1 << bits)
+    }
+
+    /// The refusal of a position that begins again, as a counter that overflows or an angle after each turn does, where no wrap is
+    /// given: then it is not the position of the axis. `None` of any other.
+    pub fn overflow(&self) -> Option<Error> {
+        let position = self.position.as_deref()?;
+        let mut found = self.findings.iter();
+        let jump = found.find(|finding| finding.code == Code::PositionJump)?;
+        findings::begins_again(self, position).then(|| {
+            Error::new(Kind::Value, jump.message.clone(), "")
+                .in_column("position")
+                .settled(Settled::Elsewhere)
+        })
+    }
+
+    /// Counts of a position that is logged in counts with a scale, in place of m or rad; `None` of any other.
+    pub(crate) fn counts(&self) -> Option<Vec<f64>> {
+        let channel = self.mapping.position.as_ref()?;
+        let counts = channel.unit.as_ref()?.dimension() == Dimension::COUNTS;
+        let count = channel.scale.as_ref().filter(|_| counts)?.si();
+        let position = self.position.as_ref()?;
+        Some(position.iter().map(|x| x / count).collect())
     }
 
     /// Which samples may be fitted to: those that nothing excludes but a rest at an end, which for a procedure that

@@ -48,6 +48,7 @@ mod flags;
 mod limits;
 mod motion;
 mod names;
+mod offered;
 pub(crate) mod parts;
 mod rate;
 mod select;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use stiction_files::result::{Cure, Next, ResultFile};
 pub use stiction_files::shell::axis_file;
-use stiction_files::shell::{plain, quoted, quoted_path, text};
+use stiction_files::shell::{new_axis_file, plain, quoted, quoted_path, text};
 use stiction_identify::LawKind;
 use stiction_number::Percent;
 
@@ -116,7 +116,7 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
             let (file, place) = match &result.axis.file {
                 Some(file) => (quoted(file), format!("in {file}, under [{table}]")),
                 None => {
-                    let file = axis_file(&result.inputs.first()?.path);
+                    let file = new_axis_file(Path::new(&result.inputs.first()?.path));
                     let place = format!("in a new file {file}, under a line [{table}]");
                     (file, place)
                 }
@@ -223,7 +223,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             Some(_) => format!("stiction identify {log} --out {}", another("corrected")),
             None => format!(
                 "stiction check {log} --init {}",
-                axis_file(&result.inputs[0].path)
+                new_axis_file(Path::new(&result.inputs[0].path))
             ),
         },
         Next::Check | Next::CheckTheOther => format!("stiction check {log}"),

@@ -258,6 +258,7 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
         axis,
         clock,
     };
+    let is_overflown = log.overflow().is_some();
     match identify_asked(asked, vec![source], Vec::new(), observer) {
         Ok(outcome) => {
             out.refused = untrusted(&outcome);
@@ -304,6 +305,9 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
             out.refused = Some(format!("{}: {e}", e.kind.code()))
         }
         Err(e) => return Err(e),
+    }
+    if is_overflown {
+        out.next = Lead::AxisFile;
     }
     Ok(out)
 }

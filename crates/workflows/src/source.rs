@@ -210,7 +210,10 @@ fn mapped(
             (Ok(log), entries)
         }
     };
-    let log = log.map_err(refused)?;
+    let mut log = log.map_err(refused)?;
+    for finding in &mut log.findings {
+        finding.message = axis.named(&finding.message);
+    }
     let mut detected = log.detected.clone();
     detected.extend(left_out);
     Ok(Source {

@@ -656,3 +656,120 @@ fn the_offset_of_a_late_force_is_offered() {
     let mended = check(offset);
     assert!(!mended.contains("[force-late]"), "{mended}");
 }
+
+/// A folder, or what is no regular file, where a file is wanted leads to what is in it, to what it is good for, or to a look at it.
+#[test]
+fn a_folder_in_place_of_a_file_leads_on() {
+    let bench = Bench::new();
+    for dir in ["empty", "logs", "result", "study", "bare"] {
+        std::fs::create_dir(bench.path(dir)).unwrap();
+    }
+    bench.write("logs/a.csv", &log());
+    bench.write("study/study.toml", "[axis]\nmodel = \"model.toml\"\n");
+    bench.write("result/model.toml", "schema = \"stiction.model/1\"\n");
+    let inputs = "{ \"schema\": \"stiction.result/1\", \"inputs\": [{ \"path\": \"log.csv\" }, { \"path\": \"gone.csv\" }] }";
+    bench.write("result/result.json", inputs);
+    bench.write(
+        "bare/result.json",
+        "{ \"schema\": \"stiction.result/1\", \"inputs\": [] }",
+    );
+    let mut out = String::new();
+    for command in [
+        "simulate study --out s",
+        "simulate study",
+        "simulate empty --out s",
+        "simulate logs --out s",
+        "simulate nothing.toml",
+        "check empty",
+        "check result",
+        "identify bare --out s",
+        "drift empty",
+        "drift result",
+        "drift result/result.json",
+        "drift bare/result.json",
+        "batch empty --law lugre --out b",
+        "batch result --law lugre --out b",
+        "plan empty --out p",
+        "check log.csv --axis empty",
+    ] {
+        let words: Vec<&str> = command.split(' ').collect();
+        let _ = writeln!(out, "$ {command}\n{}", bench.refused(&words));
+    }
+    insta::assert_snapshot!(out);
+}
+
+/// A name that is taken, or whose folder is not there, leads to one that works; several logs stay several.
+#[test]
+fn an_axis_file_that_is_there_is_offered() {
+    let bench = Bench::new();
+    bench.write("open.csv", &log().replacen("Force [N]", "f1", 1));
+    let mut out = bench.refused(&["check", "open.csv"]);
+    bench.write("open.axis.toml", "kind = \"linear\"\n");
+    out += &bench.refused(&["check", "open.csv"]);
+    out += &bench.refused(&["check", "log.csv", "--init", "log.csv"]);
+    out += &bench.refused(&["check", "log.csv", "--init", "nowhere/axis.toml"]);
+    let (_, said, _) = bench.run(&["check", "log.csv", "open.csv", "--init", "two.toml"]);
+    out += said.lines().last().unwrap();
+    insta::assert_snapshot!(out);
+}
+
+/// A key that is misspelt is named beside what is missing for it.
+#[test]
+fn a_wrong_key_of_the_limits_is_named() {
+    let bench = Bench::new();
+    bench.write("axis.toml", "[limits]\nvelocty = \"1 m/s\"\nstrok = 3\n");
+    insta::assert_snapshot!(bench.refused(&["plan", "axis.toml", "--out", "p"]));
+}
+
+/// What is said of an axis file has its name.
+#[test]
+fn the_axis_file_has_its_own_name() {
+    let bench = Bench::new();
+    bench.write(
+        "my.toml",
+        "[columns]\nposition = \"Position\"\nforce = \"Force\"\n",
+    );
+    let mut lines = String::from("Time [s],Position [counts],Force [N]\n");
+    for line in log().lines().skip(1) {
+        let _ = writeln!(lines, "{line}");
+    }
+    bench.write("counts.csv", &lines);
+    let err = bench.refused(&["check", "counts.csv", "--axis", "my.toml"]);
+    assert!(err.contains("give it in my.toml under [columns]"), "{err}");
+}
+
+/// A counter that overflows in a log whose axis file has no wrap is no position to identify from, however well a law fits between.
+#[test]
+fn a_counter_that_overflows_is_not_trusted() {
+    let bench = Bench::new();
+    // Few overflows leave stretches that are fitted, many leave none.
+    for (per_mm, size, worth) in [(1e4, "0.1 um/count", 1), (1e5, "0.01 um/count", 2)] {
+        let mut lines = String::from("Time [s],Position [counts],Force [N]\n");
+        for line in log().lines().skip(1) {
+            let mut cells = line.split(',');
+            let [t, x, f] = std::array::from_fn(|_| cells.next().unwrap());
+            let counts = (per_mm * x.parse::<f64>().unwrap()).round() as i64;
+            let _ = writeln!(lines, "{t},{},{f}", counts.rem_euclid(65536));
+        }
+        bench.write("counts.csv", &lines);
+        let axis = format!(
+            "[columns]\nposition = {{ column = \"Position\", scale = \"{size}\" }}\nforce = \"Force\"\n"
+        );
+        bench.write("my.toml", &axis);
+        let law = "--law=coulomb-viscous";
+        let fit = [
+            "identify",
+            "counts.csv",
+            "--axis=my.toml",
+            law,
+            "--out",
+            &size[..4],
+        ];
+        let (code, out, err) = bench.run(&fit);
+        assert_eq!(code, worth, "{out}{err}");
+        let line = "write wrap = \"65536 counts\" under [log] in my.toml";
+        assert!(format!("{out}{err}").contains(line), "{out}{err}");
+        let (_, out, _) = bench.run(&["check", "counts.csv", "--axis", "my.toml"]);
+        assert!(out.contains("next: correct my.toml as said above"), "{out}");
+    }
+}

@@ -232,7 +232,19 @@ impl Axis {
 
     /// The refusal of a recording, at the key of this file that it is about, where it is about one.
     pub fn at_key(&self, error: stiction_log::Error) -> Error {
-        each(error, |error| self.at_own_key(error))
+        each(self.named_in(error), |error| self.at_own_key(error))
+    }
+
+    /// A text that speaks of `axis.toml`, with the name that the file has.
+    pub fn named(&self, text: &str) -> String {
+        match self.file.file_name() {
+            Some(name) => text.replace("axis.toml", &name.to_string_lossy()),
+            None => text.to_string(),
+        }
+    }
+
+    fn named_in(&self, error: stiction_log::Error) -> stiction_log::Error {
+        error.reworded(&|text| self.named(text))
     }
 
     fn at_own_key(&self, error: stiction_log::Error) -> Error {
@@ -249,9 +261,11 @@ impl Axis {
         listed: Option<&ListedLog>,
         part: Use,
     ) -> Error {
-        each(error, |error| match (listed, error.setting()) {
-            (Some(log), Some(setting)) => self.at(&log.written(setting, part), error),
-            _ => self.at_own_key(error),
+        each(self.named_in(error), |error| {
+            match (listed, error.setting()) {
+                (Some(log), Some(setting)) => self.at(&log.written(setting, part), error),
+                _ => self.at_own_key(error),
+            }
         })
     }
 

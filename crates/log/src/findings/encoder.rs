@@ -1,8 +1,9 @@
 //! Encoder steps, and jumps of the position that no motion explains.
 
 use super::finding::{Finding, Severity, extremes, place};
-use crate::log::Log;
-use crate::mapping::Mapping;
+use crate::log::{Log, overflow};
+use crate::mapping::{Mapping, Motion, Role, Selector};
+use std::f64::consts::TAU;
 use stiction_codes::Code;
 use stiction_number::{counted as count, short};
 
@@ -84,6 +85,8 @@ pub(super) fn steps(log: &mut Log, mapping: &Mapping) {
     );
     log.findings
         .push(Finding::new(Code::Quantisation, Severity::Note, message));
+    let degrees = in_degrees(log, step);
+    log.findings.extend(degrees);
     if range > 0.0 && range / step < MIN_TRAVEL_STEPS {
         let message = format!(
             "the whole travel is {} encoder steps; presliding is hardly resolved",
@@ -97,6 +100,72 @@ pub(super) fn steps(log: &mut Log, mapping: &Mapping) {
     }
 }
 
+/// How far the step of an encoder, as its data show it, may be from the one it has by its bits, of the step.
+const OFF_BITS: f64 = 1e-3;
+/// Bits of an encoder that turns.
+const ENCODER_BITS: std::ops::RangeInclusive<u32> = 8..=32;
+
+/// That an angle which is read in radians has the steps of an encoder in degrees, 360/2^n.
+fn in_degrees(log: &Log, step: f64) -> Option<Finding> {
+    let channel = log.mapping.position.as_ref()?;
+    let unit = channel.unit.as_ref()?;
+    let is_plain = log.motion == Motion::Rotary && unit.factor() == 1.0 && channel.scale.is_none();
+    let bits = ENCODER_BITS
+        .into_iter()
+        .find(|bits| (step * (1_u64 << bits) as f64 / 360.0 - 1.0).abs() <= OFF_BITS)
+        .filter(|_| is_plain)?;
+    let of = log
+        .columns
+        .iter()
+        .find(|c| c.role == Some(Role::Position))?;
+    let column = match &channel.column {
+        Selector::Name(name) => format!("\"{name}\""),
+        Selector::Index(number) => number.to_string(),
+    };
+    let message = format!(
+        "position, column {}, is read in rad, but its steps of {} are 360/2^{bits}, those of an encoder of {bits} bits in degrees: \
+         write position = {{ column = {column}, unit = \"deg\" }} under [columns] in axis.toml, and mind the unit of the others \
+         beside it",
+        of.column,
+        short(step)
+    );
+    Some(Finding::new(Code::UnlikelySize, Severity::Warning, message))
+}
+
+/// A position that begins again: after which travel, and the line of the axis file that says so.
+struct Again {
+    period: f64,
+    line: String,
+}
+
+/// Where the position begins again though the axis file has no wrap: a counter that overflows, or an angle after each turn.
+fn again(log: &Log, position: &[f64]) -> Option<Again> {
+    if log.wrap.is_some() {
+        return None;
+    }
+    if let Some(counts) = log.counts().as_deref().and_then(overflow::counts) {
+        let count = log.mapping.position.as_ref()?.scale.as_ref()?.si().abs();
+        return Some(Again {
+            period: counts as f64 * count,
+            line: format!(
+                "that is {}: write wrap = \"{counts} counts\" under [log] in axis.toml",
+                overflow::counter(counts)
+            ),
+        });
+    }
+    let turns = log.motion == Motion::Rotary && overflow::begins_again(position, TAU);
+    turns.then(|| Again {
+        period: TAU,
+        line: "it begins again after each turn: write wrap = \"360 deg\" under [log] in axis.toml"
+            .into(),
+    })
+}
+
+/// Whether the position begins again though the axis file has no wrap.
+pub(crate) fn begins_again(log: &Log, position: &[f64]) -> bool {
+    again(log, position).is_some()
+}
+
 /// Finds jumps of the position and splits the record there.
 pub(super) fn jumps(log: &mut Log) {
     let Some(position) = &log.position else {
@@ -105,7 +174,8 @@ pub(super) fn jumps(log: &mut Log) {
     let Some((low, high)) = extremes(position) else {
         return;
     };
-    let bound = MIN_JUMP_SHARE_OF_RANGE * (high - low);
+    let again = again(log, position);
+    let bound = MIN_JUMP_SHARE_OF_RANGE * again.as_ref().map_or(high - low, |again| again.period);
     let steps = || {
         position
             .windows(2)
@@ -126,17 +196,19 @@ pub(super) fn jumps(log: &mut Log) {
     let mean = small / smalls.max(1) as f64;
     let Some(&first) = jumps.first() else { return };
     // A record with few other samples has no usual step to compare with.
-    if bound <= MIN_JUMP_IN_MEAN_STEPS * mean || smalls < MIN_ORDINARY_STEPS {
+    let is_usual = bound <= MIN_JUMP_IN_MEAN_STEPS * mean || smalls < MIN_ORDINARY_STEPS;
+    if is_usual && again.is_none() {
         return;
     }
     let unit = log.motion.position().si_text();
     let size = (position[first + 1] - position[first]).abs();
-    let wraps = match log.counter(size) {
-        Some(counts) => format!(
-            "that is a counter of {} bits: write wrap = \"{counts} counts\" under [log] in axis.toml",
-            counts.ilog2()
+    let wraps = match (again, log.counter(size)) {
+        (Some(again), _) => again.line,
+        (None, Some(counts)) => format!(
+            "that is {}: write wrap = \"{counts} counts\" under [log] in axis.toml",
+            overflow::counter(counts)
         ),
-        None => {
+        (None, None) => {
             "if the position wraps there, give that travel as wrap under [log] in axis.toml".into()
         }
     };

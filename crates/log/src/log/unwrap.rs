@@ -1,6 +1,7 @@
 //! Unwrapping a position.
 
-use crate::findings::{Finding, Severity, count, full, median, quantum, short};
+use super::overflow;
+use crate::findings::{Finding, Severity, count, extremes, full, median, quantum, short};
 use crate::mapping::{Source, Wrap};
 use crate::{Dimension, Error, Kind};
 use stiction_codes::Code;
@@ -73,14 +74,16 @@ pub(super) fn resolved(
 }
 
 /// Adds whole periods to a position so that no step is longer than half a period, and to its reference the same way, which ends up
-/// within half a period of the position; missing samples are passed over. Turns made within a gap cannot be known.
+/// within half a period of the position; missing samples are passed over. `counts` is the period in counts, where it is given so. Turns made within a gap cannot be known.
 pub(super) fn unwrap(
     position: &mut [f64],
     reference: Option<&mut [f64]>,
-    period: f64,
+    (period, counts): (f64, Option<f64>),
     unit: &str,
 ) -> Finding {
-    let wrong = wrong(position, period, unit);
+    let wrong = counts
+        .and_then(|counts| wrong_counts(position, period, counts))
+        .or_else(|| wrong(position, period, unit));
     let wraps = straighten(position, period);
     let likewise = reference.is_some_and(|reference| {
         let followed = straighten(reference, period).is_some();
@@ -97,20 +100,50 @@ pub(super) fn unwrap(
             "position never wraps: no step is longer than half the wrap of {period} {unit}; nothing was unwrapped{}",
             likewise.replace("likewise", "was")
         );
-        return Finding::new(Code::PositionWrap, Severity::Note, message);
+        return stated(message, wrong);
     };
     let message = format!(
         "position wrapped {}, first at sample {first}; unwrapped with a period of {period} {unit}{likewise}",
         count(wraps, "time")
     );
-    let finding = match wrong {
+    stated(message, wrong).at(first)
+}
+
+/// What was done, and why that is probably wrong, if so.
+fn stated(message: String, wrong: Option<String>) -> Finding {
+    match wrong {
         None => Finding::new(Code::PositionWrap, Severity::Note, message),
         Some(wrong) => {
             let message = format!("{message}, but {wrong}");
             Finding::new(Code::PositionWrap, Severity::Warning, message)
         }
+    }
+}
+
+/// Why a counter does not begin again after so many counts, if so: it shows more, or is one short of those of its bits.
+fn wrong_counts(position: &[f64], period: f64, counts: f64) -> Option<String> {
+    let (low, high) = extremes(position)?;
+    let shown = ((high - low) * counts / period).round() + 1.0;
+    let bits = (8..=48).find(|bits| counts + 1.0 == (1_u64 << bits) as f64);
+    let how = match bits {
+        Some(bits) => format!(
+            "a counter of {bits} bits begins again after {} counts",
+            full(counts + 1.0)
+        ),
+        None if shown > counts => format!("its numbers show {} counts, which is more", full(shown)),
+        None => return None,
     };
-    finding.at(first)
+    let right = overflow::counts(
+        &position
+            .iter()
+            .map(|x| x * counts / period)
+            .collect::<Vec<_>>(),
+    );
+    let right = right.or(bits.map(|bits| 1 << bits));
+    let line = right.map_or("correct wrap".into(), |right| {
+        format!("write wrap = \"{right} counts\"")
+    });
+    Some(format!("{how}: {line} under [log] in axis.toml"))
 }
 
 /// Why a position as it is logged does not begin again after this period, if so.
@@ -149,7 +182,7 @@ fn wrong(position: &[f64], period: f64, unit: &str) -> Option<String> {
 }
 
 /// How often a column wrapped, and at which sample first; `None` where it never did.
-fn straighten(column: &mut [f64], period: f64) -> Option<(usize, usize)> {
+pub(super) fn straighten(column: &mut [f64], period: f64) -> Option<(usize, usize)> {
     let mut turns = 0.0;
     let mut before: Option<f64> = None;
     let mut wraps: Option<(usize, usize)> = None;

@@ -6,7 +6,7 @@
 use super::channel::{Role, Selector};
 use super::select::select;
 use super::{Mapping, describe, endings};
-use crate::{Dimension, Table, Unit};
+use crate::{Dimension, Table};
 
 /// Part of the samples by which columns of one base may differ in length.
 pub(crate) const MAX_CUT_SHARE: f64 = 0.01;
@@ -106,14 +106,7 @@ fn stamps_of(table: &Table, column: usize) -> Option<usize> {
 /// Whether a column is time by its name, in a unit of time or none.
 pub(super) fn is_time(table: &Table, index: usize) -> bool {
     endings::hint(table, index).is_some_and(|hint| hint.role == Role::Time)
-        && unit(table, index).is_none_or(|unit| unit.dimension() == Dimension::TIME)
-}
-
-/// The unit of a column, as the file or the ending of its name has it.
-fn unit(table: &Table, index: usize) -> Option<Unit> {
-    let written = table.columns[index].unit.as_ref();
-    let written = written.and_then(|unit| Unit::parse(unit).ok());
-    written.or_else(|| endings::unit(table, index))
+        && endings::unit_of(table, index).is_none_or(|unit| unit.dimension() == Dimension::TIME)
 }
 
 /// The last time column before a column: tables of several clocks are written as time, values, time, values.
@@ -124,7 +117,8 @@ fn stamps_before(table: &Table, column: usize) -> Option<usize> {
 /// Whether two time columns of one length are stamps of different samples: one ends earlier, or they run at different rates.
 /// Two clocks that stamp the same rows differ by an offset and little more.
 fn run_apart(table: &Table, own: usize, other: usize) -> bool {
-    let factors = [own, other].map(|index| unit(table, index).map(|unit| unit.factor()));
+    let factors =
+        [own, other].map(|index| endings::unit_of(table, index).map(|unit| unit.factor()));
     let (own, other) = (&table.columns[own], &table.columns[other]);
     let increases = |values: &[f64]| {
         let mut known = values.iter().filter(|t| t.is_finite());

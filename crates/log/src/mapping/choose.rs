@@ -7,7 +7,7 @@ use super::flags::is_flag;
 use super::names::{self, Hint};
 use super::select::{distinct, select};
 use super::still::{has_to_change, never_changes};
-use super::{Detected, Mapping, bases, counted, describe, endings, motion, rate, wanted};
+use super::{Detected, Mapping, bases, counted, describe, endings, motion, offered, rate, wanted};
 use crate::findings::{Finding, Severity};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
@@ -81,6 +81,12 @@ pub(super) fn columns(
                 );
                 let allowed = format!("the column of the {role}; {}", describe::columns(table));
                 refused.push(of_role(Error::new(Kind::Ambiguous, found, allowed)));
+                *out.mapping.slot(role) = None;
+                continue;
+            }
+            let no_motion = given.position.is_none() && given.velocity.is_none();
+            if role == Role::Force && no_motion && scan.is_position(column) {
+                refused.push(of_role(scan.position_as_force(column)));
                 *out.mapping.slot(role) = None;
                 continue;
             }
@@ -199,7 +205,9 @@ pub(crate) fn clear(table: &Table) -> Mapping {
     }
     if out.position.is_none() && out.velocity.is_none() {
         let counts = |c: &usize| {
-            !scan.used[*c] && !scan.flags[*c] && names::says_counts(&table.columns[*c].name)
+            let by_unit = scan.units[*c].as_ref().map(Unit::dimension) == Some(Dimension::COUNTS);
+            let free = !scan.used[*c] && !scan.flags[*c] && !scan.is_hinted(*c, Role::Force);
+            free && (by_unit || names::says_counts(&table.columns[*c].name))
         };
         let mut counted = (0..table.columns.len()).filter(counts);
         if let (Some(column), None) = (counted.next(), counted.next()) {
@@ -339,6 +347,34 @@ impl<'a> Scan<'a> {
             && unit.is_none_or(|unit| unit.dimension() == Dimension::TIME)
     }
 
+    /// Whether a column is a measured position by its name, in a unit of a position or none.
+    fn is_position(&self, column: usize) -> bool {
+        self.hints[column].is_some_and(|hint| hint.role == Role::Position && !hint.weak)
+            && self.unit_allows(column, Role::Position)
+    }
+
+    /// The refusal of a position that is named as the force of a log, with the line of what could be the force.
+    fn position_as_force(&self, column: usize) -> Error {
+        let found = format!(
+            "{} is the position, by its name and unit",
+            describe::column(self.table, column)
+        );
+        let mut forces = (0..self.units.len())
+            .filter(|c| self.is_hinted(*c, Role::Force) && self.unit_allows(*c, Role::Force));
+        let line = forces.next().map(|c| {
+            format!(
+                ", as in: {}",
+                offered::line(self.table, c, Role::Force, self.kind())
+            )
+        });
+        let allowed = format!(
+            "the column of the force{}; {}",
+            line.unwrap_or_default(),
+            describe::columns(self.table)
+        );
+        Error::new(Kind::Ambiguous, found, allowed)
+    }
+
     fn take(&mut self, column: usize) -> Channel {
         self.used[column] = true;
         let name = &self.table.columns[column].name;
@@ -462,7 +498,8 @@ impl<'a> Scan<'a> {
 
     /// The line that makes a column a role, and for a motion the line of the force of the same axis.
     fn lines_of_axis(&self, column: usize, role: Role) -> String {
-        let line = describe::line(self.table, column, role);
+        let motion = self.kind();
+        let line = offered::line(self.table, column, role, motion);
         let letter = |c: usize| names::axis_letter(&self.table.columns[c].name);
         let is_force = |c: usize| match self.hints[c] {
             Some(hint) => hint.role == Role::Force && self.unit_allows(c, Role::Force),
@@ -474,11 +511,24 @@ impl<'a> Scan<'a> {
             .filter(|&c| letter(c).is_some() && letter(c) == letter(column) && is_force(c));
         match (forces.next(), forces.next()) {
             (Some(force), None) if role == Role::Position => {
-                let force = describe::line(self.table, force, Role::Force);
+                let force = offered::line(self.table, force, Role::Force, motion);
                 format!("{line} with {force}")
             }
             _ => line,
         }
+    }
+
+    /// The kind of motion that the units of positions and velocities tell, else the names of all columns.
+    fn kind(&self) -> Option<Motion> {
+        let roles = [Role::Position, Role::Velocity];
+        let by_unit = |unit: &Unit| {
+            roles
+                .iter()
+                .find_map(|role| motion::of(*role, unit.dimension()))
+        };
+        let names = self.table.columns.iter().map(|own| own.name.as_str());
+        let told = self.units.iter().flatten().find_map(by_unit);
+        told.or_else(|| motion::from_names(names).ok())
     }
 
     /// Refuses a column of another axis than that of the columns chosen so far: nothing in the samples would show
@@ -510,8 +560,8 @@ impl<'a> Scan<'a> {
                 );
                 let allowed = format!(
                     "say which belong together in axis.toml under [columns], as in: {} with {}",
-                    describe::line(self.table, column, role),
-                    describe::line(self.table, index, other)
+                    offered::line(self.table, column, role, self.kind()),
+                    offered::line(self.table, index, other, self.kind())
                 );
                 return Err(Error::new(Kind::Ambiguous, found, allowed));
             }
@@ -580,10 +630,11 @@ impl<'a> Scan<'a> {
             let free = !self.used[*c] && !self.flags[*c] && !self.still[*c];
             free && !named && self.unit_allows(*c, Role::Position)
         };
-        let example = match (0..self.units.len()).find(open) {
-            Some(column) => {
-                describe::line_with(self.table, column, Role::Position, "unit = \"mm\"")
-            }
+        // Counts are of an encoder, whatever else could be a position.
+        let mut counted = (0..self.units.len()).filter(|c| counted::is_counted(self.table, *c));
+        let counted = counted.find(|c| open(c) && !self.is_hinted(*c, Role::Force));
+        let example = match counted.or_else(|| (0..self.units.len()).find(open)) {
+            Some(column) => offered::line(self.table, column, Role::Position, None),
             None => "position = { column = NUMBER, unit = \"mm\" }".into(),
         };
         let allowed = format!(
@@ -622,7 +673,10 @@ impl<'a> Scan<'a> {
                      \"FILE\", column = \"NAME\", unit = \"UNIT\" }"
                 .to_string(),
         };
-        let how = self.nanometres().unwrap_or(how);
+        let how = self
+            .nanometres()
+            .or_else(|| self.counted_force())
+            .unwrap_or(how);
         let message = format!(
             "no column was recognised as force, torque or current; friction needs one; {}; {how}",
             describe::columns(self.table)
@@ -640,6 +694,18 @@ impl<'a> Scan<'a> {
              log, or in axis.toml under [columns]: {}",
             describe::column(self.table, column),
             describe::line_with(self.table, column, Role::Force, "unit = \"N m\"")
+        ))
+    }
+
+    /// What to write where a force is in counts, which measure nothing until their size is given.
+    fn counted_force(&self) -> Option<String> {
+        let in_counts =
+            |c: &usize| self.is_hinted(*c, Role::Force) && counted::is_counted(self.table, *c);
+        let column = (0..self.units.len()).find(in_counts)?;
+        Some(format!(
+            "{} has the name of a force, and the size of its counts is not given: give it in axis.toml under [columns], as in: {}",
+            describe::column(self.table, column),
+            offered::line(self.table, column, Role::Force, self.kind())
         ))
     }
 

@@ -4,7 +4,8 @@ use super::channel::{Channel, Motion, Role};
 use super::convert::{Source, is_force};
 use super::select::select;
 use super::{
-    Detected, Mapping, choose, counted, describe, enable, endings, motion, names, rate, understood,
+    Detected, Mapping, choose, counted, describe, enable, endings, motion, names, offered, rate,
+    understood,
 };
 use crate::findings::{Finding, Severity};
 use crate::{Column, Dimension, Error, Kind, Table, Unit};
@@ -118,7 +119,10 @@ fn settled(
     let clock = parts.iter().find(|p| p.role == Role::Time);
     let clock = clock.filter(|part| part.unit.is_none());
     let seconds = clock.map(|part| seconds(table, part)).transpose();
-    let missing = half_labelled(table, parts, seconds.is_err());
+    // The lines that tell columns of one role apart give them a unit.
+    let told_apart = |e: &Error| e.kind == Kind::Ambiguous && e.setting().is_none();
+    let asked = seconds.is_err() || refused.iter().any(told_apart);
+    let missing = half_labelled(table, parts, asked);
     let is_bare = missing.is_some();
     let seconds = seconds.unwrap_or_else(|e| {
         refused.push(e);
@@ -133,12 +137,12 @@ fn settled(
             Err(e) => refused.push(e),
         }
     }
-    let counted = match out.mapping.motion {
-        None if !is_bare => bare_counts(table, parts, &known),
-        _ => None,
+    let counted = match is_bare {
+        true => Vec::new(),
+        false => bare_counts(table, parts, &known, out.mapping.motion),
     };
     // The units that are to be given tell the kind of motion, and so do columns that are not found yet.
-    let is_told = is_bare || counted.is_some() || lacks_column(&out.mapping, table, parts);
+    let is_told = is_bare || !counted.is_empty() || lacks_column(&out.mapping, table, parts);
     refused.extend(counted);
     let kind = settle_motion(out, table, parts, &known);
     if refused.is_empty() || !is_told {
@@ -233,8 +237,9 @@ fn usual(role: Role) -> &'static str {
     }
 }
 
-/// The refusal of motion or force columns without a unit in a file where others have one; `clock` where the time needs one.
-fn half_labelled(table: &Table, parts: &[Part], clock: bool) -> Option<Error> {
+/// The refusal of motion or force columns without a unit in a file where others have one; `asked` where another column is to be given
+/// one.
+fn half_labelled(table: &Table, parts: &[Part], asked: bool) -> Option<Error> {
     let written = |column: &Column| column.unit.is_some() && !column.stamps;
     let labelled = table.columns.iter().any(written)
         || parts
@@ -245,30 +250,19 @@ fn half_labelled(table: &Table, parts: &[Part], clock: bool) -> Option<Error> {
         .iter()
         .filter(|p| p.unit.is_none() && core.contains(&p.role))
         .peekable();
-    let part = bare.peek().copied().filter(|_| labelled || clock)?;
-    let told = likely(table, parts);
+    let part = bare.peek().copied().filter(|_| labelled || asked)?;
+    let names = || table.columns.iter().map(|own| own.name.as_str());
+    let told = likely(table, parts).or_else(|| motion::from_names(names()).ok());
     let motion = told.unwrap_or(Motion::Linear);
-    let line = |part: &Part| {
-        if part.role == Role::Position && counted::is_counted(table, part.column) {
-            return counted::lines(table, part.column, told);
-        }
-        let current = names::says_current(&table.columns[part.column].name);
-        let unit = match (part.role, motion) {
-            (Role::Position, Motion::Linear) => "mm",
-            (Role::Position, Motion::Rotary) => "deg",
-            (Role::Velocity, Motion::Linear) => "mm/s",
-            (Role::Velocity, Motion::Rotary) => "deg/s",
-            _ if current => "A",
-            (_, Motion::Linear) => "N",
-            (_, Motion::Rotary) => "N m",
-        };
-        describe::line_with(table, part.column, part.role, &format!("unit = \"{unit}\""))
+    let line = |part: &Part| match counted::is_counted(table, part.column) {
+        true => offered::line(table, part.column, part.role, told),
+        false => offered::line(table, part.column, part.role, Some(motion)),
     };
     let lines: Vec<String> = bare.map(line).collect();
     let found = match labelled {
         true => format!("{} has no unit while other columns have one", part.role),
         false => format!(
-            "{} has no unit, and needs one where the time is given one",
+            "{} has no unit, and needs one where another column is given one",
             part.role
         ),
     };
@@ -320,20 +314,40 @@ fn settle_motion(
     Ok(kind)
 }
 
-/// The refusal of a position in counts, by its unit or its name, whose size is not given.
-fn bare_counts(table: &Table, parts: &[Part], known: &[(Role, Dimension)]) -> Option<Error> {
-    let part = parts.iter().find(|part| part.role == Role::Position)?;
-    let by_unit = known.contains(&(Role::Position, Dimension::COUNTS));
-    let by_name = part.unit.is_none() && counted::is_counted(table, part.column);
-    (by_unit || by_name).then_some(())?;
-    let told = likely(table, parts).filter(|_| by_name);
-    let lines = counted::lines(table, part.column, told);
-    let error = Error::new(
-        Kind::Unit,
-        "position is in encoder counts, and the size of a count is not given",
-        format!("give it in axis.toml under [columns], as in: {lines}"),
-    );
-    Some(error.in_column(describe::place(table, part.column)))
+/// The refusals of a position and a force in counts, by their unit or their name, whose size is not given.
+fn bare_counts(
+    table: &Table,
+    parts: &[Part],
+    known: &[(Role, Dimension)],
+    kind: Option<Motion>,
+) -> Vec<Error> {
+    let refused = |part: &Part| {
+        let by_unit = known.contains(&(part.role, Dimension::COUNTS));
+        let by_name = part.unit.is_none() && counted::is_counted(table, part.column);
+        (by_unit || by_name).then_some(())?;
+        let told = kind.or_else(|| likely(table, parts).filter(|_| by_name));
+        let lines = counted::lines(table, part.column, part.role, told);
+        let of = match part.role {
+            Role::Position => "encoder counts",
+            _ => "counts",
+        };
+        let error = Error::new(
+            Kind::Unit,
+            format!(
+                "{} is in {of}, and the size of a count is not given",
+                part.role
+            ),
+            format!("give it in axis.toml under [columns], as in: {lines}"),
+        );
+        let error = error.in_column(describe::place(table, part.column));
+        Some(match by_unit && part.channel.unit.is_some() {
+            true => error.of_setting(part.role.key("unit")),
+            false => error,
+        })
+    };
+    let counted = [Role::Position, Role::Force];
+    let parts_of = parts.iter().filter(|part| counted.contains(&part.role));
+    parts_of.filter_map(refused).collect()
 }
 
 /// Fills in the units that nothing tells, with one finding that lists them.
@@ -419,8 +433,6 @@ fn seconds(table: &Table, part: &Part) -> Result<Unit, Error> {
         .map(|w| w[1] - w[0])
         .filter(|d| d.is_finite());
     let median = crate::findings::median(&mut steps.collect::<Vec<_>>());
-    let plausible =
-        |unit: &Unit| median.is_some_and(|dt| PLAUSIBLE_SPACING.contains(&(unit.factor() * dt)));
     if median.is_some_and(|dt| PLAUSIBLE_SPACING.contains(&dt)) {
         return Unit::parse("s");
     }
@@ -440,8 +452,7 @@ fn seconds(table: &Table, part: &Part) -> Result<Unit, Error> {
         )
     };
     // Those that would do; of none of them milliseconds and seconds, which are most usual.
-    let fits = |unit: &&str| Unit::parse(unit).is_ok_and(|unit| plausible(&unit));
-    let mut units: Vec<&str> = ["ms", "us", "ns", "min"].into_iter().filter(fits).collect();
+    let mut units = offered::times(values);
     if units.is_empty() {
         units = vec!["ms", "s"];
     }

@@ -203,10 +203,14 @@ impl Source {
             (Role::Acceleration, Motion::Linear) => ", or g and mg of standard gravity",
             _ => "",
         };
-        let allowed = format!(
-            "{kind} {} ({text}{also}); give the unit, or a scale such as \"2.5 {text}/{under}\"",
-            wanted.name()
-        );
+        let how = match self.unit.dimension() == Dimension::COUNTS && self.scale_text.is_none() {
+            true => format!(
+                "give the size of a count, as in: {}",
+                super::counted::lines(table, self.column, role, Some(motion))
+            ),
+            false => format!("give the unit, or a scale such as \"2.5 {text}/{under}\""),
+        };
+        let allowed = format!("{kind} {} ({text}{also}); {how}", wanted.name());
         // Without a scale the unit is what is wrong; it may stand in the recording.
         let key = role.key(if self.scale_text.is_some() {
             "scale"

@@ -1,12 +1,15 @@
-//! Positions in encoder counts: by their names, where no unit says so, and counters that begin again.
+//! Positions and forces in counts: by their names, where no unit says so, and counters that begin again.
 
 use super::channel::{Motion, Role};
-use super::{Mapping, describe, names, select};
-use crate::Table;
-use crate::log::unwrap;
+use super::{Mapping, describe, endings, names, select};
+use crate::log::overflow;
+use crate::{Dimension, Table};
 
-/// Whether a column without a unit holds encoder counts: by its name, of an encoder also by its whole numbers.
+/// Whether a column holds counts: by its unit; without one by its name, of an encoder also by its whole numbers.
 pub(super) fn is_counted(table: &Table, column: usize) -> bool {
+    if let Some(unit) = endings::unit_of(table, column) {
+        return unit.dimension() == Dimension::COUNTS;
+    }
     let column = &table.columns[column];
     let is_bare = column
         .unit
@@ -20,48 +23,43 @@ pub(super) fn is_counted(table: &Table, column: usize) -> bool {
         && (names::speaks_of_counts(&column.name) || names::says_encoder(&column.name) && whole())
 }
 
+/// What a count of a role is worth, as an example: of a linear and of a rotary axis.
+fn sizes(role: Role, name: &str) -> [&'static str; 2] {
+    match role {
+        Role::Force if names::says_current(name) => ["0.001 A/count"; 2],
+        Role::Force => ["0.01 N/count", "0.01 N m/count"],
+        _ => ["1 um/count", "0.5 mrad/count"],
+    }
+}
+
 /// The lines that give a column in counts its size, of a linear and of a rotary axis, and that of a counter that begins again.
-pub(super) fn lines(table: &Table, column: usize, motion: Option<Motion>) -> String {
+pub(super) fn lines(table: &Table, column: usize, role: Role, motion: Option<Motion>) -> String {
+    let own = &table.columns[column];
     let with = |scale: &str| {
-        let is_written = table.columns[column].unit.is_some();
-        let unit = if is_written {
+        let unit = if own.unit.is_some() {
             ""
         } else {
             "unit = \"counts\", "
         };
-        describe::line_with(
-            table,
-            column,
-            Role::Position,
-            &format!("{unit}scale = \"{scale}\""),
-        )
+        describe::line_with(table, column, role, &format!("{unit}scale = \"{scale}\""))
     };
+    let [linear, rotary] = sizes(role, &own.name);
     let size = match motion {
-        Some(Motion::Linear) => with("1 um/count"),
-        Some(Motion::Rotary) => with("0.5 mrad/count"),
-        None => format!("{} or {}", with("1 um/count"), with("0.5 mrad/count")),
+        Some(Motion::Linear) => with(linear),
+        Some(Motion::Rotary) => with(rotary),
+        None if linear == rotary => with(linear),
+        None => format!("{} or {}", with(linear), with(rotary)),
     };
-    match period(&table.columns[column].values) {
+    if role != Role::Position {
+        return size;
+    }
+    match overflow::counts(&table.columns[column].values) {
         Some(counts) => format!(
-            "{size}; it jumps as a counter of {} bits that begins again does: then also wrap = \"{counts} counts\" under [log]",
-            counts.ilog2()
+            "{size}; it jumps as {} that begins again does: then also wrap = \"{counts} counts\" under [log]",
+            overflow::counter(counts)
         ),
         None => size,
     }
-}
-
-/// The counts after which a counter begins again, where all its jumps are those of one.
-fn period(values: &[f64]) -> Option<u64> {
-    /// Part of the range that a step reaches only where the counter begins again.
-    const JUMP: f64 = 0.5;
-    let numbers: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
-    let low = numbers.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let steps = numbers.windows(2).map(|pair| pair[1] - pair[0]);
-    let jumps = steps.filter(|step| step.abs() > JUMP * (high - low));
-    let mut bits = jumps.map(|jump| unwrap::bits(jump, 1.0));
-    let first = bits.next()??;
-    bits.all(|other| other == Some(first)).then_some(1 << first)
 }
 
 impl Mapping {
@@ -70,7 +68,7 @@ impl Mapping {
         let channel = self.position.as_ref()?;
         let unit = channel.unit.as_ref()?;
         let column = select::select(table, &channel.column, Role::Position).ok()?;
-        let is_counted = unit.dimension() == crate::Dimension::COUNTS;
-        period(&table.columns[column].values).filter(|_| is_counted)
+        let is_counted = unit.dimension() == Dimension::COUNTS;
+        overflow::counts(&table.columns[column].values).filter(|_| is_counted)
     }
 }

@@ -118,6 +118,13 @@ pub(super) fn unit(table: &Table, index: usize) -> Option<Unit> {
     read(table, index).map(|(_, unit, _)| unit)
 }
 
+/// The unit of a column, as the file or the ending of its name has it.
+pub(super) fn unit_of(table: &Table, index: usize) -> Option<Unit> {
+    let written = table.columns[index].unit.as_ref();
+    let written = written.and_then(|unit| Unit::parse(unit).ok());
+    written.or_else(|| unit(table, index))
+}
+
 /// The name of a column without the unit at its end.
 pub(super) fn stem(table: &Table, index: usize) -> &str {
     match read(table, index) {

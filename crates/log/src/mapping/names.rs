@@ -200,10 +200,15 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
     let commanded = has(COMMANDED);
     let measured = has(MEASURED);
     let is_load = words.iter().any(|w| w == "normal") || words == ["load"];
+    let own = own_words(name);
+    let stands = |word: &str| {
+        let stands = |words: &[String]| words.iter().any(|w| w == word) && alone(words, word);
+        stands(&words) || stands(&own)
+    };
     let strong = |word: &String| {
         let among = |list: &[&str]| list.contains(&word.as_str());
         // `f`, `dq` and their like mean something only where they stand alone: `fActPos` does not.
-        let short_among_words = word.len() <= 2 && !alone(&words, word);
+        let short_among_words = word.len() <= 2 && !stands(word);
         if short_among_words {
             None
         } else if among(TIME) {
@@ -223,21 +228,7 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
         }
     };
     let weak = || {
-        // A letter may stand alone in its group: `run.t`.
-        let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
-        let own = match group.is_empty()
-            || self::words(group)
-                .iter()
-                .any(|w| VECTORS.contains(&w.as_str()))
-        {
-            true => words.clone(),
-            false => self::words(own),
-        };
-        let stands =
-            |words: &[String], word: &str| words.iter().any(|w| w == word) && alone(words, word);
-        let (_, role) = WEAK
-            .iter()
-            .find(|(word, _)| stands(&words, word) || stands(&own, word))?;
+        let (_, role) = WEAK.iter().find(|(word, _)| stands(word))?;
         Some(*role)
     };
     // The last word is the noun: `encoder_velocity` is a velocity. Except `time of ...`, as the
@@ -269,6 +260,14 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
         measured,
         weak: is_weak,
     })
+}
+
+/// The words of a name without its group, in which a letter or two may stand alone: `run.t`, `run.iq_actual`. All of them where the
+/// group is one of directions.
+fn own_words(name: &str) -> Vec<String> {
+    let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
+    let is_vector = words(group).iter().any(|w| VECTORS.contains(&w.as_str()));
+    words(if is_vector { name } else { own })
 }
 
 /// Letters that a machine's axes are called by where they stand alone.

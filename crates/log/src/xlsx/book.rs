@@ -114,7 +114,7 @@ pub(super) struct Named {
     /// Where it is told.
     pub id: String,
     /// Whether Excel shows it.
-    is_hidden: bool,
+    pub is_hidden: bool,
 }
 
 /// The sheets in the order of the workbook, those that are shown before those that are hidden.

@@ -52,14 +52,20 @@ pub(crate) fn read(file: File, limits: Limits) -> Result<Table, Error> {
         let mut found: Option<Table> = None;
         let mut small: Option<(String, Table)> = None;
         let mut skipped = Vec::new();
-        for book::Named { name, id, .. } in sheets {
+        for book::Named {
+            name,
+            id,
+            is_hidden,
+        } in sheets
+        {
             if found.is_some() {
                 skipped.push(format!("sheet {name}: not the first with a table"));
                 continue;
             }
             match table(&mut archive, &book, &id, limits) {
                 Ok(mut table) => {
-                    table.detected.insert(0, format!("sheet {name}"));
+                    let hidden = if is_hidden { ", which is hidden" } else { "" };
+                    table.detected.insert(0, format!("sheet {name}{hidden}"));
                     let (columns, rows) = (table.columns.len(), table.rows());
                     if columns >= LEAST_TABLE.0 && rows >= LEAST_TABLE.1 {
                         found = Some(table);

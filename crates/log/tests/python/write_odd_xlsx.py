@@ -1,4 +1,4 @@
-"""Writes workbooks that are odd: cells TRUE among numbers, a hidden sheet before the one that is shown, too many columns.
+"""Writes workbooks that are odd: cells TRUE among numbers, hidden sheets before the one that is shown and alone, too many columns.
 
     python write_odd_xlsx.py FOLDER
 """
@@ -28,6 +28,13 @@ book.active.sheet_state = "hidden"
 rows(book.create_sheet("run"), 20)
 book.active = 1
 book.save(folder / "hidden.xlsx")
+
+book = Workbook()
+book.active.title = "cover"
+book.active.append(["a title alone"])
+rows(book.create_sheet("raw"), 20)
+book["raw"].sheet_state = "veryHidden"
+book.save(folder / "only_hidden.xlsx")
 
 book = Workbook()
 book.active.append([float(i) for i in range(5000)])

@@ -378,7 +378,13 @@ fn a_counter_that_overflows_is_put_together() {
             let log = Log::from_table(&table, &mapping(Some(Wrap::Counts(counts)))).unwrap();
             assert!(warnings(&log).contains(&"position-wrap"), "{counts}");
             let told = message(&log, "position-wrap");
-            assert!(told.contains("correct wrap under [log]"), "{told}");
+            assert!(told.contains("under [log]"), "{told}");
+        }
+        // One less than its bits say, or one more number than it shows: the line that is right is told.
+        for wrong in [65535.0, 256.0] {
+            let log = Log::from_table(&table, &mapping(Some(Wrap::Counts(wrong)))).unwrap();
+            let told = message(&log, "position-wrap");
+            assert!(told.contains("write wrap = \"65536 counts\""), "{told}");
         }
         let log = Log::from_table(&table, &mapping(Some(Wrap::Counts(65536.0)))).unwrap();
         let shift = log.position.as_ref().unwrap()[0] - 1e-6 * whole[0];
@@ -394,6 +400,31 @@ fn a_counter_that_overflows_is_put_together() {
     let error = Log::from_table(&axis(4000).table(), &mapping).unwrap_err();
     assert_eq!(error.setting(), Some("log.wrap"));
     assert!(error.to_string().contains("the position is in"), "{error}");
+}
+
+/// A counter that overflows every few samples, so that no step is small beside its jumps, and one of a turn of 4000 counts.
+#[test]
+fn a_fast_counter_is_told() {
+    for (counts, size) in [(65536_i64, 0.2e-6), (4000, 1e-6)] {
+        let mut axis = axis(4000);
+        for x in &mut axis.position {
+            *x = ((*x / size).round() as i64).rem_euclid(counts) as f64;
+        }
+        let mut table = axis.table();
+        table.columns[1].unit = Some("counts".into());
+        let position = Channel {
+            scale: Some(format!("{size} m/count").parse::<Value>().unwrap()),
+            ..Channel::named("position")
+        };
+        let mapping = Mapping {
+            position: Some(position),
+            ..Mapping::default()
+        };
+        let log = Log::from_table(&table, &mapping).unwrap();
+        let told = message(&log, "position-jump");
+        let line = format!("write wrap = \"{counts} counts\" under [log]");
+        assert!(told.contains(&line), "{told}");
+    }
 }
 
 /// Counts that are lost in motion, for good or for one sample; a slip out of a rest is no fault.

@@ -44,7 +44,7 @@ fn all_that_is_open_is_told_at_once() {
     let kinds: Vec<Kind> = said.iter().map(|(kind, _)| *kind).collect();
     assert_eq!(kinds, [Kind::Ambiguous, Kind::Unit, Kind::Unit], "{said:?}");
     for (line, (_, message)) in [
-        "force = \"f1\"",
+        "force = { column = \"f1\", unit = \"N\" }",
         "time = { column = \"t\", unit = \"ms\" }",
         "position = { column = \"x\", unit = \"mm\" }",
     ]
@@ -53,7 +53,7 @@ fn all_that_is_open_is_told_at_once() {
     {
         assert!(message.contains(line), "{message}");
     }
-    // With these lines nothing is left to decide but the unit of the force, which was not known to be one.
+    // With these lines nothing is left to decide.
     let written = Mapping {
         time: named("t", "ms"),
         position: named("x", "mm"),
@@ -204,4 +204,112 @@ fn rows_of_one_rate_whose_stamps_are_rounded_are_told_their_rate() {
         refused.to_string().contains("rate = \"1500 Hz\""),
         "{refused}"
     );
+}
+
+fn seconds() -> Vec<f64> {
+    (0..2000).map(|k| f64::from(k) * 1e-3).collect()
+}
+
+fn swing(size: f64) -> Vec<f64> {
+    let x = |k: i32| (size * (9e-3 * f64::from(k)).sin()).round();
+    (0..2000).map(x).collect()
+}
+
+/// Columns in counts, by their unit or their name, are offered the size of a count, whatever they are.
+#[test]
+fn what_is_in_counts_is_offered_the_size_of_a_count() {
+    let mut said_of = String::new();
+    for (names, units) in [
+        (["Time", "Value", "Force"], ["s", "counts", "N"]),
+        (["Time", "Axis 1", "Force"], ["s", "inc", "N"]),
+        (["Time", "inc", "Force"], ["s", "", "N"]),
+        (["Time", "Position", "Force counts"], ["s", "mm", ""]),
+        (["Time", "Position", "Force"], ["s", "mm", "counts"]),
+        (["t", "x", "Force counts"], ["", "", ""]),
+    ] {
+        let mut columns = vec![
+            column(names[0], seconds()),
+            column(names[1], swing(300.0)),
+            column(names[2], swing(200.0)),
+        ];
+        for (column, unit) in columns.iter_mut().zip(units) {
+            column.unit = Some(unit.to_string()).filter(|unit| !unit.is_empty());
+        }
+        let table = table(columns);
+        let said = match Log::from_table(&table, &Mapping::default()) {
+            Err(e) => e.to_string(),
+            Ok(log) => message(&log, "no-force").to_string(),
+        };
+        said_of.push_str(&format!("{} {units:?}\n{said}\n\n", names.join(" | ")));
+    }
+    insta::assert_snapshot!(said_of);
+}
+
+/// The lines that are offered for columns of one role have units where the file has none, and a letter or two in a group counts.
+#[test]
+fn candidates_are_offered_with_their_units() {
+    let struct_of = table(vec![
+        column("run.t", seconds()),
+        column("run.q", swing(300.0)),
+        column("run.torque_actual", swing(200.0)),
+        column("run.iq_actual", swing(100.0)),
+    ]);
+    let milliseconds = |off: f64| seconds().iter().map(|t| 1e3 * t + off).collect();
+    let two_clocks = table(vec![
+        column("t1", milliseconds(0.0)),
+        column("t2", milliseconds(0.3)),
+        column("Position [mm]", swing(300.0)),
+        column("current_a", swing(100.0)),
+        column("current_b", swing(110.0)),
+    ]);
+    let said: Vec<String> = [struct_of, two_clocks]
+        .iter()
+        .map(|table| Mapping::detect(table).unwrap_err().to_string())
+        .collect();
+    insta::assert_snapshot!(said.join("\n\n"));
+}
+
+#[test]
+fn a_position_that_is_named_as_force_is_refused() {
+    let table = table(vec![
+        column("Time [s]", seconds()),
+        column("Position [mm]", swing(300.0)),
+        column("Force [N]", swing(200.0)),
+    ]);
+    let mapping = Mapping {
+        force: Some(Channel::named("Position")),
+        ..Mapping::default()
+    };
+    let error = mapping.complete(&table).unwrap_err();
+    assert_eq!(error.setting(), Some("columns.force.column"));
+    insta::assert_snapshot!(error.to_string());
+}
+
+/// An angle whose steps are those of an encoder of 18 bits in degrees is no angle in radians, given or assumed.
+#[test]
+fn degrees_that_are_read_as_radians_are_told() {
+    let step = 360.0 / 262_144.0;
+    let angle = |size: f64| -> Vec<f64> {
+        let q = |k: i32| (size / step * (9e-3 * f64::from(k)).sin()).round() * step;
+        (0..2000).map(q).collect()
+    };
+    let table = |angle| {
+        table(vec![
+            column("t", seconds()),
+            column("q", angle),
+            column("torque", swing(200.0)),
+        ])
+    };
+    let log = Log::from_table(&table(angle(20.0)), &Mapping::default()).unwrap();
+    insta::assert_snapshot!(message(&log, "unlikely-size"));
+    let given = Mapping {
+        position: named("q", "rad"),
+        force: named("torque", "N m"),
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&table(angle(20.0)), &given).unwrap();
+    assert!(warnings(&log).contains(&"unlikely-size"));
+    let radians = angle(20.0).iter().map(|q| q.to_radians()).collect();
+    let log = Log::from_table(&table(radians), &Mapping::default()).unwrap();
+    assert!(!warnings(&log).contains(&"unlikely-size"));
 }

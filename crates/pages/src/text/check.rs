@@ -1,11 +1,11 @@
 //! The outcome of a check, and what an axis file was begun with.
 
 use super::table::table;
-use crate::next::{ANOTHER_LOG, axis_file};
+use crate::next::ANOTHER_LOG;
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::result::Cure;
-use stiction_files::shell::{quoted, quoted_path, shown};
+use stiction_files::shell::{new_axis_file, quoted, quoted_path, shown};
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
 use stiction_workflows::check::{Check, Lead, LogCheck, Started, TrackingChange};
@@ -180,7 +180,7 @@ fn turns(angle: f64) -> Option<String> {
 }
 
 /// What an axis file was begun with, and what to type next.
-pub fn started(started: &Started, log: &Path, file: &Path) -> String {
+pub fn started(started: &Started, logs: &[&Path], file: &Path) -> String {
     let mut out = format!("{} written\n", shown(&file.display().to_string()));
     for change in &started.changes {
         let _ = writeln!(out, "  {change}");
@@ -195,10 +195,11 @@ pub fn started(started: &Started, log: &Path, file: &Path) -> String {
         Some(_) => "next: fill in what is to decide, then",
         None => "next:",
     };
+    let logs: Vec<String> = logs.iter().map(|log| quoted_path(log)).collect();
     let _ = writeln!(
         out,
         "{then} stiction check {} --axis {}",
-        quoted_path(log),
+        logs.join(" "),
         quoted_path(file)
     );
     out
@@ -331,10 +332,9 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
         Some(file) => format!(" --axis {}", quoted_path(file)),
         None => String::new(),
     };
-    let init = format!(
-        "stiction check {path}{with} --init {}",
-        axis_file(&log.input.path)
-    );
+    // A file that is there is kept, and would be refused.
+    let new = || new_axis_file(Path::new(&log.input.path));
+    let init = format!("stiction check {path}{with} --init {}", new());
     if !log.input.assumed.is_empty() {
         out.push(format!(
             "to write down the units that were assumed, and correct them there: {init}"
@@ -363,7 +363,7 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
                         quoted(&file.display().to_string()),
                     ),
                     None => {
-                        let file = axis_file(&log.input.path);
+                        let file = new();
                         (format!("in a new file {file}"), file)
                     }
                 };

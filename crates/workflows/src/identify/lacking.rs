@@ -39,8 +39,13 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
         let mut each = each.flat_map(|source| &source.log.findings);
         each.find(|finding| finding.code == code)
     };
-    // Where the position jumps, all else is seen in pieces.
-    let jumps = found(Code::PositionJump).filter(|_| poor || found(Code::ForceSign).is_some());
+    // Where the position jumps, all else is seen in pieces; one that begins again is refused whatever is left.
+    let is_refused = evidence
+        .sources
+        .iter()
+        .any(|source| source.log.overflow().is_some());
+    let jumps = found(Code::PositionJump)
+        .filter(|_| !is_refused && (poor || found(Code::ForceSign).is_some()));
     if let Some(finding) = jumps {
         reasons.push(finding.message.clone(), Next::AxisFile);
     }

@@ -138,6 +138,10 @@ pub(crate) fn identify_asked(
     held_out: Vec<Source>,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
+    let overflown = sources.iter().find_map(|source| {
+        let refused = source.log.overflow()?;
+        Some(Error::from(refused.in_file(&source.path)))
+    });
     let plan = asked.options.procedures.plan.as_deref();
     let plan = plan.map(|file| planned::read(file, &sources)).transpose()?;
     let loaded = load(asked, sources, held_out)?;
@@ -149,7 +153,12 @@ pub(crate) fn identify_asked(
             fit_force(asked, loaded, observer)
         }
     };
-    let mut outcome = outcome.map_err(|e| e.at_axis(asked.axis))?;
+    // Between two overflows there may be too little left of anything.
+    let outcome = outcome.map_err(|e| match (e.losses(), overflown) {
+        (Some(_), Some(refused)) => refused,
+        _ => e.at_axis(asked.axis),
+    });
+    let mut outcome = outcome?;
     if let Some(plan) = &plan {
         planned::into_outcome(plan, &mut outcome);
     }

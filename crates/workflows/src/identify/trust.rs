@@ -482,6 +482,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     if let Some(why) = disagree::of_two_axes(&law.disagreements) {
         reasons.push(why, Next::FirstLog);
     }
+    overflown(evidence.sources, reasons);
     let gravity = lacking::named(evidence, reasons);
     search_ended(evidence, warnings, reasons);
     explains_little(evidence, warnings, reasons);
@@ -609,6 +610,14 @@ fn no_machine(sources: &[Source], reasons: &mut Reasons) {
     let mut findings = sources.iter().flat_map(|source| &source.log.findings);
     if let Some(found) = findings.find(|finding| finding.code == Code::UnlikelySize) {
         reasons.push(found.message.clone(), Next::AxisFile);
+    }
+}
+
+/// Refuses logs whose position begins again, as a counter that overflows does: what is between two overflows is not how the axis
+/// moved.
+fn overflown(sources: &[Source], reasons: &mut Reasons) {
+    if let Some(refused) = sources.iter().find_map(|source| source.log.overflow()) {
+        reasons.push(refused.found, Next::AxisFile);
     }
 }
 

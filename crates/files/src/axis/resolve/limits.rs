@@ -6,6 +6,19 @@ use crate::config::{Given, Table};
 use crate::error::Error;
 use stiction_log::{Dimension, Motion};
 
+/// The keys of `[limits]`.
+const KEYS: [&str; 9] = [
+    "stroke",
+    "end_zone",
+    "speed",
+    "acceleration",
+    "jerk",
+    "rated_force",
+    "peak_force",
+    "mass",
+    "force_noise",
+];
+
 /// Largest part of the stroke that may be left free at either end.
 const LARGEST_ZONE: f64 = 0.45;
 
@@ -20,7 +33,12 @@ pub(super) fn limits(root: &Table<'_>, kind: Option<Motion>) -> Result<Option<Ax
         (None, None) => {
             let found = "is missing, and so is kind";
             let allowed = "give stroke or kind, which say whether the axis is linear or rotary";
-            return Err(table.refuse("stroke", found.into(), allowed));
+            let missing = table.refuse("stroke", found.into(), allowed);
+            // A name that is misspelt may be what is missing.
+            KEYS.iter().for_each(|key| drop(table.get(key)));
+            let mut refused = table.strangers();
+            refused.push(missing);
+            return Err(Error::of_all(refused).expect("the stroke is missing"));
         }
     };
     let mass = match motion {

@@ -28,6 +28,10 @@ fn odd_workbooks_are_told() {
         hidden.skipped
     );
 
+    // A hidden one is read where no other has a table, which is said.
+    let alone = read("only_hidden.xlsx").unwrap();
+    assert_eq!(alone.detected[1], "sheet raw, which is hidden");
+
     let wide = read("wide.xlsx").unwrap_err();
     assert_eq!(wide.kind, Kind::Limit);
     let said = wide.to_string();

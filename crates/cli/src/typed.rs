@@ -1,0 +1,61 @@
+//! What was typed, argument by argument, also where some are missing.
+
+use crate::arguments::Arguments;
+use clap::parser::ValueSource;
+use clap::{ArgMatches, CommandFactory};
+use std::ffi::OsString;
+use std::path::PathBuf;
+use stiction::commands::shell::text as path_text;
+
+/// A command as it was typed.
+pub struct Typed {
+    /// The name of the command.
+    pub command: String,
+    matches: ArgMatches,
+}
+
+impl Typed {
+    /// The command that was typed; `None` without one.
+    pub fn new() -> Option<Self> {
+        let matches = Arguments::command().ignore_errors(true).try_get_matches();
+        let (command, matches) = matches.ok()?.remove_subcommand()?;
+        Some(Self { command, matches })
+    }
+
+    /// What stands behind the command without an option before it.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let known = Arguments::command();
+        let command = known.find_subcommand(&self.command);
+        let positionals = command
+            .into_iter()
+            .flat_map(|command| command.get_positionals());
+        let values = positionals.flat_map(|argument| self.values(argument.get_id().as_str()));
+        values.map(PathBuf::from).collect()
+    }
+
+    /// The values of an option; none where it was not typed.
+    pub fn values(&self, id: &str) -> Vec<OsString> {
+        let source = self.matches.try_contains_id(id).ok().filter(|there| *there);
+        let source = source.and_then(|_| self.matches.value_source(id));
+        if source != Some(ValueSource::CommandLine) {
+            return Vec::new();
+        }
+        let values = self.matches.get_raw(id).into_iter().flatten();
+        values.map(|value| value.to_os_string()).collect()
+    }
+
+    /// These options as they are typed again, each with its values; without any it is a flag.
+    pub fn again(&self, options: &[&str]) -> Vec<String> {
+        let one = |name: &&str| {
+            let values = self.values(&name.replace('-', "_"));
+            let is_flag = matches!(values.as_slice(), [one] if one == "true");
+            let values = values.iter().filter(|_| !is_flag);
+            let values: Vec<String> = values.map(|v| path_text(v.as_ref())).collect();
+            match values.is_empty() && !is_flag {
+                true => Vec::new(),
+                false => std::iter::once(format!("--{name}")).chain(values).collect(),
+            }
+        };
+        options.iter().flat_map(one).collect()
+    }
+}
