@@ -70,12 +70,12 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
         output::json(&file)?;
     } else if !common.quiet {
         output::print(&stiction::commands::text::batch(&file, dir, axis))?;
-        let unread = file
-            .failed
-            .iter()
-            .find(|failed| failed.code == Code::LogFormat);
         let logs: Vec<&Path> = batch.inputs().collect();
-        let left = unread.and_then(|failed| without(Path::new(&failed.path), &typed.inputs, &logs));
+        let failed = |log: &Path| file.failed.iter().any(|f| Path::new(&f.path) == log);
+        let unread = file.failed.iter().filter(|f| f.code == Code::LogFormat);
+        let left = unread
+            .map(|f| Path::new(&f.path))
+            .find_map(|none| without(none, &typed.inputs, (&logs, &failed)));
         if let Some(command) = left {
             output::print(&format!(
                 "next, where that is no log, to leave it out: {command}\n"
@@ -93,8 +93,13 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
     Ok(stiction::commands::verdict::of_batch(&file).into())
 }
 
-/// The same batch of the logs of a folder that end otherwise than one that is none, where those have one ending.
-fn without(none: &Path, inputs: &[PathBuf], logs: &[&Path]) -> Option<String> {
+/// The same batch of the logs of a folder that end otherwise than one that is none, where those have one ending and not all of them
+/// failed.
+fn without(
+    none: &Path,
+    inputs: &[PathBuf],
+    (logs, failed): (&[&Path], &dyn Fn(&Path) -> bool),
+) -> Option<String> {
     let [folder] = inputs else { return None };
     let others = || {
         logs.iter()
@@ -104,6 +109,7 @@ fn without(none: &Path, inputs: &[PathBuf], logs: &[&Path]) -> Option<String> {
     let is_plain =
         |log: &&Path| log.parent() == Some(folder) && log.extension() == Some(ending.as_ref());
     let is_one = folder.is_dir() && others().all(is_plain);
+    let is_one = is_one && others().any(|log| !failed(log));
     is_one.then(|| crate::next::in_place_of(folder, &folder.join(format!("*.{ending}"))))
 }
 

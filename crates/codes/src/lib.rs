@@ -66,6 +66,7 @@ codes! {
     ForceSign = "force-sign": "the force does negative work: its sign is probably inverted",
     Saturation = "saturation": "the force saturates at a limit",
     CoarseForce = "coarse-force": "the force comes in coarse steps",
+    ForceDead = "force-dead": "the force is zero while the axis moves",
     ForceSpike = "force-spike": "single samples of the force are far beyond all others",
     PositionWrap = "position-wrap": "the position wrapped round and was unwrapped",
     PositionJump = "position-jump": "the position jumps further than any motion could take it",

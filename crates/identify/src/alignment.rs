@@ -12,71 +12,113 @@ use crate::estimate::estimate;
 use crate::lateness::{MOST, likely};
 use crate::law::Law;
 use crate::law::terms::Terms;
-use crate::separable::follow;
 use crate::separable::optimum::Optimum;
 use crate::separable::search_box::MOST_DELAY;
 use crate::separable::settings::Settings;
+use crate::separable::{follow, separable};
+use stiction_parameters::LawKind;
 use stiction_search::{Observer, Status};
 
-/// Part of the range of the delay from which on it may be at the end of it on another record.
+/// Delay in parts of its range from which on it may be further away.
 const NEAR_THE_END: f64 = 0.75;
 /// Samples of the record from one fit to the next: each sees four to either side.
 const STRIDE: f64 = 6.0;
 /// Most fits.
 const MOST_FITS: usize = 12;
-/// Relative error of the fit at the rows that are found, in parts of that as logged, at most.
+/// Relative error of the fit at the rows that are found, in parts of that as logged, at most; where force and motion were laid
+/// beside each other already, any less is better.
 const LEFT: f64 = 0.5;
+const LEFT_BESIDE: f64 = 1.0;
 
 /// Rows by which the force of these logs of one axis has to be taken later (earlier where negative), so that it belongs to the
-/// motion beside it; `None` where the delay is within its range as logged, or no other rows explain the force much better.
+/// motion beside it; `None` where the delay is within its range as logged, or no other rows explain the force much better. Where
+/// it was taken `laid` rows later before, since [`lateness`](crate::lateness()) said so, the rows beyond these, and `-laid` where
+/// the law explains the force as well as logged.
 ///
-/// `near` is the end of a fit of the logs with this conditioning, whose law is fitted from there. Costs nothing where its delay is
-/// within its range, else a few local fits.
+/// `near` is the end of a fit of the logs with this conditioning, whose law is fitted from there; without it LuGre. Costs nothing where its delay is
+/// within its range and nothing was laid, else a few local fits.
 pub fn alignment(
     logs: &[Samples],
     conditioning: &Conditioning,
-    near: &(Law, Vec<f64>),
+    (near, laid): (Option<&(Law, Vec<f64>)>, isize),
     terms: &Terms,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Option<isize> {
-    let (law, start) = near;
-    let delay = start.get(law.nonlinear())?;
-    if delay.abs() < NEAR_THE_END * MOST_DELAY {
+    let law = near.map_or(Law::new(LawKind::LuGre), |(law, _)| *law);
+    let near = near.map(|(_, end)| end.as_slice()).unwrap_or_default();
+    let (start, delay) = near.split_at_checked(law.nonlinear()).unwrap_or_default();
+    let is_near_the_end = |delay: f64| delay.abs() >= NEAR_THE_END * MOST_DELAY;
+    if laid == 0 && !delay.first().is_some_and(|delay| is_near_the_end(*delay)) {
         return None;
     }
-    let start = start.get(..law.nonlinear())?;
     let mut fit = |rows: isize| -> Option<(Optimum, f64)> {
         let moved: Vec<Samples> = logs.iter().map(|log| moved(log, rows)).collect();
         let record = condition(&moved, conditioning).ok()?;
         let terms = terms.about(&record);
-        let found = follow(start, &record, *law, &terms, settings, observer).ok()?;
-        let fitted = estimate(&record, *law, &terms, &found, 0.0);
+        let found = match laid {
+            0 => follow(start, &record, law, &terms, settings, observer),
+            // Rows that no law has led to may be as wrong as the fit there.
+            _ => separable(&record, law, &terms, settings, observer),
+        };
+        let found = found.ok()?;
+        let fitted = estimate(&record, law, &terms, &found, 0.0);
         let own = fitted.fit.relative_error_percent;
         (found.status != Status::Interrupted && own.is_finite()).then_some((found, own))
     };
     let beyond = |found: &Optimum| {
         let delay = found.p.last().copied().unwrap_or(0.0);
-        found.delay_at_bound().then_some(delay.signum() as isize)
+        is_near_the_end(delay).then_some(delay.signum() as isize)
     };
     let (found, logged) = fit(0)?;
-    let way = beyond(&found)?;
+    if laid != 0 && fit(-laid).is_some_and(|(_, own)| own <= logged) {
+        return Some(-laid);
+    }
     let record = condition(logs, conditioning).ok()?;
     let step = record.step() / median_step(&logs.first()?.time);
     let stride = (STRIDE * step).round().max(1.0) as isize;
-    let mut rows = likely(logs, way).unwrap_or(way * stride);
     let mut seen = vec![0];
-    while !seen.contains(&rows) && rows.unsigned_abs() < MOST && seen.len() < MOST_FITS {
-        let (found, own) = fit(rows)?;
-        match beyond(&found) {
-            None => return (own < LEFT * logged).then_some(rows),
-            Some(way) => {
+    let mut within = match beyond(&found) {
+        None if laid == 0 => return None,
+        None => Some((0, logged)),
+        Some(way) => {
+            let mut rows = likely(logs, way).unwrap_or(way * stride);
+            let mut within = None;
+            while !seen.contains(&rows) && rows.unsigned_abs() < MOST && seen.len() < MOST_FITS {
+                let (found, own) = fit(rows)?;
                 seen.push(rows);
-                rows += way * stride;
+                match beyond(&found) {
+                    None => {
+                        within = Some((rows, own));
+                        break;
+                    }
+                    Some(way) => rows += way * stride,
+                }
             }
+            within
         }
+    };
+    // A delay within its range may be one of several, the true one beyond an end.
+    while let Some((rows, least)) = within
+        && seen.len() < MOST_FITS
+    {
+        let beside = [rows - stride, rows + stride].into_iter();
+        let new = |at: &isize| !seen.contains(at) && at.unsigned_abs() < MOST;
+        let beside: Vec<isize> = beside.filter(new).collect();
+        let better = beside.iter().filter_map(|at| {
+            let (found, own) = fit(*at)?;
+            (beyond(&found).is_none() && own < least).then_some((*at, own))
+        });
+        let better = better.min_by(|a, b| a.1.total_cmp(&b.1));
+        seen.extend(beside);
+        if better.is_none() {
+            break;
+        }
+        within = better;
     }
-    None
+    let left = if laid == 0 { LEFT } else { LEFT_BESIDE };
+    let (rows, _) = within.filter(|(rows, own)| *rows != 0 && *own < left * logged)?;
+    Some(rows)
 }
 
 /// A log whose force is taken so many rows later, within each stretch.

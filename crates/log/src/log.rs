@@ -116,6 +116,8 @@ pub struct Log {
     pub excluded: Vec<Excluded>,
     /// Rows that the enable column leaves out; `None` without such a column.
     pub not_enabled: Option<NotEnabled>,
+    /// Whether the force comes from another file whose time stamps are taken as they are.
+    pub force_as_stamped: bool,
     /// First samples after rows that were left out by choice, in order, counted from 0.
     pub(crate) resumed: Vec<usize>,
     /// Stretches of at least 1 s in which the axis stands still, in order.
@@ -174,7 +176,8 @@ impl Log {
             &joined.mapping,
             (&joined.outside, joined.own),
         )?;
-        if joined.force_as_stamped {
+        log.force_as_stamped = joined.force_as_stamped;
+        if log.force_as_stamped {
             findings::sign_of_another_clock(&mut log.findings);
         }
         log.findings.splice(0..0, joined.findings.iter().cloned());
@@ -312,6 +315,7 @@ impl Log {
             gaps: Vec::new(),
             excluded: mended.bridged,
             not_enabled: chosen.not_enabled(),
+            force_as_stamped: false,
             resumed,
             rests: Vec::new(),
             findings,
@@ -334,8 +338,12 @@ impl Log {
     }
 
     /// The rate of the rows of a table, Hz, where the clock of this mapping's time column is coarser than the sampling: its stamps are
-    /// rounded, or repeat. `None` where they are to be kept.
+    /// rounded, or repeat. `None` where they are to be kept, and where their unit is open.
     pub fn rate_of_coarse_clock(table: &Table, mapping: &Mapping) -> Option<f64> {
+        let time = mapping.time.as_ref()?;
+        time.unit
+            .as_ref()
+            .or(time.scale.as_ref().map(|scale| &scale.unit))?;
         let source = Source::of(mapping, table, Role::Time).ok()??;
         clock::rate_of_coarse(&table.columns[source.column].values, &source)
     }
@@ -479,7 +487,7 @@ impl Log {
     pub fn take_force_from(&mut self, rows: isize, whole: isize) {
         const CODES: [Code; 2] = [Code::ForceLate, Code::MotionLate];
         let ms = stiction_number::short(1e3 * whole.unsigned_abs() as f64 / self.rate_hz);
-        let by = format!("{} rows ({ms} ms) later than", whole.unsigned_abs());
+        let by = format!("about {} rows ({ms} ms) later than", whole.unsigned_abs());
         let (code, message) = match whole > 0 {
             true => (
                 Code::ForceLate,

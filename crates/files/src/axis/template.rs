@@ -46,9 +46,14 @@ pub struct Found {
     pub own_stamps: Vec<OwnStamps>,
     /// The column of time stamps that are not read since their clock is coarser than the sampling.
     pub coarse: Option<Channel>,
+    /// The line that leaves out the rows in which the axis was not enabled, where a column says so by its name.
+    pub enable: Option<String>,
     /// What the numbers of each column look like; may be empty.
     pub columns: Vec<String>,
 }
+
+/// What may stand there of a column that says where the axis is enabled.
+const ENABLE: &str = "# enable = \"NAME\"    # rows where it is 0 are left out; of a mode: { column = \"NAME\", equals = 8 }";
 
 /// Text of an axis file for a table: detected columns filled in, or those that are clear and why the others could not be;
 /// everything else as comments that say what may stand there.
@@ -173,7 +178,13 @@ pub fn template(
             }
         }
     }
-    out.push_str("# enable = \"NAME\"    # rows where it is 0 are left out; of a mode: { column = \"NAME\", equals = 8 }\n");
+    let _ = match &found.enable {
+        Some(line) => writeln!(
+            out,
+            "# {line}    # 0 in some rows: without the # those are left out"
+        ),
+        None => writeln!(out, "{ENABLE}"),
+    };
     let Words {
         length,
         count,

@@ -155,6 +155,17 @@ fn stamped(
         let message = format!("{found}, first data row {}; dropped", first + 1);
         findings.push(Finding::new(Code::TimeMissing, Severity::Warning, message));
     }
+    if let (Some(first), Some(clock)) = (repeated.first(), coarse())
+        && share(&repeated) <= MAX_DROPPED_SHARE
+        && stampless.is_empty()
+    {
+        findings.push(counted_in_place(&clock, &repeated, first + 1));
+        time = (0..range.len())
+            .map(|row| row as f64 / clock.rate_hz)
+            .collect();
+        dropped.clear();
+        repeated.clear();
+    }
     if let Some(&first) = repeated.first() {
         let found = format!(
             "{} with the time stamp of the row before",
@@ -189,16 +200,8 @@ fn stamped(
             let error = Error::new(Kind::Time, found, allowed).settled(Settled::Elsewhere);
             return Err(error.at_row(first as u64 + 1));
         }
-        let constant = coarse().map_or(String::new(), |clock| {
-            format!(
-                "; the stamps are rounded to {} s, and the rows are at one rate: above [columns] of axis.toml write {}, and delete \
-                 time under it",
-                short(clock.tick),
-                clock.line()
-            )
-        });
         let message = format!(
-            "{found}, first data row {} at {} s; the first of each is kept{constant}",
+            "{found}, first data row {} at {} s; the first of each is kept",
             first + 1,
             short(since(first, origin))
         );
@@ -238,6 +241,18 @@ fn stamped(
         range,
         dropped,
     })
+}
+
+/// Says that rows are at one rate, which the stamps of a coarse clock do not show one by one.
+fn counted_in_place(clock: &Coarse, repeated: &[usize], first: usize) -> Finding {
+    let message = format!(
+        "{} with the time stamp of the row before, first data row {first}: the stamps are rounded to {} s, and the rows are at one rate, \
+         {} Hz, at which they are counted",
+        count(repeated.len(), "row"),
+        short(clock.tick),
+        clock.rate_hz
+    );
+    Finding::new(Code::DuplicateTime, Severity::Note, message)
 }
 
 /// The rate of the rows, Hz, whose stamps a clock rounds that is coarser than the sampling; `None` where the stamps are to be kept.

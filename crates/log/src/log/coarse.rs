@@ -38,7 +38,7 @@ impl Coarse {
         let tick = tick(time, step)?;
         let near =
             |(k, t): (usize, &f64)| (t - first - k as f64 * step).abs() <= tick * (1.0 + SAME);
-        if !time.iter().enumerate().all(near) {
+        if !time.iter().enumerate().all(near) || !alike_often(time, tick / step) {
             return None;
         }
         let of = |seconds: f64| steps as f64 / seconds;
@@ -69,6 +69,21 @@ impl Coarse {
     pub fn line(&self) -> String {
         format!("rate = \"{} Hz\"", self.rate_hz)
     }
+}
+
+/// Whether as many rows have one stamp as fall into a tick, one more or one less where that is no whole number: of rows that are
+/// missing here and there any number is left.
+fn alike_often(time: &[f64], rows_in_a_tick: f64) -> bool {
+    let mut groups = time.chunk_by(|a, b| a == b).map(<[f64]>::len);
+    // Those at the ends are cut off.
+    groups.next();
+    let inside: Vec<usize> = groups.collect();
+    let inside = &inside[..inside.len().saturating_sub(1)];
+    let (least, most) = (rows_in_a_tick * (1.0 - SAME), rows_in_a_tick * (1.0 + SAME));
+    rows_in_a_tick < 1.0
+        || inside
+            .iter()
+            .all(|rows| (least.floor()..=most.ceil()).contains(&(*rows as f64)))
 }
 
 /// How far two steps are apart that are all that there are, the shorter of which is a multiple of that.

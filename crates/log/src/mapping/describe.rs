@@ -85,10 +85,16 @@ pub(super) fn line_with(table: &Table, index: usize, role: impl Display, rest: &
     format!("{role} = {{ column = {}, {rest} }}", value(table, index))
 }
 
+/// Whether a character stands for nothing that is seen, or turns what is around it: a line that has it cannot be copied.
+fn is_unseen(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{ad}' | '\u{61c}' | '\u{180e}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
+}
+
 fn value(table: &Table, index: usize) -> String {
     let name = &table.columns[index].name;
     let unique = table.columns.iter().filter(|c| c.name == *name).count() == 1;
-    let plain = !name.is_empty() && !name.contains(['"', '\\']) && !name.contains(char::is_control);
+    let plain = !name.is_empty() && !name.contains(['"', '\\']) && !name.contains(is_unseen);
     if unique && plain && name.chars().count() <= QUOTED {
         format!("\"{name}\"")
     } else {

@@ -48,17 +48,29 @@ impl Enable {
     }
 }
 
-/// Warns of a column that says by its name and its zeros that the axis was not enabled in some rows, where a mapping keeps them all.
-pub(super) fn ignored(given: &Mapping, table: &Table) -> Option<Finding> {
-    if given.enable.is_some() {
-        return None;
-    }
+/// The column that says by its name and its zeros that the axis was not enabled in some rows, where a mapping keeps them all.
+fn unused(given: &Mapping, table: &Table) -> Option<usize> {
     let says = |column: &usize| {
         names::says_enabled(&table.columns[*column].name)
             && is_flag(table, *column)
             && has_zeros(table, *column)
     };
-    let column = (0..table.columns.len()).find(says)?;
+    let mut columns = (0..table.columns.len()).filter(|_| given.enable.is_none());
+    columns.find(says)
+}
+
+impl Mapping {
+    /// The line of the axis file that leaves out the rows in which a column, by its name, says that the axis was not enabled, where
+    /// this mapping keeps them all.
+    pub fn enable_line(&self, table: &Table) -> Option<String> {
+        let column = unused(self, table)?;
+        Some(Enable::whole_line(table, column))
+    }
+}
+
+/// Warns of such a column.
+pub(super) fn ignored(given: &Mapping, table: &Table) -> Option<Finding> {
+    let column = unused(given, table)?;
     let message = format!(
         "column {} is 0 in some rows, and all rows are used: where the axis is not enabled, the force is not what moves it; if it \
          is enabled where the column is 1, leave out the others: {} under [columns] of the axis file",

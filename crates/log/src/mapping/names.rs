@@ -347,8 +347,9 @@ pub(super) fn says_enabled(name: &str) -> bool {
     let own = name.rsplit_once('.').map_or(name, |(_, own)| own);
     let words = words(own);
     let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
-    has(&["enable", "enabled", "powered", "freigabe"])
-        || has(&["on"]) && has(&["servo", "drive", "motor", "axis", "power"])
+    let says = has(&["enable", "enabled", "powered", "freigabe"])
+        || has(&["on"]) && has(&["servo", "drive", "motor", "axis", "power"]);
+    says && !has(&["not", "no", "un", "off", "keine"])
 }
 
 /// Whether a name speaks of current.

@@ -952,3 +952,34 @@ fn counts_without_their_sign_are_read_with_it() {
     );
     assert!(!codes(&read(&signed)).contains(&"unsigned-counts"));
 }
+
+/// A drive that is off while the axis moves on is no friction.
+#[test]
+fn a_force_that_is_zero_while_the_axis_moves_is_left_out() {
+    let mut table = axis(8000).table();
+    let force = table.columns.iter().position(|c| c.name == "force");
+    let force = &mut table.columns[force.unwrap()].values;
+    force[3000..4000].iter_mut().for_each(|f| *f *= 1e-3);
+    let log = Log::from_table(&table, &Mapping::default()).unwrap();
+    assert_eq!(warnings(&log), ["force-dead"]);
+    insta::assert_snapshot!(message(&log, "force-dead"));
+    let valid = log.valid();
+    assert!(!valid[2960] && !valid[3500] && !valid[4040]);
+    assert!(valid[2900] && valid[4100]);
+    // Passing zero is no such stretch.
+    let whole = Log::from_table(&axis(8000).table(), &Mapping::default()).unwrap();
+    assert_eq!(warnings(&whole), [""; 0]);
+}
+
+/// Rows at one rate, of which a coarser clock stamps some alike, are all kept.
+#[test]
+fn rows_of_one_rate_keep_their_repeated_stamps() {
+    let mut table = axis(8000).table();
+    table.columns[0].values = (0..8000)
+        .map(|i| (f64::from(i) / 1.024).floor() * 1e-3)
+        .collect();
+    let log = Log::from_table(&table, &Mapping::default()).unwrap();
+    assert_eq!((log.time.len(), log.rate_hz), (8000, 1024.0));
+    assert_eq!(warnings(&log), [""; 0]);
+    insta::assert_snapshot!(message(&log, "duplicate-time"));
+}

@@ -386,8 +386,8 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
         }
         Lead::Record => {
             format!(
-                "next: record a log that moves both ways, with its force (what to record: docs/procedures.md), then: stiction \
-                 check {ANOTHER_LOG}{with}"
+                "next: record another log, slow and fast and both ways, with its force below its limit (what to record: docs/procedures.md), \
+                 then: stiction check {ANOTHER_LOG}{with}"
             )
         }
     };

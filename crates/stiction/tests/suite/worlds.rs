@@ -478,6 +478,19 @@ fn a_force_beside_other_motion_is_taken_as_it_belongs() {
     }
 }
 
+/// No delay is that of two logs, of which one is late and the other is not.
+#[test]
+fn logs_that_are_late_by_different_amounts_are_not_fitted_together() {
+    let mut machines = Machine::all(SEED).into_iter();
+    let machine = machines.find(|(name, _)| *name == "joint").unwrap().1;
+    let logs = [World::Late(40), World::Faithful]
+        .map(|world| record(&machine, Motion::Trapezoid, world, SEED));
+    let fit = identified(&machine, &logs, &Axis::default(), &Options::default()).unwrap();
+    assert!(!fit.is_trustworthy());
+    let reasons = fit.result().trust.reasons.join("; ");
+    assert!(reasons.contains("no delay is that of both"), "{reasons}");
+}
+
 /// The delay that is stated is that against the rows, and the warning has the line to write and the command that takes it.
 #[test]
 fn the_whole_delay_of_a_late_force_is_stated() {

@@ -57,6 +57,7 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
             let mut found = log.as_ref().map(found).unwrap_or_default();
             found.own_stamps = own_stamps;
             found.coarse = coarse;
+            found.enable = detected.mapping.enable_line(&table);
             let lacks = |f: &&stiction_log::Finding| f.code == Code::NoForce;
             let lacking = detected.findings.iter().find(lacks);
             let lacking = lacking.map(|finding| finding.message.clone());
@@ -81,6 +82,7 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
             let found = Found {
                 coarse: counted(&mut clear, &table),
                 columns: described(&table),
+                enable: clear.enable_line(&table),
                 wrap: clear
                     .counter(&table)
                     .map(|counts| format!("{counts} counts")),
@@ -113,6 +115,7 @@ fn found(log: &Log) -> Found {
         }),
         own_stamps: Vec::new(),
         coarse: None,
+        enable: None,
         columns: Vec::new(),
     }
 }

@@ -46,8 +46,10 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
             (left, judged_on) = (found, "validation");
         }
         if found > LITTLE_LEFT && found > VALIDATION_FAILS_ABOVE * fitted {
-            let mut logs = evidence.held_out.iter();
-            let turned = logs.any(|log| log.name() == *name && has_wrong_sign(log));
+            let log = evidence.held_out.iter().find(|log| log.name() == *name);
+            let turned = log.is_some_and(has_wrong_sign);
+            // What is one part of a log is no log to type.
+            let is_whole = log.is_some_and(|log| log.part.is_none());
             let text = format!(
                 "on {name} the law leaves {} of the friction, where it was fitted {}: {}",
                 percent(found),
@@ -58,6 +60,7 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
                 }
             );
             let next = match evidence.held_out.is_empty() {
+                _ if !is_whole => Next::Check,
                 true => Next::Check,
                 false if !turned && shows_friction(series, top_speed(own)) => {
                     Next::IdentifyTheOther

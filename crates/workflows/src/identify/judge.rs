@@ -50,6 +50,7 @@ pub(super) fn judge(
         sources: &loaded.sources,
         laws: &fitted.choice.laws,
         motion: loaded.motion(),
+        apart: loaded.apart.as_deref(),
         chosen: fitted.choice.by != "user",
         held_back: fitted.choice.held_back.as_deref(),
         better: fitted.choice.better.as_ref(),

@@ -13,6 +13,10 @@ use stiction_number::Percent;
 /// What takes a weight into the fit.
 const LINE: &str = "gravity = true";
 
+/// What lays a force from another file upon the motion.
+const ANOTHER_CLOCK: &str = "the force comes from another file, whose clock may be another: set offset = \"estimate\" beside its file \
+     under [columns]";
+
 /// Relative error of a fit, percent, above which something else than friction and inertia is looked for: a quarter.
 const MUCH_LEFT_PERCENT: f64 = 25.0;
 /// Stroke of a joint, rad, from which a law that finds it in presliding throughout has taken gravity for bristles: those of no joint
@@ -49,8 +53,11 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     if let Some(finding) = jumps {
         reasons.push(finding.message.clone(), Next::AxisFile);
     }
-    if let Some(finding) = found(Code::ForceSign) {
+    let enable = found(Code::EnableIgnored).filter(|_| poor);
+    if let Some(finding) = found(Code::ForceSign).or(enable) {
         reasons.push(finding.message.clone(), Next::AxisFile);
+    } else if poor && evidence.sources.iter().any(|s| s.log.force_as_stamped) {
+        reasons.push(ANOTHER_CLOCK.to_string(), Next::AxisFile);
     } else if poor && let Some(part) = like_gravity(evidence).filter(|part| *part > least) {
         let text = format!(
             "{} follows the sine and cosine of the angle, as gravity does: set {LINE} under [terms]",

@@ -19,10 +19,37 @@ pub(super) fn aligned(asked: Asked, mut loaded: Loaded) -> Result<Loaded, Error>
         return Ok(loaded);
     }
     let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
-    if let Some(rows) = lateness(&samples?) {
+    let samples = samples?;
+    let each = samples
+        .iter()
+        .map(|log| lateness(std::slice::from_ref(log)));
+    let each: Vec<usize> = each.map(Option::unwrap_or_default).collect();
+    loaded.apart = apart(&loaded.sources, &each);
+    if loaded.apart.is_none()
+        && let Some(rows) = lateness(&samples)
+    {
         loaded.take_force_from(rows as isize);
     }
     Ok(loaded)
+}
+
+/// Rows by which the delays of two logs may differ: what a fit of both finds to either side of the middle.
+const MOST_APART: usize = 6;
+
+/// The log whose force is the latest and the one whose is the least late, where no delay is that of both.
+fn apart(sources: &[Source], each: &[usize]) -> Option<String> {
+    let by_rows = |log: &(&Source, &usize)| *log.1;
+    let logs = || sources.iter().zip(each);
+    let (least, most) = (logs().min_by_key(by_rows)?, logs().max_by_key(by_rows)?);
+    (most.1 - least.1 > MOST_APART).then(|| {
+        format!(
+            "the force of {} was logged about {} rows later than its motion, that of {} about {}: no delay is that of both",
+            most.0.name(),
+            most.1,
+            least.0.name(),
+            least.1
+        )
+    })
 }
 
 /// The same where the fits that choose the cut-offs found the delay at the end of its range: by fits further on.
@@ -32,15 +59,15 @@ pub(super) fn realigned(
     conditioned: Conditioned,
     observer: &mut dyn Observer,
 ) -> Result<(Loaded, Conditioned), Error> {
-    let near = conditioned.settings.near.as_ref();
-    let Some(near) = near.filter(|_| is_sought(asked, &loaded)) else {
+    if loaded.apart.is_some() || !is_sought(asked, &loaded) {
         return Ok((loaded, conditioned));
-    };
+    }
+    let near = conditioned.settings.near.as_ref();
     let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
     let rows = alignment(
         &samples?,
         &conditioned.conditioning,
-        near,
+        (near, loaded.rows_late()),
         conditioned.terms(false),
         &conditioned.settings,
         observer,
@@ -66,10 +93,14 @@ fn is_sought(asked: Asked, loaded: &Loaded) -> bool {
 }
 
 impl Loaded {
+    /// By how many rows later than in the file the force is taken.
+    fn rows_late(&self) -> isize {
+        (self.late * self.sources[0].log.rate_hz).round() as isize
+    }
+
     fn take_force_from(&mut self, rows: isize) {
-        let rate = self.sources[0].log.rate_hz;
-        let whole = (self.late * rate).round() as isize + rows;
-        self.late = whole as f64 / rate;
+        let whole = self.rows_late() + rows;
+        self.late = whole as f64 / self.sources[0].log.rate_hz;
         for source in self.sources.iter_mut().chain(&mut self.held_out) {
             source.log.take_force_from(rows, whole);
         }

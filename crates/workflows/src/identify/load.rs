@@ -29,6 +29,8 @@ pub(super) struct Loaded {
     pub beside: Beside,
     /// By how much later than in their rows the force of all logs is taken, s; 0 where it is not.
     pub late: f64,
+    /// By how much the logs differ in that, in words, where no delay can be that of all.
+    pub apart: Option<String>,
 }
 
 impl Loaded {
@@ -88,6 +90,7 @@ pub(super) fn load(
         held_out,
         beside,
         late: 0.0,
+        apart: None,
     })
 }
 

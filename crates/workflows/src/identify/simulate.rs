@@ -145,6 +145,7 @@ pub(super) fn run(
         unscaled: mixed::cause(asked, &sources[0].log),
         can_be_simulated: false,
         motion,
+        apart: None,
     };
     let mut warnings = log_warnings(sources);
     warnings.extend(validation_warnings(&loaded.held_out, sources));

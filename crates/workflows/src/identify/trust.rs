@@ -205,6 +205,8 @@ pub(super) struct Evidence<'a> {
     pub sources: &'a [Source],
     /// Laws side by side; empty where they were not compared.
     pub laws: &'a [LawEntry],
+    /// How the logs differ in when their force was logged, where no delay is that of all.
+    pub apart: Option<&'a str>,
     pub motion: Motion,
     /// Whether the data chose the law.
     pub chosen: bool,
@@ -483,6 +485,9 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         reasons.push(why, Next::FirstLog);
     }
     overflown(evidence.sources, reasons);
+    if let Some(why) = evidence.apart {
+        reasons.push(why.to_string(), Next::FirstLog);
+    }
     let gravity = lacking::named(evidence, reasons);
     search_ended(evidence, warnings, reasons);
     explains_little(evidence, warnings, reasons);

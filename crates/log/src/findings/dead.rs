@@ -1,0 +1,77 @@
+//! A force that is zero while the axis moves: the drive was off, and something else moved it.
+
+use super::finding::{Finding, Severity, extremes, place};
+use crate::log::Log;
+use std::ops::Range;
+use stiction_codes::Code;
+use stiction_number::{counted as count, short};
+
+/// Largest force that counts as none, in parts of what nine of ten samples do not exceed: friction of a moving axis is more.
+const NONE: f64 = 0.03;
+/// Part of the samples that do not exceed that.
+const USUAL: f64 = 0.9;
+/// Shortest stretch, s and samples: a force that changes its sign passes zero sooner.
+const SHORTEST: f64 = 0.25;
+const FEWEST: usize = 50;
+/// What is excluded to either side too, s: a drive that is switched on or off takes its time.
+const BESIDE: f64 = 0.05;
+/// Least travel in it, in parts of the stroke.
+const TRAVEL: f64 = 0.02;
+
+/// Excludes stretches in which the axis moves under no force.
+pub(super) fn dead(log: &mut Log) {
+    let (Some(force), Some(position)) = (&log.force, &log.position) else {
+        return;
+    };
+    let (Some((low, high)), Some(usual)) = (extremes(position), usual(force)) else {
+        return;
+    };
+    let is_none = |sample: &usize| force[*sample].abs() <= NONE * usual;
+    let mut runs: Vec<Range<usize>> = Vec::new();
+    for segment in &log.segments {
+        let mut from = segment.start;
+        while let Some(start) = (from..segment.end).find(is_none) {
+            let end = (start..segment.end).find(|i| !is_none(i));
+            let end = end.unwrap_or(segment.end);
+            runs.push(start..end);
+            from = end;
+        }
+    }
+    let moves = |run: &Range<usize>| {
+        let path = position[run.clone()]
+            .windows(2)
+            .map(|w| (w[1] - w[0]).abs());
+        let lasts = log.time[run.end - 1] - log.time[run.start];
+        run.len() >= FEWEST && lasts >= SHORTEST && path.sum::<f64>() >= TRAVEL * (high - low)
+    };
+    runs.retain(moves);
+    let Some(first) = runs.first() else { return };
+    let samples: usize = runs.iter().map(Range::len).sum();
+    let message = format!(
+        "the force is zero while the axis moves, in {} ({} in all), the first from {} to {} s: the drive was off, and something else moved \
+         the axis; these samples are excluded",
+        count(runs.len(), "stretch").replace("stretchs", "stretches"),
+        count(samples, "sample"),
+        place(log, first.start),
+        short(log.time[first.end - 1]),
+    );
+    let finding = Finding::new(Code::ForceDead, Severity::Warning, message).at(first.start);
+    log.findings.push(finding);
+    let beside = (BESIDE * log.rate_hz).ceil() as usize;
+    for run in runs {
+        let last = log.time.len();
+        let all = run.start.saturating_sub(beside)..(run.end + beside).min(last);
+        log.exclude(all, Code::ForceDead);
+    }
+}
+
+/// What most samples do not exceed in size.
+fn usual(force: &[f64]) -> Option<f64> {
+    let mut sizes: Vec<f64> = force.iter().map(|f| f.abs()).collect();
+    let at = (USUAL * sizes.len() as f64) as usize;
+    if at >= sizes.len() {
+        return None;
+    }
+    let usual = *sizes.select_nth_unstable_by(at, f64::total_cmp).1;
+    Some(usual).filter(|usual| *usual > 0.0)
+}
