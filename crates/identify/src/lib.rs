@@ -79,6 +79,7 @@ mod parameter;
 pub mod procedure;
 mod reaction;
 mod refit;
+mod repeats;
 mod replica;
 mod separable;
 mod shifts;
