@@ -35,7 +35,7 @@ const TRACKING_FREQUENCY: f64 = 0.01;
 /// damp the motion that an encoder step causes.
 const ANSWERED_TRACKING_FREQUENCY: f64 = 0.0005;
 /// The same of an axis that repeats its motion from the first periods on: against the damping of a controller whose answer to a
-/// standing difference is not known, the softer spring takes ten seconds.
+/// standing difference is not known, the softer spring takes several seconds.
 const REPEATED_TRACKING_FREQUENCY: f64 = 0.0015;
 
 /// Logs of a known axis.
