@@ -80,6 +80,7 @@ mod parameter;
 pub mod procedure;
 mod reaction;
 mod refit;
+mod repeats;
 mod replica;
 mod separable;
 mod shifts;

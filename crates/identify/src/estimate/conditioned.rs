@@ -84,6 +84,8 @@ pub(super) fn shift(
 ) -> Option<Shift> {
     let conditioning = record.conditioning?;
     let axis = Axis::of(record, fitted)?;
+    // Noise under which a simulated axis moves smears what its counts leave; where those of the log come back, so must they.
+    let repeating = Axis::repeating(record, fitted);
     let noise = force_noise(record, &axis, &conditioning, fitted, &mut watch.counts)?;
     asked(watch)?;
     let mut windows = Windows::of(record, fitted, raw, &mut watch.counts);
@@ -106,7 +108,12 @@ pub(super) fn shift(
         for (sum, p) in stated.iter_mut().zip(&found.parameters) {
             *sum += p.variance(&all.unknowns.covariance) / REPLICA_COUNT as f64;
         }
-        energies.push(all.energies);
+        let returns = repeating.as_ref().and_then(|axis| {
+            let seed = FIRST_SEED + i;
+            comes_back(record, fitted, axis, noise, (seed, logs), watch)
+        });
+        asked(watch)?;
+        energies.push(returns.unwrap_or(all.energies));
         told.extend(all.told.clone());
         let of = (record, fitted);
         windows.count(
@@ -147,6 +154,21 @@ pub(super) fn shift(
         energies,
         told,
     })
+}
+
+/// What comes back of the residual of a replica whose motion repeats; `None` where there is no such replica, or the observer
+/// stops it.
+fn comes_back(
+    record: &Record,
+    fitted: &Estimate,
+    repeating: &Axis,
+    noise: f64,
+    (seed, logs): (u64, Option<&Logs>),
+    watch: &mut Watch,
+) -> Option<Energies> {
+    let what = (seed, Asked::All(logs));
+    let (found, _) = once(record, fitted, repeating, noise, what, watch)?;
+    Some(found.refit.all?.energies)
 }
 
 /// Whether to go on: `None` if the observer stops it.
