@@ -75,7 +75,7 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
         let unread = file.failed.iter().filter(|f| f.code == Code::LogFormat);
         let left = unread
             .map(|f| Path::new(&f.path))
-            .find_map(|none| without(none, &typed.inputs, (&logs, &failed)));
+            .find_map(|none| without(none, &typed.inputs, &logs, &failed));
         if let Some(command) = left {
             output::print(&format!(
                 "next, where that is no log, to leave it out: {command}\n"
@@ -98,7 +98,8 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
 fn without(
     none: &Path,
     inputs: &[PathBuf],
-    (logs, failed): (&[&Path], &dyn Fn(&Path) -> bool),
+    logs: &[&Path],
+    failed: &dyn Fn(&Path) -> bool,
 ) -> Option<String> {
     let [folder] = inputs else { return None };
     let others = || {

@@ -758,6 +758,7 @@ proptest! {
             wrap: Some("25 rad".into()),
             own_stamps: Vec::new(),
             coarse: None,
+            enable: None,
             columns: names.iter().map(|(name, _)| name.clone()).collect(),
         };
         let text = template(&table, Ok(&mapping), &found);

@@ -115,7 +115,7 @@ mod tests {
     fn what_jumps_otherwise_is_no_counter() {
         assert_eq!(counts(&sine(8e4, 1e9)[..1500]), None);
         // Noise, and a position that is set back and forth.
-        let noise = |k: u64| ((k * k * 2_654_435_761 >> 7) % 65536) as f64;
+        let noise = |k: u64| (((k * k * 2_654_435_761) >> 7) % 65536) as f64;
         assert_eq!(counts(&(0..5000).map(noise).collect::<Vec<_>>()), None);
         let square = |k: u64| (k / 500 % 2) as f64 * 2e4;
         assert_eq!(counts(&(0..9000).map(square).collect::<Vec<_>>()), None);
