@@ -530,7 +530,8 @@ impl Log {
         let length = self.time.len();
         let own = |row: usize| row.saturating_add_signed(-rows).min(length);
         for excluded in &mut self.excluded {
-            if excluded.code == Code::Saturation {
+            // What the force shows moves with it.
+            if [Code::Saturation, Code::ForceDead].contains(&excluded.code) {
                 excluded.samples = own(excluded.samples.start)..own(excluded.samples.end);
             }
         }

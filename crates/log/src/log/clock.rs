@@ -155,9 +155,10 @@ fn stamped(
         let message = format!("{found}, first data row {}; dropped", first + 1);
         findings.push(Finding::new(Code::TimeMissing, Severity::Warning, message));
     }
-    if let (Some(first), Some(clock)) = (repeated.first(), coarse())
+    if let Some(first) = repeated.first()
         && share(&repeated) <= MAX_DROPPED_SHARE
         && stampless.is_empty()
+        && let Some(clock) = coarse()
     {
         findings.push(counted_in_place(&clock, &repeated, first + 1));
         time = (0..range.len())
