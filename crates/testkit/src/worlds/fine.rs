@@ -15,6 +15,8 @@ const RESONANCE_OF_LOAD: (f64, f64) = (5.0, 0.1);
 const RESONANCE_OF_GAP: (f64, f64) = (4.0, 0.03);
 /// Width of the gap, in deflections at which friction breaks away, Fs/sigma0.
 const GAP: f64 = 0.5;
+/// Part of the viscous friction of the axis that is the load's own behind a gap, where it would float for ever without.
+const OF_LOAD: f64 = 0.1;
 /// Periods of the cogging in the distance that the top speed covers in a second.
 const PITCHES: f64 = 13.0;
 /// Waves of a level along the stroke.
@@ -180,13 +182,8 @@ impl Fine {
         out[0] = v;
         out[1] = (force - friction - outside - coupling) / mass;
         if mass < m.mass {
-            // A load in a gap has some friction of its own, or it would float for ever.
-            let own = match self.world {
-                World::Backlash => 0.1 * m.sigma2 * vl,
-                _ => 0.0,
-            };
             out[2] = vl;
-            out[3] = (coupling - own) / (m.mass - mass);
+            out[3] = (coupling - self.of_load() * vl) / (m.mass - mass);
         }
         out
     }
@@ -223,7 +220,15 @@ impl Fine {
         let z = s[4];
         let rate = v - m.sigma0 * v.abs() * z / (changed * m.level(v.abs(), exponent));
         out[4] = rate;
-        m.sigma0 * z + m.sigma1 * rate + m.sigma2 * v
+        m.sigma0 * z + m.sigma1 * rate + (m.sigma2 - self.of_load()) * v
+    }
+
+    /// Viscous friction of the load itself, N s/m.
+    fn of_load(&self) -> f64 {
+        match self.world {
+            World::Backlash => OF_LOAD * self.machine.sigma2,
+            _ => 0.0,
+        }
     }
 
     /// Stiffness and damping between motor and load for a resonance in bandwidths of the speed loop, and its damping ratio.
