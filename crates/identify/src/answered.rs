@@ -45,3 +45,36 @@ pub fn read(answers: bool, late: f64, count: f64, seed: u64) -> (Record, Vec<f64
     let record = condition(&[samples], &Conditioning::default()).unwrap();
     (record, held)
 }
+
+/// A record of moves to and fro under jerk of 1437 m/s3 with a mass of 10 kg: the force of the ramps is what the reference asks
+/// of it, and the controller answers the errors of its encoder alone.
+pub fn moves(count: f64) -> Record {
+    let mut noise = Noise::new(7);
+    let encoder = Encoder::new(count).unwrap();
+    let (mut x, mut v, mut a) = (0.0, 0.0, 0.0);
+    let (mut position, mut force) = (Vec::new(), Vec::new());
+    let mut errors = [0.0; 2];
+    for k in 0..16_000 {
+        // Ramps of acceleration up and down, a stretch at constant speed, and the same back; each way takes half a second.
+        let jerk = match (k % 2000, k % 4000 < 2000) {
+            (0..16 | 1900..1916, true) | (16..32 | 1884..1900, false) => 1437.0,
+            (16..32 | 1884..1900, true) | (0..16 | 1900..1916, false) => -1437.0,
+            _ => 0.0,
+        };
+        let read = encoder.read(x);
+        errors = [read - x, errors[0]];
+        position.push(read);
+        let answer = ANSWER[0] * errors[0] + ANSWER[1] * errors[1];
+        force.push(10.0 * a + answer + NOISE * noise.normal());
+        a += STEP * jerk;
+        v += STEP * a;
+        x += STEP * v;
+    }
+    let samples = Samples {
+        time: (0..position.len()).map(|k| k as f64 * STEP).collect(),
+        position: Some(position),
+        force,
+        ..Samples::default()
+    };
+    condition(&[samples], &Conditioning::default()).unwrap()
+}
