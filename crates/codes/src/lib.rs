@@ -114,6 +114,7 @@ codes! {
     Resonance = "resonance": "motor and load vibrate against each other on a spring",
     Backlash = "backlash": "a gap lies between motor and load",
     Gravity = "gravity": "the force follows the angle of a joint as that of a weight does",
+    ClocksApart = "clocks-apart": "force and motion were stamped by two clocks that run apart",
     LawShape = "law-shape": "friction or inertia has another shape than the law",
     CorrelatedResidual = "correlated-residual": "the residual is not noise: a systematic effect is left",
     ForceLate = "force-late": "the force was logged much later than the motion it belongs to",

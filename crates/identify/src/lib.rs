@@ -115,7 +115,7 @@ pub use law::Law;
 pub use law::dependence::Dependence;
 pub use law::terms::{Delay, FirstDelay, Lag, Mass, Terms};
 pub use law::transmitted::Transmitted;
-pub use misfit::{Between, Cause, Coupling, Divided, Encoder, Misfit, Repeats, Ripple};
+pub use misfit::{Between, Cause, Clocks, Coupling, Divided, Encoder, Misfit, Repeats, Ripple};
 pub use output_error::controller::Controller;
 pub use output_error::outcome::{Short, SimulationFit};
 pub use output_error::run::{Hold, Recording};

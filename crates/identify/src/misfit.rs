@@ -10,6 +10,7 @@
 //! long the log is: [`spread`](Misfit::spread).
 
 mod cause;
+mod clocks;
 mod coupling;
 mod parts;
 mod reversals;
@@ -18,6 +19,7 @@ mod visits;
 mod waves;
 
 pub use cause::Cause;
+pub use clocks::Clocks;
 pub use coupling::{Between, Coupling, Encoder};
 pub use parts::Divided;
 use parts::Measures;
@@ -71,6 +73,8 @@ pub struct Misfit {
     pub ripple: Option<Ripple>,
     /// A spring or a gap between motor and load that explains it.
     pub coupling: Option<Coupling>,
+    /// Clocks of force and motion that run apart.
+    pub clocks: Option<Clocks>,
     /// By what its course is shown: `by`, or the one of a pair that shows more of it.
     pub shown_by: Divided,
     /// Its course: in each part that `shown_by` makes, the mean of what the motion is divided by (s, m, m/s, m/s^2, or with
@@ -204,6 +208,7 @@ impl Divisions {
             levels: (0.0, 0.0),
             ripple: None,
             coupling: None,
+            clocks: None,
             shown_by: by,
             course: Vec::new(),
         };
@@ -295,6 +300,38 @@ impl Divisions {
         Some(misfit)
     }
 
+    /// The misfit with clocks that run apart where they show. They are looked for where the misfit has no other cause than the
+    /// shape of the law, of which they explain a good part, or none.
+    pub fn clocked(
+        &self,
+        misfit: Option<Misfit>,
+        objective: &Objective,
+        at: &Evaluation,
+        residual: &[f64],
+    ) -> Option<Misfit> {
+        let least = match misfit.as_ref().map(|misfit| (misfit.cause(), misfit.share)) {
+            None | Some((None, _)) => 0.0,
+            Some((Some(Cause::Shape), share)) => clocks::PART_OF_MISFIT * share,
+            Some((Some(_), _)) => return misfit,
+        };
+        // Motion one way and at one speed has no instant at which a delay shows.
+        let turns = |way: f64| self.measures.speed.iter().any(|v| way * v > 0.0);
+        if !(turns(1.0) && turns(-1.0)) {
+            return misfit;
+        }
+        let time = &self.measures.time;
+        let found = clocks::sought(objective.record(), objective, at, time, residual);
+        let Some(found) = found.filter(|found| found.share >= least) else {
+            return misfit;
+        };
+        let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
+        let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::AfterReversals, residual));
+        misfit.share = misfit.share.max(found.share);
+        misfit.rms = misfit.rms.max((found.share * square).sqrt());
+        misfit.clocks = Some(found);
+        Some(misfit)
+    }
+
     /// A misfit that no division shows; its course is shown by one of them.
     fn unseen(&self, by: Divided, residual: &[f64]) -> Misfit {
         let shown = Divided::ALL.iter().position(|own| *own == by);
@@ -306,6 +343,7 @@ impl Divisions {
             levels: (0.0, 0.0),
             ripple: None,
             coupling: None,
+            clocks: None,
             shown_by: by,
             course: shown.map_or_else(Vec::new, |i| self.course(i, residual)),
         }

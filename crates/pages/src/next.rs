@@ -129,7 +129,11 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                 false => "write".into(),
             };
             Cured {
-                what: format!("{}; {}: {place}, {write}", cause.text, aim(table)),
+                what: format!(
+                    "{}; {}: {place}, {write}",
+                    cause.text,
+                    aim(table, cause.code.as_str())
+                ),
                 line: Some(line.clone()),
                 command: format!("stiction identify {logs} --axis {file}{law} --out {out}"),
             }
@@ -138,10 +142,11 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
 }
 
 /// What a line of a table of the axis file is for.
-fn aim(table: &str) -> &'static str {
-    match table {
-        "log" => "fit the part where it has settled",
-        "columns" => "scale it",
+fn aim(table: &str, cause: &str) -> &'static str {
+    match (table, cause) {
+        ("log", "clocks-apart") => "fit the part in which they hardly do",
+        ("log", _) => "fit the part where it has settled",
+        ("columns", _) => "scale it",
         _ => "take that into the fit",
     }
 }

@@ -62,11 +62,24 @@ pub(crate) fn constants(result: &ResultFile, called: impl Fn(&str) -> String) ->
         ),
         false => String::new(),
     };
+    let mixed = format!("{mixed}{}", unseen_rise(result));
     match (trust.constants.as_slice(), trust.open.as_slice()) {
         ([], []) => "none was identified".into(),
         ([], _) => "none: the log leaves every parameter open".into(),
         (_, []) => format!("every parameter, within its interval{mixed}"),
         (known, open) => format!("{}; left open: {}{mixed}", listed(known), listed(open)),
+    }
+}
+
+/// That static friction was held, where the data chose so: a table of constants without it is no word against it.
+fn unseen_rise(result: &ResultFile) -> &'static str {
+    let held = result.law == "dahl" || result.without.iter().any(|held| held == "stribeck");
+    match held && result.law_chosen_by == "cross-validation" {
+        true => {
+            "; static friction is held at Coulomb friction, since this motion shows no rise towards rest, which may be there all \
+             the same"
+        }
+        false => "",
     }
 }
 

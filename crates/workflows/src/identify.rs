@@ -7,6 +7,7 @@
 mod assemble;
 mod beside;
 mod choice;
+mod clocks;
 mod compensation;
 mod condition;
 mod conditioning;

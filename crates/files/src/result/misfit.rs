@@ -43,4 +43,10 @@ pub struct MisfitEntry {
     /// The load, percent of the moving mass.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub load_percent: Option<f64>,
+    /// By how much the force falls further behind its motion, millionths, where two clocks run apart.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clock_drift_ppm: Option<f64>,
+    /// Standard deviation of that, millionths.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub clock_drift_std_ppm: Option<f64>,
 }

@@ -8,6 +8,7 @@ use crate::estimate::profile::{Held, fit_with};
 use crate::estimate::uncertainty::Unknowns;
 use crate::law::Law;
 use crate::parameter::Parameter;
+use crate::parameter::covariance::Covariance;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
 use crate::watch::Watch;
@@ -90,9 +91,21 @@ pub(super) fn rises_unseen(law: &Law, parameters: &mut [Parameter]) {
     }
 }
 
-/// Flags the static friction of a direction whose Stribeck velocity is open, where something else than the law is left of the
-/// force: a curve of another width ends at another static friction.
-pub(super) fn end_of_an_open_curve(law: &Law, parameters: &mut [Parameter]) {
+/// Correlation of a static friction with its Stribeck velocity from which it is known only as well: at .95 its deviation is three
+/// times what it would be at a known velocity.
+const GOES_ALONG: f64 = 0.95;
+
+/// Flags the static friction of a direction whose Stribeck velocity is open, where it goes along with that velocity: of a curve that
+/// shows its foot alone, neither a width that is hardly known nor an end that is extrapolated with it has an interval about the
+/// best fit. And where something else than the law is left of the force (`doubted`): a curve of another width ends at another
+/// static friction.
+pub(super) fn end_of_an_open_curve(
+    law: &Law,
+    covariance: &Covariance,
+    doubted: bool,
+    parameters: &mut [Parameter],
+) {
+    let correlation = covariance.correlation();
     for &side in Side::all(law.asymmetric) {
         let width = Name::new(Quantity::StribeckVelocity, side);
         let end = Name::new(Quantity::Static, side);
@@ -100,10 +113,21 @@ pub(super) fn end_of_an_open_curve(law: &Law, parameters: &mut [Parameter]) {
         if !parameters.iter().any(open) {
             continue;
         }
+        let both = covariance.place(width).zip(covariance.place(end));
+        let along = both.is_some_and(|(width, end)| correlation[width][end].abs() >= GOES_ALONG);
+        let reason = match (doubted, along) {
+            (true, _) => {
+                "is where a curve ends whose Stribeck velocity is open, in a log that the law does not explain alone"
+            }
+            (false, true) => {
+                "is where a curve ends of which the motion shows the foot alone: it moves together with the Stribeck velocity, which is open"
+            }
+            (false, false) => continue,
+        };
         for p in parameters.iter_mut().filter(|p| p.name == end) {
             if p.identified && p.identifiable {
                 p.identifiable = false;
-                p.reason = "is where a curve ends whose Stribeck velocity is open, in a log that the law does not explain alone".into();
+                p.reason = reason.into();
             }
         }
     }

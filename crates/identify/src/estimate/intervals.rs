@@ -82,9 +82,13 @@ pub fn intervals(
     spans_all_speeds(&fitted.law, record.top_speed(), &mut fitted.parameters);
     let at = &optimum.evaluation;
     flag_levels_that_take_viscous_friction(&objective, at, &raw, &mut fitted.parameters);
-    if fitted.misfit.as_ref().and_then(Misfit::cause).is_some() {
-        end_of_an_open_curve(&fitted.law, &mut fitted.parameters);
-    }
+    let doubted = fitted.misfit.as_ref().and_then(Misfit::cause).is_some();
+    end_of_an_open_curve(
+        &fitted.law,
+        &fitted.covariance,
+        doubted,
+        &mut fitted.parameters,
+    );
     advice::explain(&mut fitted.parameters, &fitted.covariance);
 }
 
@@ -191,6 +195,7 @@ fn conditioned(
     let fit = (at, &optimum.p[..]);
     let misfit = divisions.waved(misfit, objective, &estimate.terms, at, left);
     let misfit = divisions.coupled(misfit, objective, &estimate.terms, fit, left);
+    let misfit = divisions.clocked(misfit, objective, at, left);
     let spread = misfit.as_ref().map(|misfit| {
         let unknowns = misfit.spread(&estimate.unknowns.bread, left.len());
         propagate(raw, &unknowns)

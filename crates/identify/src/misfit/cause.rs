@@ -31,6 +31,8 @@ pub enum Cause {
     Resonance,
     /// A load behind a gap.
     Backlash,
+    /// Force and motion stamped by two clocks that run apart.
+    Clocks,
     /// Friction or inertia of another shape than that of the law.
     Shape,
 }
@@ -38,6 +40,10 @@ pub enum Cause {
 impl Misfit {
     /// The most likely cause; `None` where the misfit is too small a part of the residual to be named.
     pub fn cause(&self) -> Option<Cause> {
+        // What two clocks leave is told by how the delay grows, however small it is beside the noise.
+        if self.clocks.is_some() {
+            return Some(Cause::Clocks);
+        }
         if self.share < NAMED_SHARE {
             return None;
         }
@@ -97,7 +103,9 @@ impl Cause {
             Cause::Position => Some(Divided::LevelOverPosition),
             Cause::Load => Some(Divided::LevelOverLoad),
             Cause::Temperature => Some(Divided::LevelOverTemperature),
-            Cause::Ripple | Cause::Resonance | Cause::Backlash | Cause::Shape => None,
+            Cause::Ripple | Cause::Resonance | Cause::Backlash | Cause::Clocks | Cause::Shape => {
+                None
+            }
         }
     }
 
@@ -112,6 +120,12 @@ impl Cause {
             }
             Cause::Backlash => {
                 "takes up part of what backlash between motor and load does at reversals"
+            }
+            Cause::Clocks => {
+                let moved = [Quantity::Mass, Quantity::Delay].contains(&quantity)
+                    || quantity.is_of_the_shape();
+                return moved
+                    .then_some("takes up part of a delay of the force that changes along the log");
             }
             Cause::Drift | Cause::Position | Cause::Load | Cause::Temperature | Cause::Ripple => {
                 return None;

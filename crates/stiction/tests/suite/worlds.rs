@@ -82,6 +82,37 @@ fn jitter_is_named_and_counted() {
     }
 }
 
+/// A force whose clock runs fast by a ten thousandth, as of a file that another device wrote.
+#[test]
+fn clocks_that_run_apart_are_named() {
+    const FAST: f64 = 1e-4;
+    for (axis, motion) in [
+        ("stage", Motion::Commissioning),
+        ("joint", Motion::Trapezoid),
+    ] {
+        let mut machines = Machine::all(SEED).into_iter();
+        let (_, machine) = machines.find(|(name, _)| *name == axis).unwrap();
+        let mut log = record(&machine, motion, World::Faithful, SEED);
+        let last = log.force.len() - 1;
+        let at = |row: f64| {
+            let before = (row as usize).min(last - 1);
+            let part = (row - before as f64).min(1.0);
+            (1.0 - part) * log.force[before] + part * log.force[before + 1]
+        };
+        log.force = (0..=last)
+            .map(|row| at((1.0 - FAST) * row as f64))
+            .collect();
+        let axis_file = Axis::default();
+        let fit = identified(&machine, &[log], &axis_file, &Options::default()).unwrap();
+        let misfit = fit.result().misfit.as_ref().unwrap();
+        let ppm = misfit.clock_drift_ppm.unwrap_or(f64::NAN);
+        assert!((30.0..200.0).contains(&ppm), "{axis}: {ppm}");
+        let run = judged(&[machine], Ok(fit));
+        assert!(run.codes.contains(&"clocks-apart"), "{axis}: {run}");
+        assert!(!run.is_silent(), "{axis}: {run}");
+    }
+}
+
 /// `check` says the same of the log.
 #[test]
 fn check_names_jitter() {

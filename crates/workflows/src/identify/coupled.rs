@@ -2,7 +2,7 @@
 
 use stiction_files::result::MisfitEntry;
 use stiction_files::symbols;
-use stiction_identify::{Between, Coupling, Encoder};
+use stiction_identify::{Between, Coupling, Encoder, Misfit};
 use stiction_log::Log;
 use stiction_number::{Percent, four_digits};
 
@@ -10,6 +10,17 @@ use stiction_number::{Percent, four_digits};
 const RIGID: f64 = 1.0 / 3.0;
 /// Deviations of a 95 % interval.
 const QUANTILE: f64 = 1.96;
+
+/// Deviation of a frequency or width from which what lies between motor and load is stated as likely only.
+const HARDLY_KNOWN: f64 = 0.25;
+
+/// A cause in words, as likely only where its size is hardly known.
+pub(super) fn likely(misfit: &Misfit, words: &str) -> String {
+    match &misfit.coupling {
+        Some(coupling) if coupling.deviation > HARDLY_KNOWN => format!("most likely {words}"),
+        _ => words.into(),
+    }
+}
 
 /// Writes what was found into the entry of a misfit.
 pub(super) fn state(coupling: &Coupling, entry: &mut MisfitEntry) {
@@ -43,6 +54,10 @@ pub(super) fn message(coupling: &Coupling, of_force: f64, log: &Log) -> String {
     let about = Percent::error(100.0 * QUANTILE * coupling.deviation).digits(2);
     let stands = "The intervals count it: Coulomb friction, viscous friction and the whole mass hold as far as they say; \
                   presliding and the Stribeck curve are no constants of the machine";
+    let surely = match coupling.deviation > HARDLY_KNOWN {
+        true => "most likely ",
+        false => "",
+    };
     let hertz = |f: f64| format!("{} Hz", four_digits(f));
     match coupling.between {
         Between::Spring { frequency, encoder } => {
@@ -60,13 +75,13 @@ pub(super) fn message(coupling: &Coupling, of_force: f64, log: &Log) -> String {
                  below which the axis is rigid; for the others {motor}record with less acceleration and jerk"
             );
             format!(
-                "motor and load vibrate against each other: a load of {load} of the moving mass on a spring, the encoder on \
+                "{surely}motor and load vibrate against each other: a load of {load} of the moving mass on a spring, the encoder on \
                  the {place}, {explained}. The load alone vibrates at {} (± {about}){with_motor}. {stands}. {to_do}",
                 hertz(frequency)
             )
         }
         Between::Gap { width } => format!(
-            "a gap lies between motor and load: a load of {load} of the moving mass that the motor moves only after a lost \
+            "{surely}a gap lies between motor and load: a load of {load} of the moving mass that the motor moves only after a lost \
              motion of some {} {} (± {about}) {explained}. {stands}. A load on a spring that has much of the friction itself \
              can look the same: hold the motor and push the load to and fro, a gap lets it move freely. If it does, adjust \
              or preload the drive train and record again, or use the values for motion that does not cross the gap",

@@ -1,6 +1,6 @@
 //! What a law leaves systematically, and what to do about it, in words.
 
-use super::{coupled, pitch, settled};
+use super::{clocks, coupled, pitch, settled};
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::Warning;
@@ -38,6 +38,8 @@ pub(super) fn entry(law: &FittedLaw, force_unit: &str) -> Option<MisfitEntry> {
         lost_motion: None,
         coupling_std_percent: None,
         load_percent: None,
+        clock_drift_ppm: misfit.clocks.map(|clocks| 1e6 * clocks.drift),
+        clock_drift_std_ppm: misfit.clocks.map(|clocks| 1e6 * clocks.deviation),
     };
     if let Some(coupling) = &misfit.coupling {
         coupled::state(coupling, &mut entry);
@@ -54,6 +56,7 @@ fn code(cause: Cause) -> Code {
         Cause::Ripple => Code::PositionRipple,
         Cause::Resonance => Code::Resonance,
         Cause::Backlash => Code::Backlash,
+        Cause::Clocks => Code::ClocksApart,
         Cause::Shape => Code::LawShape,
     }
 }
@@ -96,14 +99,15 @@ pub(super) fn cause(law: &FittedLaw, sources: &[Source], others: bool) -> Option
     }
     let misfit = law.misfit.as_ref()?;
     let cause = misfit.cause()?;
-    let share = match (&misfit.coupling, moved(misfit)) {
-        (Some(coupling), _) => coupling.share,
-        (None, Some(ripple)) => ripple.share,
-        (None, None) => misfit.share,
+    let share = match (&misfit.clocks, &misfit.coupling, moved(misfit)) {
+        (Some(clocks), _, _) => clocks.share,
+        (None, Some(coupling), _) => coupling.share,
+        (None, None, Some(ripple)) => ripple.share,
+        (None, None, None) => misfit.share,
     };
     Some(CauseEntry {
         code: code(cause),
-        text: moved(misfit).map_or(words(cause), |_| MOVED).into(),
+        text: moved(misfit).map_or_else(|| coupled::likely(misfit, words(cause)), |_| MOVED.into()),
         size: of_what_is_left(share, law),
         cure: cure(misfit, cause, law, sources)
             .filter(|cure| others || !matches!(cure, Cure::Law { .. })),
@@ -131,6 +135,7 @@ fn words(cause: Cause) -> &'static str {
         Cause::Ripple => "a force repeats with the position",
         Cause::Resonance => "motor and load vibrate against each other",
         Cause::Backlash => "a gap lies between motor and load",
+        Cause::Clocks => "force and motion were stamped by two clocks that run apart",
         Cause::Shape => "friction or inertia has another shape than this law",
     }
 }
@@ -208,6 +213,7 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, sources: &[Source]) -> O
                 law: law.name().into(),
             })
         }
+        Cause::Clocks => clocks::stretch(misfit.clocks.as_ref()?, sources),
         Cause::Resonance | Cause::Backlash | Cause::Shape => None,
     }
 }
@@ -313,6 +319,9 @@ fn message(
             "{what}: {left} is a level that goes from {} of its mean over the temperatures of the log. {counted}. {to_do}",
             levels()
         ),
+        Cause::Clocks => misfit.clocks.as_ref().map_or_else(String::new, |found| {
+            clocks::message(found, what, cured.then_some(&to_do))
+        }),
         Cause::Ripple => {
             let line = wave.map_or(String::new(), |wave| {
                 format!(", most of it {wave}. {to_do}")
