@@ -860,11 +860,11 @@ fn what_no_machine_does_is_named() {
             .map(|f| format!("{}\n", f.message))
             .collect::<String>()
     };
-    let all = [(0, 1e3), (1, 1e9), (1, 1e-8), (3, 1e9)];
+    let all = [(0, 1e3), (0, 1e-3), (1, 1e3), (1, 1e9), (1, 1e-8), (3, 1e9)];
     let all: String = all.into_iter().map(|(k, size)| said(k, size)).collect();
     insta::assert_snapshot!(all);
-    for column in [0, 1, 3] {
-        assert_eq!(said(column, 1.0), "");
+    for (column, size) in [(0, 1.0), (1, 1.0), (1, 10.0), (3, 1.0)] {
+        assert_eq!(said(column, size), "");
     }
 }
 
