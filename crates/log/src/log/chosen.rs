@@ -117,6 +117,7 @@ impl Chosen {
         let mut there = Vec::new();
         for (row, value) in rows.iter_mut().zip(values) {
             if *row == Row::Kept {
+                let value = enable.counted(value);
                 there.push(value);
                 if value != self.kept {
                     *row = Row::NotEnabled;
@@ -223,11 +224,25 @@ fn refuse(table: &Table, column: usize, enable: &Enable, values: &[f64]) -> Resu
     let mode = there.iter().find(|x| **x != 0.0).or(there.first());
     let mode = mode.filter(|_| !many).map_or("8".into(), |x| full(*x));
     let line = Enable::line(table, column, &mode);
-    let is_flag = there.iter().all(|x| *x == 0.0 || *x == 1.0);
-    let (found, allowed) = if enable.equals.is_none() && !is_flag {
-        let found = format!("enable, column {place}, holds {holds}");
+    if let Some(mask) = enable.mask.filter(|_| !values.contains(&enable.kept())) {
+        let kept = full(enable.kept());
+        let found = format!(
+            "enable, column {place}, is {kept} under mask = {mask} in no row; there it is {holds}"
+        );
         let allowed =
-            format!("0 and 1 alone; of a column of modes say which one is kept, as in: {line}");
+            "a number that it holds under the mask, which is then equals, or another mask";
+        return Err(Error::new(Kind::Value, found, allowed).of_setting(enable::KEY));
+    }
+    let is_flag = there.iter().all(|x| *x == 0.0 || *x == 1.0);
+    let (found, allowed) = if enable.equals.is_none() && enable.mask.is_none() && !is_flag {
+        let found = format!("enable, column {place}, holds {holds}");
+        let allowed = match many {
+            true => "0 and 1 alone, or a column of modes, of which one is kept with equals; a column of so many numbers is neither"
+                .into(),
+            false => {
+                format!("0 and 1 alone; of a column of modes say which one is kept, as in: {line}")
+            }
+        };
         (found, allowed)
     } else if !values.contains(&enable.kept()) {
         let kept = full(enable.kept());
