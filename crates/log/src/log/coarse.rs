@@ -1,5 +1,6 @@
 //! Time stamps of a clock that is coarser than the sampling: rows at one rate, whose stamps are rounded to its ticks.
 
+use crate::findings::median;
 use std::ops::Range;
 
 /// What is left of a step by the arithmetic of decimal numbers, of a tick.
@@ -15,6 +16,9 @@ const HALVINGS: u32 = 6;
 const FEWEST_ROWS: usize = 200;
 /// Least tick, of the step, that is worth a word.
 const LEAST: f64 = 0.01;
+
+/// Least part of the stamps that have all of their rows, where others are missing.
+const FULL: f64 = 0.02;
 
 /// A clock that rounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +62,29 @@ impl Coarse {
             let mut found = long.filter_map(|rows| Some((Self::of(&time[rows.clone()])?, rows)));
             found.next()
         })
+    }
+
+    /// What stamps say of which rows are missing here and there: how many rows the fullest have in common, and their rate, Hz, which is
+    /// that between the missing ones; `None` where no stamp has several rows, or all have as many.
+    pub fn of_full_stamps(time: &[f64]) -> Option<(usize, f64)> {
+        let groups: Vec<usize> = time.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
+        let inside = groups.get(1..groups.len().checked_sub(1)?)?;
+        let mut steps: Vec<f64> = time
+            .windows(2)
+            .map(|w| w[1] - w[0])
+            .filter(|s| *s > 0.0)
+            .collect();
+        let tick = median(&mut steps)?;
+        let share = |rows: usize| {
+            let as_many = inside.iter().filter(|group| **group >= rows).count();
+            as_many as f64 / inside.len() as f64
+        };
+        let most = (2..=*inside.iter().max()?)
+            .rev()
+            .find(|rows| share(*rows) >= FULL)?;
+        let is_even = inside.iter().all(|rows| rows + 1 >= most);
+        (inside.len() >= FEWEST && !is_even)
+            .then(|| (most, roundest(most as f64 / tick, most as f64 / tick)))
     }
 
     /// The longest step of stamps between which no row is missing, s.
@@ -151,6 +178,21 @@ mod tests {
         }
         let exact: Vec<f64> = (0..5000).map(|k| f64::from(k) * 1e-3).collect();
         assert_eq!(Coarse::of_a_part(&exact), None);
+    }
+
+    /// Rows that are missing at random leave the rate of the full stamps, and no rate that counts them.
+    #[test]
+    fn rows_that_are_missing_at_random_leave_the_rate_of_full_stamps() {
+        let whole = stamps(1000.0, 1e-2, 20_000);
+        assert_eq!(Coarse::of_full_stamps(&whole), None);
+        let mut state = 1_u32;
+        let mut missing = whole;
+        missing.retain(|_| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 24) > 0.1
+        });
+        let (rows, rate) = Coarse::of_full_stamps(&missing).unwrap();
+        assert_eq!((rows, rate.round()), (10, 1000.0));
     }
 
     #[test]
