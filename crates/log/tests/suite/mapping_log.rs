@@ -983,3 +983,17 @@ fn rows_of_one_rate_keep_their_repeated_stamps() {
     assert_eq!(warnings(&log), [""; 0]);
     insta::assert_snapshot!(message(&log, "duplicate-time"));
 }
+
+/// A wrap below the travel of a position that goes on without a jump is none.
+#[test]
+fn a_wrap_below_the_travel_is_a_warning() {
+    let mapping = |wrap: f64| Mapping {
+        wrap: Some(Wrap::Travel(wrap)),
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&axis(5000).table(), &mapping(0.06)).unwrap();
+    assert_eq!(warnings(&log), ["position-wrap"]);
+    insta::assert_snapshot!(message(&log, "position-wrap"));
+    let log = Log::from_table(&axis(5000).table(), &mapping(0.12)).unwrap();
+    assert_eq!(warnings(&log), [""; 0]);
+}

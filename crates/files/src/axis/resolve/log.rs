@@ -77,14 +77,19 @@ impl Resolver {
     /// A travel, or the counts of a counter.
     fn wrap(&self, given: &Given<'_>) -> Result<Wrap, Error> {
         let (counts, dimension) =
-            given.positive(&[Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS])?;
+            given.value(&[Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS])?;
         if dimension != Dimension::COUNTS {
             return Ok(Wrap::Travel(self.within(given, &LENGTHS, &WRAPS)?));
         }
         match WRAP_COUNTS.contains(&counts) && counts.fract() == 0.0 {
             true => Ok(Wrap::Counts(counts)),
             false => {
-                Err(given.refused("a whole number of counts, such as \"65536 counts\" of 16 bits"))
+                let allowed = format!(
+                    "a whole number from {} to {} counts, such as \"65536 counts\" of 16 bits",
+                    WRAP_COUNTS.start(),
+                    WRAP_COUNTS.end()
+                );
+                Err(given.refused(&allowed))
             }
         }
     }
