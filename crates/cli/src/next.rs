@@ -383,6 +383,20 @@ pub fn begun(log: &Path) -> String {
     }
 }
 
+/// The command that was typed, with another value of an option.
+fn with_value(option: &str, value: &Path) -> Option<String> {
+    let words = std::env::args_os().skip(1);
+    let mut words: Vec<String> = words.map(|a| path_text(Path::new(&a))).collect();
+    let (name, joined) = (format!("--{option}"), format!("--{option}="));
+    let is_option = |word: &String| *word == name || word.starts_with(&joined);
+    let at = words.iter().position(is_option)?;
+    match words[at] == name {
+        true => *words.get_mut(at + 1)? = path_text(value),
+        false => words[at] = format!("{joined}{}", path_text(value)),
+    }
+    Some(stiction::commands::text::command(words.into_iter()))
+}
+
 /// What was typed, with another path in place of one.
 fn with(file: &Path, instead: &Path) -> Vec<String> {
     let arguments = std::env::args_os().skip(1);
@@ -446,8 +460,7 @@ pub fn another_folder(error: &Error) -> Option<String> {
         Remedy::Folder => return None,
         Remedy::AnotherFolder | Remedy::AnotherFolderOrForce => free_folder(out),
     };
-    let arguments = with(out, &free);
-    let command = stiction::commands::text::command(arguments.into_iter());
+    let command = with_value("out", &free)?;
     (free != out).then(|| format!("next: {command}"))
 }
 
@@ -462,19 +475,7 @@ pub fn another_checkpoint(error: &Error, identify: &Identify) -> Option<String> 
     let mut name = identify.out.file_name()?.to_os_string();
     name.push(".checkpoint");
     let beside = identify.out.with_file_name(name);
-    let mut arguments: Vec<String> = std::env::args_os()
-        .skip(1)
-        .map(|a| path_text(Path::new(&a)))
-        .collect();
-    let option = arguments
-        .iter()
-        .position(|a| a.starts_with("--checkpoint"))?;
-    match arguments[option].contains('=') {
-        true => arguments[option] = format!("--checkpoint={}", path_text(&beside)),
-        false => *arguments.get_mut(option + 1)? = path_text(&beside),
-    }
-    let command = stiction::commands::text::command(arguments.into_iter());
-    Some(format!("next: {command}"))
+    Some(format!("next: {}", with_value("checkpoint", &beside)?))
 }
 
 /// What leads on from a log that is given by two paths: the same command with one of them.

@@ -226,6 +226,13 @@ fn a_folder_that_is_taken_and_a_table_of_too_few_logs_lead_on() {
     );
     let (code, _, err) = run(at, &leads);
     assert!(code <= 1, "{err}");
+    // The folder of what is written alone is another one.
+    let (code, _, err) = run(at, "batch logs --law coulomb-viscous --out logs");
+    assert_eq!(
+        (code, next(&err).as_str()),
+        (2, "batch logs --law coulomb-viscous --out logs-2"),
+        "{err}"
+    );
     let (_, out, _) = run(at, "batch logs --law coulomb-viscous --out batch");
     assert!(out.contains("15 logs of one machine"), "{out}");
     assert_eq!(
@@ -271,4 +278,99 @@ fn levels_of_one_axis_file_that_are_far_apart_are_named() {
     let leads = next(&out);
     let (code, _, err) = run(at, &leads);
     assert!(code <= 1, "{err}");
+}
+
+/// A link is no file of the result: it stays, under another name, and what it leads to is not touched.
+#[test]
+fn a_link_in_the_folder_of_a_result_is_kept() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    log(&at.join("a.csv"), "mm", 3000);
+    let line = "identify a.csv --law coulomb-viscous --out result";
+    assert!(run(at, line).0 <= 1);
+    let model = at.join("result/model.toml");
+    std::fs::rename(&model, at.join("own.toml")).unwrap();
+    std::fs::write(at.join("own.toml"), "# own\n").unwrap();
+    std::os::unix::fs::symlink(at.join("own.toml"), &model).unwrap();
+    let (code, _, err) = run(at, line);
+    assert!(code <= 1 && err.contains("model.toml is a link"), "{err}");
+    assert!(at.join("result/model-1.toml").is_symlink() && !model.is_symlink());
+    let own = std::fs::read_to_string(at.join("own.toml")).unwrap();
+    assert_eq!(own, "# own\n");
+}
+
+/// A force that brakes throughout has the other sign, and the axis file that is begun says so.
+#[test]
+fn the_sign_of_a_force_that_brakes_is_turned_in_an_axis_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    log(&at.join("a.csv"), "mm", 4000);
+    let text = std::fs::read_to_string(at.join("a.csv")).unwrap();
+    let turned = text.lines().map(|row| match row.rsplit_once(',') {
+        Some((rest, force)) if !force.starts_with('f') => {
+            format!("{rest},{}\n", -force.parse::<f64>().unwrap())
+        }
+        _ => format!("{row}\n"),
+    });
+    std::fs::write(at.join("a.csv"), turned.collect::<String>()).unwrap();
+    let (_, out, _) = run(at, "check a.csv");
+    assert!(out.contains("[force-sign]"), "{out}");
+    let (_, out, _) = run(at, "check a.csv --init axis.toml");
+    assert!(out.contains("force, its sign turned"), "{out}");
+    let axis = std::fs::read_to_string(at.join("axis.toml")).unwrap();
+    assert!(
+        axis.contains("invert = true }    # its sign is turned"),
+        "{axis}"
+    );
+    let (_, out, _) = run(at, "check a.csv --axis axis.toml");
+    assert!(!out.contains("[force-sign]"), "{out}");
+}
+
+/// What an estimated offset is off is part of the delay that a fit finds.
+#[test]
+fn beside_an_estimated_offset_no_delay_is_a_constant() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let (mut motion, mut force) = (
+        "time [s],position [mm]\n".to_owned(),
+        "time [s],position [mm],force [N]\n".to_owned(),
+    );
+    for k in 0..8000_u32 {
+        let t = f64::from(k) / 1000.0;
+        let turn = 2.0 * std::f64::consts::PI;
+        let (phase, rate) = (turn * (0.4 * t + 0.12 * t * t), turn * (0.4 + 0.24 * t));
+        let (x, v) = (30.0 * phase.sin(), 0.03 * rate * phase.cos());
+        let a = 0.03 * (turn * 0.24 * phase.cos() - rate * rate * phase.sin());
+        let noise = f64::from(k.wrapping_mul(2_654_435_761) >> 16) / 65_536.0 - 0.5;
+        let f = 20.0 * (v / 1e-3).tanh() + 50.0 * v + 10.0 * a + 0.2 * noise;
+        let _ = writeln!(motion, "{t},{x:.5}");
+        let _ = writeln!(force, "{:.3},{x:.5},{f:.4}", t + 0.3);
+    }
+    std::fs::write(at.join("a.csv"), motion).unwrap();
+    std::fs::write(at.join("tau.csv"), force).unwrap();
+    let constants = |offset: &str| -> Vec<String> {
+        let axis = format!(
+            "[columns]\ntime = \"time\"\nposition = \"position\"\nforce = {{ file = \"tau.csv\", column = \"force\", offset = \"{offset}\" }}\n"
+        );
+        std::fs::write(at.join("axis.toml"), axis).unwrap();
+        let line = "identify a.csv --axis axis.toml --law coulomb-viscous --json --out out";
+        let (_, out, err) = run(at, line);
+        let json: serde_json::Value =
+            serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
+        let names = json["trust"]["constants"].as_array().unwrap().iter();
+        names
+            .map(|name| name.as_str().unwrap().to_owned())
+            .collect()
+    };
+    let known = constants("-0.3 s");
+    assert!(known.iter().any(|name| name == "delay"), "{known:?}");
+    let estimated = constants("estimate");
+    assert!(
+        estimated.iter().any(|name| name == "coulomb"),
+        "{estimated:?}"
+    );
+    assert!(
+        !estimated.iter().any(|name| name == "delay"),
+        "{estimated:?}"
+    );
 }
