@@ -180,12 +180,12 @@ fn stamped(
             let full =
                 Coarse::of_full_stamps(&all).filter(|_| part.is_none() && coarse().is_none());
             let allowed = match coarse().map_or(rate, |clock| clock.rate_hz) {
-                _ if let Some((rows, rate)) = full => {
+                _ if let Some(rate) = full => {
                     let error = Error::new(
                         Kind::Time,
                         found,
                         format!(
-                            "at most 5 % of the rows: full stamps have {rows} rows, a rate of {} Hz, and from others rows are missing, \
+                            "at most 5 % of the rows: the clock is coarser than the sampling, at about {} Hz where no row is missing, and rows are missing here and there, \
                              which no rate counts; a log with finer time stamps, or one in which no row is missing",
                             short(rate)
                         ),

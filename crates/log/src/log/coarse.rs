@@ -64,9 +64,9 @@ impl Coarse {
         })
     }
 
-    /// What stamps say of which rows are missing here and there: how many rows the fullest have in common, and their rate, Hz, which is
-    /// that between the missing ones; `None` where no stamp has several rows, or all have as many.
-    pub fn of_full_stamps(time: &[f64]) -> Option<(usize, f64)> {
+    /// The rate of rows of which some are missing here and there, Hz, from the stamps that have all of theirs; `None` where no rows share
+    /// a stamp, or none are missing.
+    pub fn of_full_stamps(time: &[f64]) -> Option<f64> {
         let groups: Vec<usize> = time.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
         let inside = groups.get(1..groups.len().checked_sub(1)?)?;
         let mut steps: Vec<f64> = time
@@ -75,16 +75,15 @@ impl Coarse {
             .filter(|s| *s > 0.0)
             .collect();
         let tick = median(&mut steps)?;
-        let share = |rows: usize| {
-            let as_many = inside.iter().filter(|group| **group >= rows).count();
-            as_many as f64 / inside.len() as f64
-        };
-        let most = (2..=*inside.iter().max()?)
-            .rev()
-            .find(|rows| share(*rows) >= FULL)?;
-        let is_even = inside.iter().all(|rows| rows + 1 >= most);
-        (inside.len() >= FEWEST && !is_even)
-            .then(|| (most, roundest(most as f64 / tick, most as f64 / tick)))
+        // What is rounded from one stamp to the next one evens out in two.
+        let mut pairs: Vec<usize> = inside.windows(2).map(|two| two[0] + two[1]).collect();
+        pairs.sort_unstable();
+        let full = pairs
+            .len()
+            .checked_sub(1 + (FULL * pairs.len() as f64) as usize);
+        let (least, most) = (*pairs.first()?, *pairs.get(full?)?);
+        let is_missing = pairs.len() >= FEWEST && most > 2 && least + 2 < most;
+        is_missing.then(|| most as f64 / (2.0 * tick))
     }
 
     /// The longest step of stamps between which no row is missing, s.
@@ -191,8 +190,13 @@ mod tests {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             f64::from(state >> 8) / f64::from(1 << 24) > 0.1
         });
-        let (rows, rate) = Coarse::of_full_stamps(&missing).unwrap();
-        assert_eq!((rows, rate.round()), (10, 1000.0));
+        let rate = Coarse::of_full_stamps(&missing).unwrap();
+        assert_eq!(rate.round(), 1000.0);
+        // Halves that are rounded to even stamps make them uneven, and no rows missing.
+        let rounded: Vec<f64> = (0..20_000)
+            .map(|k| (f64::from(k) * 0.1).round_ties_even() * 1e-2)
+            .collect();
+        assert_eq!(Coarse::of_full_stamps(&rounded), None);
     }
 
     #[test]

@@ -521,9 +521,11 @@ fn judge(
         Finding::new(Code::ForceUnit, Severity::Warning, message)
     } else {
         let message = format!(
-            "the force is in {is}; parameters come out in {is} too, unless a scale in {wanted}/{} is \
-             given{}",
-            unit.text(),
+            "the force is in {is}; parameters come out in {is} too, unless a scale in {} is given{}",
+            match source.dimension {
+                Dimension::ONE => wanted.clone(),
+                _ => format!("{wanted}/{}", unit.text()),
+            },
             match source.dimension {
                 Dimension::VOLTAGE => ", or the motor under [drive]: docs/axis.md#drive".into(),
                 Dimension::ONE => format!(

@@ -4,7 +4,7 @@ use super::channel::Selector;
 use super::flags::{has_zeros, is_flag};
 use super::select::select;
 use super::{Mapping, describe, names};
-use crate::findings::{Finding, Severity};
+use crate::findings::{Finding, Severity, full};
 use crate::{Error, Table};
 use stiction_codes::Code;
 
@@ -43,6 +43,15 @@ impl Enable {
     /// The number of the rows that are kept.
     pub fn kept(&self) -> f64 {
         self.equals.unwrap_or(self.mask.map_or(1.0, f64::from))
+    }
+
+    /// The number of the rows that are kept, in words.
+    pub(crate) fn kept_words(&self) -> String {
+        let kept = full(self.kept());
+        match self.mask {
+            None => kept,
+            Some(mask) => format!("{kept} under mask 0x{mask:x}"),
+        }
     }
 
     /// What of a number counts: its bits under the mask, where there is one.

@@ -208,3 +208,11 @@ proptest! {
         prop_assert_eq!(log.not_enabled.map(|left| left.rows), Some(4000 - kept.len()));
     }
 }
+
+/// The time, taken for the enable column, is named as what it is not, before it is missed.
+#[test]
+fn a_column_of_many_numbers_is_no_enable() {
+    let error = Log::from_table(&axis(3000).table(), &enable("time", None)).unwrap_err();
+    insta::assert_snapshot!(error.to_string());
+    assert_eq!(error.setting(), Some("columns.enable"));
+}
