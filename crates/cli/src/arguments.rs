@@ -91,23 +91,48 @@ fn memory(text: &str) -> Result<u64, String> {
         .ok_or_else(|| "a size from 1MB is allowed, such as 500MB, 2GB or 1.5GiB".into())
 }
 
-/// A time with or without its unit, in seconds.
-fn duration(text: &str) -> Result<f64, String> {
+/// Units of a time and what they are in seconds; the longer ones before those that they end in.
+const TIMES: [(&str, f64); 6] = [
+    ("us", 1e-6),
+    ("ms", 1e-3),
+    ("min", 60.0),
+    ("s", 1.0),
+    ("h", 3600.0),
+    ("", 1.0),
+];
+
+/// A time with or without its unit, in seconds; what else is said otherwise.
+fn time(text: &str, allowed: &str) -> Result<f64, String> {
     let text = text.trim();
-    let units = [("ms", 1e-3), ("min", 60.0), ("s", 1.0), ("", 1.0)];
-    let split = units
+    let split = TIMES
         .iter()
         .find_map(|(unit, by)| Some((text.strip_suffix(unit)?, by)));
     let parsed = split.and_then(|(number, by)| Some(by * number.trim().parse::<f64>().ok()?));
-    parsed.ok_or_else(|| "a time from 2s to 600s is allowed, such as 9s or 0.5min".into())
+    parsed.ok_or_else(|| allowed.into())
 }
 
-/// A time in seconds.
+/// The time of a motion.
+fn duration(text: &str) -> Result<f64, String> {
+    time(
+        text,
+        "a time from 2s to 600s is allowed, such as 9s or 0.5min",
+    )
+}
+
+/// A time that a search may take.
+fn budget(text: &str) -> Result<f64, String> {
+    time(
+        text,
+        "a time above 0 is allowed, in seconds or with its unit (us, ms, s, min, h), such as 30, 30s or 2min",
+    )
+}
+
+/// A time of a controller.
 fn seconds(text: &str) -> Result<f64, String> {
-    let number = text.trim().parse();
-    number.map_err(|_| {
-        "a number of seconds is allowed, without a unit, such as 0.001 for 1 ms".into()
-    })
+    time(
+        text,
+        "a time is allowed, in seconds or with its unit (us, ms, s, min, h), such as 0.001 or 1ms",
+    )
 }
 
 /// The names of all commands.
@@ -367,8 +392,9 @@ pub struct Searching {
     /// [default: none].
     #[arg(long, value_name = "J", allow_negative_numbers = true)]
     pub target: Option<f64>,
-    /// End a search S seconds after it began, above 0; the least squares that follow it are not limited [default: no limit].
-    #[arg(long, value_name = "S", allow_negative_numbers = true)]
+    /// End a search so long after it began, such as 30s or 2min, above 0; the least squares that follow it are not limited
+    /// [default: no limit].
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = budget)]
     pub time: Option<f64>,
     /// Keep the state of a search here, every few seconds and at the end.
     #[arg(long, value_name = "FILE")]
@@ -626,12 +652,12 @@ pub struct Export {
     /// Write into a folder that holds something; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
-    /// Time between two calls of the compensator, s.
+    /// Time between two calls of the compensator, s, or with its unit: 500us.
     #[arg(
         long,
-        value_name = "S",
-        default_value_t = 1e-3,
-        allow_negative_numbers = true,
+        value_name = "TIME",
+        default_value = "0.001",
+        allow_hyphen_values = true,
         value_parser = seconds
     )]
     pub cycle_time: f64,
@@ -641,8 +667,8 @@ pub struct Export {
     /// Share of the friction that is compensated, 0 to 1 [default: 0.75].
     #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
     pub gain: Option<f64>,
-    /// Time in which the compensation comes in and goes, s [default: 0.05].
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
+    /// Time in which the compensation comes in and goes, s, or with its unit [default: 0.05].
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
     pub ramp: Option<f64>,
     /// Speeds up to this count as standstill, m/s or rad/s [default: from the law].
     #[arg(long, value_name = "SPEED", allow_negative_numbers = true)]
@@ -650,8 +676,8 @@ pub struct Export {
     /// Fastest change of the force, in the unit of the model's force per second [default: from the law].
     #[arg(long, value_name = "RATE", allow_negative_numbers = true)]
     pub slew: Option<f64>,
-    /// Moving time that the watchdog compares, a cycle of the motion, s; 0: no watchdog [default: 2].
-    #[arg(long, value_name = "S", allow_negative_numbers = true, value_parser = seconds)]
+    /// Moving time that the watchdog compares, a cycle of the motion, s, or with its unit; 0: no watchdog [default: 2].
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
     pub window: Option<f64>,
     /// Levels of friction that follow the machine while it runs, from the force of the drive.
     #[arg(long)]

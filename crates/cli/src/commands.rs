@@ -19,9 +19,9 @@ use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, z
 use stiction::commands::shell::{quoted, quoted_path, text as path_text};
 use stiction::commands::{
     Bundle, Carrier, CompareOptions, Comparison, Cost, Excitation, ExportedC, FileError, Files,
-    Input, Kept, Known, Outcome, PlanOptions, Scheme, Want, check_folder, check_folder_of,
-    check_inputs, compare_exported, compare_file, limits_to_fill_in, plan_motion, visible,
-    write_atomic,
+    Input, Kept, Known, Outcome, PlanOptions, Scheme, Want, check_apart, check_folder,
+    check_folder_of, check_inputs, compare_exported, compare_file, limits_to_fill_in, plan_motion,
+    visible, write_atomic,
 };
 use stiction::result::Next;
 use stiction::{
@@ -69,7 +69,9 @@ pub fn run(arguments: &Arguments) -> Exit {
         if let Command::Plan(plan) = &arguments.command {
             limits(&e, plan);
         }
-        let next = next(&e, &arguments.command).or_else(|| crate::next::corrected(&e));
+        let next = next(&e, &arguments.command)
+            .or_else(|| crate::next::corrected(&e))
+            .or_else(|| crate::next::not_regular(&e));
         if let Some(next) = next {
             // As above.
             let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&next));
@@ -111,6 +113,7 @@ fn next(error: &Error, command: &Command) -> Option<String> {
         .or_else(|| crate::next::other_form(error))
         .or_else(|| crate::next::table_as_log(error))
         .or_else(|| crate::next::no_room(error))
+        .or_else(|| crate::next::another_folder(error))
     {
         return Some(next);
     }
@@ -188,11 +191,24 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     {
         return Some(next);
     }
+    if let Command::Identify(identify) = command
+        && let Some(next) = crate::next::another_checkpoint(error, identify)
+    {
+        return Some(next);
+    }
     if let Some(next) = crate::next::no_folder(error) {
         return Some(next);
     }
     if let Command::Drift(drift) = command {
-        return crate::next::table(error, &drift.results);
+        return crate::next::table(error, &drift.results)
+            .or_else(|| crate::next::none_identified(error, &drift.results));
+    }
+    if let Command::Check(arguments::Check { logs, .. })
+    | Command::Identify(arguments::Identify { logs, .. }) = command
+        && error.code() == Code::Usage
+        && let Some(next) = crate::next::once(logs)
+    {
+        return Some(next);
     }
     if let Command::Batch(batch) = command
         && error.code() == Code::Usage
@@ -304,21 +320,15 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
     };
     if let Some(axis) = &identify.axis {
         let file = typed(axis);
-        let taken = (losses.logged - losses.short) / losses.decimate.max(1);
-        if losses.slow > 0 && taken >= needed {
-            return Some(format!(
-                "next: lower min_speed in [conditioning] of {file}, or leave it out"
-            ));
-        }
         let read = Axis::read(axis).ok();
-        let read = read.as_ref();
-        // Where not even a stretch is left, filters of so slow a rate take all of it.
-        let short = losses.short == losses.logged && losses.logged >= ENOUGH_TO_SIMULATE;
-        let decimates = losses.decimate > 1 && losses.logged >= needed;
-        let decimate = read.and_then(|axis| axis.conditioning.decimate);
-        if decimate.is_some_and(|by| by > 1) && (short || decimates) {
+        let decimate = read.as_ref().and_then(|axis| axis.conditioning.decimate);
+        let motion = read.as_ref().and_then(|axis| axis.mapping.motion);
+        let motion = motion.unwrap_or_else(|| crate::next::motion_of_min_speed(axis));
+        if let Some(line) = stiction::commands::lowered(losses, needed, decimate, motion) {
+            let key = line.split(' ').next().unwrap_or_default();
             return Some(format!(
-                "next: lower decimate in [conditioning] of {file}, or leave it out: then it follows from the cut-off"
+                "next: in {file}, under [conditioning], in place of the line {key} write {line}, or leave it out, then: {}",
+                crate::next::again()
             ));
         }
     }
@@ -558,9 +568,11 @@ fn identify(identify: &arguments::Identify, common: &Common) -> Result<Exit, Err
             .chain(&identify.model)
             .chain(&identify.plan)
             .chain(&identify.axis)
-            .chain(&identify.searching.resume)
-            .chain(&identify.searching.checkpoint),
+            .chain(&identify.searching.resume),
     )?;
+    if let Some(checkpoint) = &identify.searching.checkpoint {
+        check_apart(&identify.out, checkpoint)?;
+    }
     let files = Files {
         logs: identify.logs.clone(),
         axis: identify.axis.clone(),
@@ -703,6 +715,7 @@ pub fn put(bundle: &Bundle, dir: &Path, schema: &str) -> Result<(PathBuf, Vec<Pa
     }
     lines.extend(kept.iter().map(|(from, to)| {
         let why = match written.contains(from) {
+            true if to.is_symlink() => "is a link, and a file of this name is written",
             true => "was changed after it was written",
             false => "is of an earlier result, and this one has none",
         };

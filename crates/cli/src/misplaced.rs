@@ -2,7 +2,7 @@
 
 use crate::typed::Typed;
 use std::path::{Path, PathBuf};
-use stiction::commands::shell::{quoted_path, text as path_text};
+use stiction::commands::shell::{free_folder, quoted_path, text as path_text};
 use stiction::commands::{FileError, Looks, looks, refuse_as_log};
 use stiction::{Axis, Error, ModelFile, Study};
 
@@ -48,7 +48,7 @@ pub fn next(takes: Takes, file: &Path) -> Option<String> {
             "next: {}, then: stiction export {} --target c --out {}",
             identified(),
             inside("model.toml"),
-            inside("c")
+            quoted_path(&free_folder(&dir.join("c")))
         ),
         (Takes::Study, Looks::Log) => format!(
             "next: {}, then: stiction simulate {} --out {}",
@@ -150,7 +150,7 @@ fn exported(model: &Path) -> String {
     format!(
         "next: stiction export {} --target c --out {}",
         quoted_path(model),
-        quoted_path(&model.with_file_name("c"))
+        quoted_path(&free_folder(&model.with_file_name("c")))
     )
 }
 

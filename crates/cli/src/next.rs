@@ -1,12 +1,14 @@
 //! What to type next where a file is not there, is another one, or cannot be written.
 
-use crate::arguments::{Arguments, Target};
+use crate::arguments::{Arguments, Identify, Target};
 use crate::misplaced;
 use crate::typed::Typed;
 use clap::{CommandFactory, ValueEnum};
 use std::path::{Path, PathBuf};
-use stiction::commands::shell::{quoted_path, text as path_text};
-use stiction::commands::{FileError, Looks, has_runs, looks};
+use stiction::commands::batch::read_results;
+use stiction::commands::recording::Motion;
+use stiction::commands::shell::{free_folder, quoted, quoted_path, text as path_text};
+use stiction::commands::{FileError, Looks, Remedy, check_apart, has_runs, is_regular, looks};
 use stiction::{Axis, Code, Error, ModelFile};
 
 /// What leads on from an input that is not there: the same command with the file that was probably meant, or a look at the folder.
@@ -64,8 +66,10 @@ pub fn no_file(error: &Error) -> Option<String> {
     if let Some(next) = for_axis(file) {
         return Some(next);
     }
-    let (takes, _) = misplaced::typed().filter(|(_, files)| files.contains(file))?;
-    misplaced::inside(takes, file)
+    let takes = misplaced::typed().filter(|(_, files)| files.contains(file));
+    takes
+        .and_then(|(takes, _)| misplaced::inside(takes, file))
+        .or_else(|| shown(file))
 }
 
 /// What leads on where the folder of a file that is to be written is not there.
@@ -173,7 +177,7 @@ pub fn corrected(error: &Error) -> Option<String> {
     }
     // What cannot be read at all, or is no text, is not corrected in an editor.
     let is_typed = |file: &Path| {
-        file.is_file()
+        is_regular(file)
             && file.extension().is_none_or(|end| end != "parquet")
             && std::fs::File::open(file).is_ok()
     };
@@ -289,6 +293,27 @@ pub fn table(error: &Error, folder: &Path) -> Option<String> {
     ))
 }
 
+/// What leads on from a table of which no log was identified: why the first one was not, else which logs there are.
+pub fn none_identified(error: &Error, table: &Path) -> Option<String> {
+    if error.code() != Code::Usage || !table.is_file() {
+        return None;
+    }
+    let mut first = None;
+    read_results(table, |row| {
+        first.get_or_insert(row);
+        Ok(())
+    })
+    .ok()?;
+    let row = first?;
+    let axis = row
+        .axis
+        .map_or(String::new(), |axis| format!(" --axis {}", quoted(&axis)));
+    Some(format!(
+        "next, to see what the first log shows: stiction check {}{axis}",
+        quoted(&row.path)
+    ))
+}
+
 /// A folder of this name beside another one.
 fn beside(folder: &Path, name: &str) -> PathBuf {
     match folder.file_name() {
@@ -358,6 +383,20 @@ pub fn begun(log: &Path) -> String {
     }
 }
 
+/// The command that was typed, with another value of an option.
+fn with_value(option: &str, value: &Path) -> Option<String> {
+    let words = std::env::args_os().skip(1);
+    let mut words: Vec<String> = words.map(|a| path_text(Path::new(&a))).collect();
+    let (name, joined) = (format!("--{option}"), format!("--{option}="));
+    let is_option = |word: &String| *word == name || word.starts_with(&joined);
+    let at = words.iter().position(is_option)?;
+    match words[at] == name {
+        true => *words.get_mut(at + 1)? = path_text(value),
+        false => words[at] = format!("{joined}{}", path_text(value)),
+    }
+    Some(stiction::commands::text::command(words.into_iter()))
+}
+
 /// What was typed, with another path in place of one.
 fn with(file: &Path, instead: &Path) -> Vec<String> {
     let arguments = std::env::args_os().skip(1);
@@ -404,10 +443,88 @@ fn incomplete_export() -> Option<(Option<Error>, String)> {
     if !export.contains_id("out") {
         let named = target.and_then(ValueEnum::to_possible_value);
         let dir = model.with_file_name(named.as_ref().map_or("c", |value| value.get_name()));
-        arguments.extend(["--out".to_string(), path_text(&dir)]);
+        arguments.extend(["--out".to_string(), path_text(&free_folder(&dir))]);
     }
     let next = stiction::commands::text::command(arguments.into_iter());
     Some((refused.map(Error::from), format!("next: {next}")))
+}
+
+/// What leads on from a folder for what is written that holds something else: the same command into one that is free.
+pub fn another_folder(error: &Error) -> Option<String> {
+    let Error::File(FileError::Taken { remedy, .. }) = error else {
+        return None;
+    };
+    let out = Typed::new()?.values("out");
+    let out = Path::new(out.first()?);
+    let free = match remedy {
+        Remedy::Folder => return None,
+        Remedy::AnotherFolder | Remedy::AnotherFolderOrForce => free_folder(out),
+    };
+    let command = with_value("out", &free)?;
+    (free != out).then(|| format!("next: {command}"))
+}
+
+/// What leads on from a checkpoint that is where the result is written: one beside that folder.
+pub fn another_checkpoint(error: &Error, identify: &Identify) -> Option<String> {
+    let checkpoint = identify.searching.checkpoint.as_deref()?;
+    let is_of_it =
+        matches!(error, Error::File(FileError::Output { path, .. }) if path == checkpoint);
+    if !is_of_it || check_apart(&identify.out, checkpoint).is_ok() {
+        return None;
+    }
+    let mut name = identify.out.file_name()?.to_os_string();
+    name.push(".checkpoint");
+    let beside = identify.out.with_file_name(name);
+    Some(format!("next: {}", with_value("checkpoint", &beside)?))
+}
+
+/// What leads on from a log that is given by two paths: the same command with one of them.
+pub fn once(logs: &[PathBuf]) -> Option<String> {
+    let place = |log: &PathBuf| log.canonicalize().unwrap_or_else(|_| log.clone());
+    let twin =
+        (1..logs.len()).find(|k| logs[..*k].iter().any(|log| place(log) == place(&logs[*k])))?;
+    let mut before = logs[..twin]
+        .iter()
+        .filter(|log| *log == &logs[twin])
+        .count();
+    let arguments = std::env::args_os().skip(1).filter(|argument| {
+        let is_twin = Path::new(argument) == logs[twin] && before == 0;
+        before = before.saturating_sub(usize::from(Path::new(argument) == logs[twin]));
+        !is_twin
+    });
+    let arguments = arguments.map(|a| path_text(Path::new(&a)));
+    let command = stiction::commands::text::command(arguments);
+    Some(format!("next: {command}"))
+}
+
+/// What leads on from what is no regular file, where nothing else does: what there is beside it, or in it.
+pub fn not_regular(error: &Error) -> Option<String> {
+    let path = match error {
+        Error::File(FileError::Log(e)) => e.file.as_deref()?,
+        Error::File(FileError::Config { file, .. } | FileError::OtherForm { file, .. }) => file,
+        Error::Checkpoint { file, .. } => file,
+        _ => return None,
+    };
+    match (
+        path.symlink_metadata().is_err() || is_regular(path),
+        path.is_dir(),
+    ) {
+        (true, _) => None,
+        (false, true) => shown(path),
+        (false, false) => shown(folder(path)),
+    }
+}
+
+/// Of which motion the `min_speed` of an axis file is, by its unit.
+pub fn motion_of_min_speed(axis: &Path) -> Motion {
+    const ROTARY: [&str; 8] = ["rad", "deg", "°", "rev", "rpm", "U/min", "1/min", "arc"];
+    let text = std::fs::read_to_string(axis).unwrap_or_default();
+    let mut lines = text.lines().map(str::trim_start);
+    let line = lines.find(|line| line.starts_with("min_speed"));
+    match line.is_some_and(|line| ROTARY.iter().any(|unit| line.contains(unit))) {
+        true => Motion::Rotary,
+        false => Motion::Linear,
+    }
 }
 
 /// What leads on where the disk is full.

@@ -4,6 +4,7 @@
 //! laws and versions can be put below each other; what is known of the log is repeated in each of its rows. A log of which nothing
 //! was identified has one row, with the code and the text of its error and no parameter.
 
+mod apart;
 mod list;
 mod read;
 mod row;
@@ -11,6 +12,7 @@ mod summary;
 mod table;
 mod time;
 
+pub use apart::{Apart, Levels};
 pub use list::{Listed, is_address, is_list, read_list};
 pub use read::{read_results, read_results_while, rows_while};
 pub use row::{LogRow, ParameterRow};

@@ -1,5 +1,6 @@
 //! `drift.json`: what changed on which machine. Schema `stiction.drift/1`, only ever extended.
 
+use crate::batch::Apart;
 use serde::{Deserialize, Serialize};
 
 /// Name of the schema.
@@ -30,6 +31,9 @@ pub struct DriftFile {
     pub noise: Vec<NoiseEntry>,
     /// What changed, and what is beyond a limit; the largest over its limit first.
     pub alarms: Vec<Alarm>,
+    /// Parameters that logs with one axis file have more than a hundred times apart: a unit of one of them is probably wrong.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub apart: Vec<Apart>,
 }
 
 /// The table that was read.

@@ -45,6 +45,6 @@ pub use error::{Error, Remedy, Warning};
 pub use hash::{Hash, sha256, sha256_of};
 pub use model::ModelFile;
 pub use output::{
-    Bundle, Journal, Kept, Runs, Work, check_folder, check_folder_of, check_inputs, check_writable,
-    has_runs, write_atomic, write_folder, write_into_folder, write_keeping,
+    Bundle, Journal, Kept, Runs, Work, check_apart, check_folder, check_folder_of, check_inputs,
+    check_writable, has_runs, write_atomic, write_folder, write_into_folder, write_keeping,
 };

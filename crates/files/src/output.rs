@@ -21,7 +21,7 @@ pub(crate) use pending::settle;
 pub use runs::{Runs, Work, has_runs};
 pub use single::{Kept, check_writable, write_atomic, write_keeping};
 pub(crate) use staged::Staged;
-pub use taken::{check_folder, check_folder_of, check_inputs};
+pub use taken::{check_apart, check_folder, check_folder_of, check_inputs};
 
 /// Why nothing can be written where no room is left.
 pub(crate) const FULL: &str = "the disk, or the share of it that may be used, is full";

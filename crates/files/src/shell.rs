@@ -1,6 +1,6 @@
 //! Commands as they are typed.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Whether a shell takes a letter as it stands.
 pub fn plain(c: char) -> bool {
@@ -113,6 +113,27 @@ pub fn new_axis_file(log: &Path) -> String {
     // A name that leads nowhere is one too.
     let is_free = |name: &String| Path::new(name).symlink_metadata().is_err();
     quoted(&names.find(is_free).unwrap_or(whole))
+}
+
+/// A folder to write into that holds nothing: this one, else with a number behind its name.
+pub fn free_folder(dir: &Path) -> PathBuf {
+    let is_free = |dir: &PathBuf| match std::fs::read_dir(dir) {
+        Ok(mut entries) => entries.next().is_none(),
+        Err(_) => dir.symlink_metadata().is_err(),
+    };
+    let name = dir.file_name().map(std::ffi::OsStr::to_os_string);
+    let Some(name) = name.filter(|_| !is_free(&dir.to_path_buf())) else {
+        return dir.to_path_buf();
+    };
+    let numbered = (2..).map(|number| {
+        let mut name = name.clone();
+        name.push(format!("-{number}"));
+        dir.with_file_name(name)
+    });
+    numbered
+        .take(MOST_NAMES)
+        .find(is_free)
+        .unwrap_or(dir.to_path_buf())
 }
 
 fn named_by(name: Option<&std::ffi::OsStr>) -> String {

@@ -507,7 +507,10 @@ impl Filters {
                 losses.excluded += usize::from(inside && !k);
                 let still = at_rest.get(i).is_some_and(|&still| still);
                 losses.at_rest += usize::from(inside && k && still);
-                losses.slow += usize::from(inside && k && !still && !fast);
+                if inside && k && !still && !fast {
+                    losses.slow += 1;
+                    losses.fastest_slow = losses.fastest_slow.max(velocity[i].abs());
+                }
                 k && inside && !still && fast
             })
             .collect();

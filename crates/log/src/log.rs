@@ -190,6 +190,10 @@ impl Log {
         mapping: &Mapping,
         (outside, own): (&[bool], usize),
     ) -> Result<Self, Error> {
+        // Before what else could be the time, or a motion, is missed.
+        if let (Some(enable), Ok(Some(column))) = (&mapping.enable, Enable::of(mapping, &table)) {
+            chosen::refuse_many(&table, column, enable)?;
+        }
         let completed = mapping.complete(&table)?;
         let mapping = completed.mapping;
         let mut findings = completed.findings;

@@ -4,6 +4,7 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek};
 use std::path::Path;
 
+use crate::regular::{Irregular, regular};
 use crate::sniff::{Format, sniff};
 use crate::text::{self, TextOptions, unit};
 use crate::{Error, Kind, Limits, Table, stamps, watch};
@@ -64,10 +65,7 @@ pub fn read_wanted(
 
 /// Whether a file is a recording by its first bytes: MATLAB, HDF5, Parquet and the like. A text or JSON may be anything, and is none.
 pub fn is_binary_recording(path: &Path) -> bool {
-    let about = std::fs::metadata(path)
-        .ok()
-        .filter(std::fs::Metadata::is_file);
-    let format = about.and_then(|about| {
+    let format = regular(path).ok().and_then(|about| {
         let mut file = File::open(path).ok()?;
         sniff(&mut file, about.len()).ok()
     });
@@ -97,6 +95,14 @@ fn opened<'a>(
     read(path, options, bytes, wanted).map_err(|error| error.in_file(path))
 }
 
+/// The refusal of what is no regular file.
+pub(crate) fn not_opened(irregular: Irregular, allowed: &'static str) -> Error {
+    match irregular {
+        Irregular::Io(error) => io(error),
+        Irregular::Other(what) => Error::new(Kind::Io, what, allowed),
+    }
+}
+
 fn io(error: io::Error) -> Error {
     Error::new(Kind::Io, format!("cannot be read ({error})"), "")
 }
@@ -107,20 +113,7 @@ fn read<'a>(
     seen: Bytes<'a>,
     wanted: Wanted,
 ) -> Result<Table, Error> {
-    // Looked at before it is opened: opening a pipe that nobody writes to would wait forever.
-    let about = std::fs::metadata(path).map_err(io)?;
-    if !about.is_file() {
-        let what = if about.is_dir() {
-            "a directory"
-        } else {
-            "not a regular file"
-        };
-        return Err(Error::new(
-            Kind::Io,
-            what,
-            "a recording has to be a regular file",
-        ));
-    }
+    let about = regular(path).map_err(|e| not_opened(e, "a recording has to be a regular file"))?;
     let bytes = about.len();
     if bytes == 0 {
         return Err(Error::new(Kind::Format, "the file is empty", ""));

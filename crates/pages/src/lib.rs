@@ -18,10 +18,12 @@
 //!
 //! A page reads what a workflow found and calls neither a workflow nor an engine.
 
+mod apart;
 mod deviation;
 mod drift;
 pub mod glossary;
 mod inputs;
+mod more_logs;
 mod names;
 mod next;
 pub mod report;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use stiction_files::result::{Cure, Next, ResultFile};
 pub use stiction_files::shell::axis_file;
-use stiction_files::shell::{new_axis_file, plain, quoted, quoted_path, text};
+use stiction_files::shell::{free_folder, new_axis_file, plain, quoted, quoted_path, text};
 use stiction_identify::LawKind;
 use stiction_number::Percent;
 
@@ -209,7 +209,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
     match next {
         Next::Export => {
             let model = quoted_path(&dir.join("model.toml"));
-            let code = quoted_path(&dir.join("c"));
+            let code = quoted_path(&free_folder(&dir.join("c")));
             let cycle = cycle(result);
             format!("stiction export {model} --target c{cycle} --out {code}")
         }

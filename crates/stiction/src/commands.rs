@@ -8,7 +8,7 @@ pub mod batch {
         read_list, read_results, rows_while, seconds_of,
     };
     pub use stiction_log::Cells;
-    pub use stiction_workflows::batch::{Batch, Called, Done};
+    pub use stiction_workflows::batch::{Batch, Called, Done, batch_of};
 }
 
 /// Friction over time, from the table of a batch.
@@ -21,11 +21,11 @@ pub mod drift {
 
 /// A recording in SI with how its columns were understood.
 pub mod recording {
-    pub use stiction_log::{Channel, Log, Mapping, Role, Selector, Understood};
+    pub use stiction_log::{Channel, Log, Mapping, Motion, Role, Selector, Understood};
 }
 
 /// Why a recording was refused.
-pub use stiction_log::{Error as LogError, Settled};
+pub use stiction_log::{Error as LogError, Settled, is_regular};
 
 /// A table as its file has it.
 pub mod log_table {
@@ -34,9 +34,9 @@ pub mod log_table {
 
 /// Forms of files, and how they are written.
 pub use stiction_files::{
-    Bundle, Error as FileError, Kept, Looks, Remedy, Runs, axis, check_folder, check_folder_of,
-    check_inputs, compare_file, has_runs, looks, plan, refuse_as_log, reproduce_file, shell, study,
-    visible, write_atomic,
+    Bundle, Error as FileError, Kept, Looks, Remedy, Runs, axis, check_apart, check_folder,
+    check_folder_of, check_inputs, compare_file, has_runs, looks, plan, refuse_as_log,
+    reproduce_file, shell, study, visible, write_atomic,
 };
 /// What is being done, in the words of the terminal.
 pub fn stage(stage: stiction_identify::Stage) -> &'static str {
@@ -69,7 +69,7 @@ pub use stiction_workflows::compare::{
 };
 /// An identification from paths.
 pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
-pub use stiction_workflows::identify::{presliding_length, slowest_turn};
+pub use stiction_workflows::identify::{lowered, presliding_length, slowest_turn};
 /// Forms in which a controller takes a planned motion, and how well a parameter is to be known.
 pub use stiction_workflows::plan::{Carrier, Want};
 /// A planned motion, from an axis file.

@@ -3,8 +3,10 @@
 mod found;
 mod one;
 mod prepare;
+mod read;
 mod run;
 mod single;
 
 pub use prepare::{Batch, Called};
+pub use read::batch_of;
 pub use run::Done;

@@ -11,13 +11,14 @@ pub use shows::Shows;
 pub use tracking::{Peak, Tracking, TrackingChange};
 
 use crate::error::Error;
-use crate::identify::{Asked, Options, Outcome, identify_asked};
+use crate::identify::{Asked, GIVEN_ONCE, Options, Outcome, identify_asked, lowered};
 use crate::source::{self, Source};
 use serde::Serialize;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stiction_codes::Code;
-use stiction_files::axis::Axis;
+use stiction_files::axis::{Axis, Use};
 use stiction_files::result::{Cure, Input, Next};
 use stiction_identify::Observer;
 use stiction_log::{Log, Severity, Understood};
@@ -79,6 +80,10 @@ pub enum Lead {
     Identify,
     /// The same by simulation: filters leave too little of the log.
     Simulate,
+    /// `stiction identify` of all logs that the axis file lists: of this one it fits nothing.
+    Listed,
+    /// The axis file fits nothing of any log that it lists.
+    Unfitted,
     /// The axis file needs a line that is named.
     AxisFile,
     /// Nothing can be identified from the log; another has to be recorded.
@@ -146,11 +151,38 @@ pub fn check(
         ));
     }
     source::refuse_several(&read, logs.len())?;
+    refuse_twice(logs)?;
+    let any_fitted = read
+        .logs
+        .iter()
+        .any(|log| log.mapping(Use::Fitted).is_some());
     let mut out = Vec::new();
     for path in logs {
-        out.push(one(source::load(path, &read)?, &read, observer)?);
+        let source = source::load(path, &read)?;
+        let never_fitted = source.never_fitted;
+        let mut found = one(source, &read, observer)?;
+        if never_fitted && matches!(found.next, Lead::Identify | Lead::Simulate) {
+            found.next = match any_fitted {
+                true => Lead::Listed,
+                false => Lead::Unfitted,
+            };
+        }
+        out.push(found);
     }
     Ok(together(out, axis))
+}
+
+/// Refuses a log that is given by two paths, as an identification does.
+fn refuse_twice(logs: &[PathBuf]) -> Result<(), Error> {
+    let mut seen: HashMap<PathBuf, &PathBuf> = HashMap::new();
+    for log in logs {
+        let place = log.canonicalize().unwrap_or_else(|_| log.clone());
+        if let Some(twin) = seen.insert(place, log) {
+            let found = format!("{} and {} are the same log", twin.display(), log.display());
+            return Err(Error::usage(found, GIVEN_ONCE));
+        }
+    }
+    Ok(())
 }
 
 /// The same of logs that are in memory already, read with this axis.
@@ -259,6 +291,7 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
         clock,
     };
     let is_overflown = log.overflow().is_some();
+    let motion = log.motion;
     match identify_asked(asked, vec![source], Vec::new(), observer) {
         Ok(outcome) => {
             out.refused = untrusted(&outcome);
@@ -276,6 +309,10 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
                 out.next = Lead::AxisFile;
             }
             out.parameters = verdicts(&outcome);
+            out.shows.iter_mut().for_each(|shown| {
+                let told = |p: &ParameterCheck| p.identifiable && p.name == shown.name;
+                shown.told_by_fit(out.parameters.iter().any(told));
+            });
             out.conditioning = outcome.result.axis.conditioning;
             // What only the fit shows of the log itself.
             let shown = outcome.result.warnings.into_iter();
@@ -299,6 +336,17 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
             let simulates = simulates && left.is_none_or(|left| left > 0);
             if e.code() == Code::TooFewSamples && simulates && slides {
                 out.next = Lead::Simulate;
+            }
+            let line = e.losses().and_then(|(losses, needed)| {
+                lowered(losses, needed, axis.conditioning.decimate, motion)
+            });
+            if let Some(line) = line {
+                out.next = Lead::AxisFile;
+                out.line = Some(Cure::Line {
+                    table: "conditioning".into(),
+                    line,
+                    replaces: true,
+                });
             }
         }
         Err(Error::File(stiction_files::Error::Log(e))) => {

@@ -6,4 +6,6 @@ mod run;
 
 pub use asked::{Limit, Side};
 pub use courses::Followed;
-pub use run::{DriftOutcome, Shown, drift, drift_of_rows, drift_of_rows_while, drift_while};
+pub use run::{
+    DriftOutcome, Shown, drift, drift_of_rows, drift_of_rows_while, drift_while, least_logs,
+};

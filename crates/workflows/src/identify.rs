@@ -21,6 +21,7 @@ mod late;
 mod left;
 mod load;
 mod logs;
+mod lowered;
 mod method;
 mod mixed;
 mod options;
@@ -41,7 +42,8 @@ mod turn;
 mod unfit;
 
 pub(crate) use condition::record_of;
-pub(crate) use load::Asked;
+pub(crate) use load::{Asked, GIVEN_ONCE};
+pub use lowered::lowered;
 pub use method::Method;
 pub use options::{CostKind, Files, Options, Procedures, Searching};
 pub use outcome::{ForceFit, Found, Outcome, Simulated};

@@ -31,6 +31,8 @@ pub struct Source {
     pub log: Log,
     /// Columns of it that come from other files.
     pub joined: Vec<JoinedEntry>,
+    /// Whether the axis file lists the log, and fits nothing of it.
+    pub never_fitted: bool,
 }
 
 /// Reads the columns of a file, without mapping them.
@@ -223,6 +225,7 @@ fn mapped(
         detected,
         log,
         joined,
+        never_fitted: listed.is_some_and(|log| log.mapping(Use::Fitted).is_none()),
     })
 }
 
@@ -290,7 +293,7 @@ fn itself(axis: &Axis, role: Role, log: &Path) -> Error {
 }
 
 /// An error of usage at a key of the axis file, where that has one.
-fn usage_at(axis: &Axis, key: &str, found: String, allowed: &'static str) -> Error {
+pub(crate) fn usage_at(axis: &Axis, key: &str, found: String, allowed: &'static str) -> Error {
     match axis.refuse(key, found.clone(), allowed, Code::Usage) {
         Some(error) => error.into(),
         None => Error::usage(found, allowed),

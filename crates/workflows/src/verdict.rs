@@ -82,12 +82,13 @@ impl Exported {
 
 /// Whether something was identified of every log of a batch, and may be used.
 pub fn of_batch(file: &BatchFile) -> Verdict {
-    Verdict::new(file.status == "interrupted", file.trustworthy == file.logs)
+    let is_trusted = file.trustworthy == file.logs && file.apart.is_empty();
+    Verdict::new(file.status == "interrupted", is_trusted)
 }
 
 /// Whether nothing changed, on any machine, and no limit is exceeded.
 pub fn of_drift(file: &DriftFile) -> Verdict {
-    Verdict::new(false, file.alarms.is_empty())
+    Verdict::new(false, file.alarms.is_empty() && file.apart.is_empty())
 }
 
 /// Whether all runs of a comparison were made.

@@ -12,6 +12,8 @@ mod leads;
 #[cfg(unix)]
 mod linuxcnc;
 mod nameplate;
+#[cfg(target_os = "linux")]
+mod onward;
 mod page;
 mod paper;
 mod plan;

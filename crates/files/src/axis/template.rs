@@ -46,6 +46,8 @@ pub struct Found {
     pub own_stamps: Vec<OwnStamps>,
     /// The column of time stamps that are not read since their clock is coarser than the sampling.
     pub coarse: Option<Channel>,
+    /// Whether the force brakes as it stands, so that its sign is turned.
+    pub brakes: bool,
     /// The line that leaves out the rows in which the axis was not enabled, where a column says so by its name.
     pub enable: Option<String>,
     /// What the numbers of each column look like; may be empty.
@@ -53,7 +55,7 @@ pub struct Found {
 }
 
 /// What may stand there of a column that says where the axis is enabled.
-const ENABLE: &str = "# enable = \"NAME\"    # rows where it is 0 are left out; of a mode: { column = \"NAME\", equals = 8 }";
+const ENABLE: &str = "# enable = \"NAME\"    # rows where it is 0 are left out; of a mode: { column = \"NAME\", equals = 8 }, of a status word with mask = 0x6f, equals = 0x27";
 
 /// Text of an axis file for a table: detected columns filled in, or those that are clear and why the others could not be;
 /// everything else as comments that say what may stand there.
@@ -129,6 +131,9 @@ pub fn template(
             Some(channel) => {
                 let note = match found.assumed.contains(&role) {
                     true => "    # the unit is assumed: nothing gives it",
+                    false if role == Role::Force && found.brakes => {
+                        "    # its sign is turned: as it stands it brakes"
+                    }
                     false => "",
                 };
                 let mut entry = entry(channel);
@@ -146,6 +151,16 @@ pub fn template(
                         out,
                         "# with a force constant add, such as: scale = \"{}\"",
                         words.scale
+                    );
+                }
+                if role == Role::Force && unit == Some(Dimension::ONE) && channel.scale.is_none() {
+                    let rated = match detected.motion {
+                        Some(Motion::Linear) => "250 N",
+                        _ => "2.4 N m",
+                    };
+                    let _ = writeln!(
+                        out,
+                        "# of a part of the rated force or torque add that (CiA 402: object 6076h), such as: scale = \"{rated}\""
                     );
                 }
                 if unit == Some(Dimension::COUNTS) && channel.scale.is_none() {
@@ -181,7 +196,7 @@ pub fn template(
     let _ = match &found.enable {
         Some(line) => writeln!(
             out,
-            "# {line}    # 0 in some rows: without the # those are left out"
+            "# {line}    # not enabled in some rows: without the # those are left out"
         ),
         None => writeln!(out, "{ENABLE}"),
     };

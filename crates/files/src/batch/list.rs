@@ -33,8 +33,7 @@ const LARGEST: u64 = 1 << 30;
 /// Whether a file is a list of logs, rather than a log: text whose first line has a cell `path`, or nothing but other columns of a
 /// list, which is refused for what is missing.
 pub fn is_list(file: &Path) -> bool {
-    // Opening a pipe would wait for ever.
-    if !file.is_file() {
+    if !stiction_log::is_regular(file) {
         return false;
     }
     let Ok(opened) = File::open(file) else {

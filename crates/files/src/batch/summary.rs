@@ -1,5 +1,6 @@
 //! `batch.json`: what a batch was, and how it ended. Schema `stiction.batch/1`, only ever extended.
 
+use super::apart::Apart;
 use crate::shell::{quoted, quoted_path};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -33,13 +34,21 @@ pub struct BatchFile {
     pub taken: usize,
     /// Of the others, how many failed with which code, most first.
     pub failed: Vec<Failure>,
+    /// Parameters that logs with one axis file have more than a hundred times apart: a unit of one of them is probably wrong.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub apart: Vec<Apart>,
 }
 
 impl BatchFile {
     /// The command that goes on with it in its folder, from the folder in which it was called.
     pub fn command(&self, dir: &Path) -> String {
+        self.command_with(dir, None)
+    }
+
+    /// The same with another log; none where a folder or a pattern of the inputs takes it by itself.
+    pub fn command_with(&self, dir: &Path, another: Option<&str>) -> String {
         let mut command = String::from("stiction batch");
-        for input in &self.inputs {
+        for input in self.inputs.iter().map(String::as_str).chain(another) {
             command += &format!(" {}", quoted(input));
         }
         for (name, value) in &self.options {

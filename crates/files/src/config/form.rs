@@ -115,8 +115,7 @@ pub fn refuse_as_log(file: &Path) -> Result<(), Error> {
 
 /// The beginning of a file, as text; `None` where it is none.
 fn head(file: &Path) -> Option<String> {
-    // To open a pipe would wait for who writes into it.
-    if !file.is_file() {
+    if !stiction_log::is_regular(file) {
         return None;
     }
     let mut head = Vec::new();

@@ -283,12 +283,16 @@ impl<'a> Given<'a> {
         dimensions: &[Dimension],
         range: &RangeInclusive<f64>,
     ) -> Result<(f64, Dimension), Error> {
-        let (x, dimension) = self.positive(dimensions)?;
+        let (x, dimension) = self.value(dimensions)?;
         if range.contains(&x) {
             return Ok((x, dimension));
         }
         let (low, high) = (range.start(), range.end());
-        let allowed = format!("from {low:e} to {high:e} {}", dimension.si_text());
+        let unit = match dimension {
+            Dimension::FREQUENCY => "Hz".into(),
+            other => other.si_text(),
+        };
+        let allowed = format!("from {low:e} to {high:e} {unit}");
         Err(self.refused(&allowed))
     }
 

@@ -4,6 +4,7 @@ use super::form::{self, Form};
 use crate::error::Error;
 use crate::output::settle;
 use std::path::Path;
+use stiction_log::{Irregular, regular};
 
 /// Largest file that is read, bytes.
 pub(super) const MAX_BYTES: u64 = 1 << 20;
@@ -42,13 +43,13 @@ pub(super) fn text(file: &Path, form: Form) -> Result<String, NotRead> {
         settle(dir).map_err(|e| NotRead::Faulty(e.to_string(), whole))?;
     }
     let other = || form::of_file(file).map(|found| NotRead::Other(form.instead_of(file, found)));
-    let meta = std::fs::metadata(file).map_err(unreadable)?;
-    if !meta.is_file() || meta.len() > MAX_BYTES {
-        let found = if meta.is_file() {
-            format!("{} bytes", meta.len())
-        } else {
-            "not a file".into()
-        };
+    let found = match regular(file) {
+        Ok(about) if about.len() <= MAX_BYTES => None,
+        Ok(about) => Some(format!("{} bytes", about.len())),
+        Err(Irregular::Io(e)) => return Err(unreadable(e)),
+        Err(Irregular::Other(what)) => Some(what.into()),
+    };
+    if let Some(found) = found {
         let allowed = format!("{what} is a text file of at most 1 MiB");
         return Err(other().unwrap_or(NotRead::Faulty(found, allowed)));
     }

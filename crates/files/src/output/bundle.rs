@@ -25,7 +25,7 @@ impl Bundle {
     }
 
     /// Files in `dir` that [`Bundle::write`] keeps under another name, with that: those that were changed since the outcome that is
-    /// there was written, and those that belong to that alone.
+    /// there was written, links, and those that belong to that alone.
     pub fn kept(&self, dir: impl AsRef<Path>) -> Vec<(PathBuf, PathBuf)> {
         let dir = dir.as_ref();
         let mark = self.files.iter().find(|(name, _)| MARKS.contains(name));
@@ -40,6 +40,10 @@ impl Bundle {
         let written = changed(&dir.join(mark));
         let edited = self.files.iter().filter(|(name, content)| {
             let path = dir.join(name);
+            // A link would be replaced by a file, and what it leads to no longer follow.
+            if path.is_symlink() {
+                return true;
+            }
             let later = name != mark && path.is_file() && changed(&path) > written;
             later && fs::read(&path).is_ok_and(|there| there != *content)
         });

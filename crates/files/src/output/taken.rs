@@ -62,7 +62,26 @@ pub fn check_inputs(
     Ok(())
 }
 
-/// Where a file is, or will be once it is written.
+/// Refuses a file that is written while an identification runs, such as a checkpoint, where its result is then to be: the folder
+/// itself, or one of the files in it.
+///
+/// # Errors
+/// With that file.
+pub fn check_apart(dir: impl AsRef<Path>, file: impl AsRef<Path>) -> Result<(), Error> {
+    let file = file.as_ref();
+    let (Some(out), Some(place)) = (place_of(dir.as_ref()), place_of(file)) else {
+        return Ok(());
+    };
+    let name = place.file_name().and_then(|name| name.to_str());
+    let is_written = name.is_some_and(|name| WRITTEN.contains(&name) || name == "study.toml");
+    if place != out && !(is_written && place.parent() == Some(out.as_path())) {
+        return Ok(());
+    }
+    let found = "is where the result is written; give the checkpoint another name";
+    Err(Error::output(file, found))
+}
+
+/// Where a file is, or will be once it and the folders above it are made.
 fn place_of(file: &Path) -> Option<PathBuf> {
     if let Ok(real) = file.canonicalize() {
         return Some(real);
@@ -71,7 +90,7 @@ fn place_of(file: &Path) -> Option<PathBuf> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    Some(parent.canonicalize().ok()?.join(file.file_name()?))
+    Some(place_of(parent)?.join(file.file_name()?))
 }
 
 /// Refuses a folder that holds something that stiction did not write, unless `force`.

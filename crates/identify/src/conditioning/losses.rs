@@ -3,7 +3,7 @@
 use std::fmt;
 
 /// Counts of the samples on their way from the logs to a fit, and why the others were left out.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Losses {
     /// Samples of the logs.
     pub logged: usize,
@@ -20,6 +20,8 @@ pub struct Losses {
     pub at_rest: usize,
     /// Of those taken: slower than `min_speed`.
     pub slow: usize,
+    /// The fastest of these, m/s or rad/s.
+    pub fastest_slow: f64,
     /// Of those taken: where the force depends on what was before the log or in a gap.
     pub unsettled: usize,
     /// Of those taken: held back for validation.

@@ -42,7 +42,7 @@ impl Estimate {
     pub fn finding(&self, name: &str, role: Role) -> Finding {
         let message = format!(
             "{} s added to the time stamps of {name} make {} go together, to {} s (95 %); {} of the variance is explained then; to keep \
-             it, write offset = \"{} s\" in place of \"estimate\" for {role}",
+             it, write offset = \"{} s\" in place of \"estimate\" for {role}; a delay that is fitted is known no better than that",
             micro(self.seconds),
             self.by,
             short(self.lag.half_width),

@@ -33,6 +33,8 @@ pub(super) struct Chosen {
     left_out: Option<NotEnabled>,
     /// The number that chooses a row.
     kept: f64,
+    /// The same in words.
+    words: String,
     /// Stretches that are not enabled, and the times of the first one.
     stretches: usize,
     first: Option<(f64, f64)>,
@@ -61,6 +63,10 @@ impl Chosen {
             rows: None,
             left_out: None,
             kept: mapping.enable.as_ref().map_or(1.0, Enable::kept),
+            words: mapping
+                .enable
+                .as_ref()
+                .map_or_else(String::new, Enable::kept_words),
             stretches: 0,
             first: None,
         };
@@ -117,6 +123,7 @@ impl Chosen {
         let mut there = Vec::new();
         for (row, value) in rows.iter_mut().zip(values) {
             if *row == Row::Kept {
+                let value = enable.counted(value);
                 there.push(value);
                 if value != self.kept {
                     *row = Row::NotEnabled;
@@ -168,7 +175,7 @@ impl Chosen {
             "column {} is not {} in {} of {}, at {}, the first from {} to {} s of the part that is kept; they are left out, and \
              the record is split there",
             left_out.column,
-            full(self.kept),
+            self.words,
             left_out.rows,
             count(left_out.of, "row"),
             count(self.stretches, "place"),
@@ -208,6 +215,16 @@ fn refuse_empty(parts: &Parts, clock: &Clock) -> Result<(), Error> {
     Err(Error::new(Kind::Value, found, allowed).of_setting(parts::KEY))
 }
 
+/// Refuses a column of so many numbers that it is neither a flag nor one of modes, where no number is given.
+pub(super) fn refuse_many(table: &Table, column: usize, enable: &Enable) -> Result<(), Error> {
+    let values = &table.columns[column].values;
+    let is_flag = enable.equals.is_none() && enable.mask.is_none();
+    match is_flag && different(values).len() > MOST_NAMED {
+        true => refuse(table, column, enable, values),
+        false => Ok(()),
+    }
+}
+
 /// Refuses a column that keeps no row, or that is no flag where no number is given.
 fn refuse(table: &Table, column: usize, enable: &Enable, values: &[f64]) -> Result<(), Error> {
     let there = different(values);
@@ -223,11 +240,25 @@ fn refuse(table: &Table, column: usize, enable: &Enable, values: &[f64]) -> Resu
     let mode = there.iter().find(|x| **x != 0.0).or(there.first());
     let mode = mode.filter(|_| !many).map_or("8".into(), |x| full(*x));
     let line = Enable::line(table, column, &mode);
-    let is_flag = there.iter().all(|x| *x == 0.0 || *x == 1.0);
-    let (found, allowed) = if enable.equals.is_none() && !is_flag {
-        let found = format!("enable, column {place}, holds {holds}");
+    if let Some(mask) = enable.mask.filter(|_| !values.contains(&enable.kept())) {
+        let kept = full(enable.kept());
+        let found = format!(
+            "enable, column {place}, is {kept} under mask 0x{mask:x} in no row; there it is {holds}"
+        );
         let allowed =
-            format!("0 and 1 alone; of a column of modes say which one is kept, as in: {line}");
+            "a number that it holds under the mask, which is then equals, or another mask";
+        return Err(Error::new(Kind::Value, found, allowed).of_setting(enable::KEY));
+    }
+    let is_flag = there.iter().all(|x| *x == 0.0 || *x == 1.0);
+    let (found, allowed) = if enable.equals.is_none() && enable.mask.is_none() && !is_flag {
+        let found = format!("enable, column {place}, holds {holds}");
+        let allowed = match many {
+            true => "0 and 1 alone, or a column of modes, of which one is kept with equals; a column of so many numbers is neither"
+                .into(),
+            false => {
+                format!("0 and 1 alone; of a column of modes say which one is kept, as in: {line}")
+            }
+        };
         (found, allowed)
     } else if !values.contains(&enable.kept()) {
         let kept = full(enable.kept());

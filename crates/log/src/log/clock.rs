@@ -177,7 +177,21 @@ fn stamped(
             let rate = (range.len() - 1) as f64 / lasted;
             let all: Vec<f64> = range.clone().map(|row| since(row, origin)).collect();
             let part = Coarse::of_a_part(&all).filter(|(_, rows)| rows.len() < all.len());
+            let full =
+                Coarse::of_full_stamps(&all).filter(|_| part.is_none() && coarse().is_none());
             let allowed = match coarse().map_or(rate, |clock| clock.rate_hz) {
+                _ if let Some(rate) = full => {
+                    let error = Error::new(
+                        Kind::Time,
+                        found,
+                        format!(
+                            "at most 5 % of the rows: the clock is coarser than the sampling, at about {} Hz where no row is missing, and rows are missing here and there, \
+                             which no rate counts; a log with finer time stamps, or one in which no row is missing",
+                            short(rate)
+                        ),
+                    );
+                    return Err(error.at_row(first as u64 + 1));
+                }
                 _ if let Some((clock, rows)) = &part => {
                     let at = |row: usize| short((range.start + row) as f64 / clock.rate_hz);
                     format!(

@@ -1,5 +1,6 @@
 //! Time stamps of a clock that is coarser than the sampling: rows at one rate, whose stamps are rounded to its ticks.
 
+use crate::findings::median;
 use std::ops::Range;
 
 /// What is left of a step by the arithmetic of decimal numbers, of a tick.
@@ -15,6 +16,9 @@ const HALVINGS: u32 = 6;
 const FEWEST_ROWS: usize = 200;
 /// Least tick, of the step, that is worth a word.
 const LEAST: f64 = 0.01;
+
+/// Least part of the stamps that have all of their rows, where others are missing.
+const FULL: f64 = 0.02;
 
 /// A clock that rounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +62,28 @@ impl Coarse {
             let mut found = long.filter_map(|rows| Some((Self::of(&time[rows.clone()])?, rows)));
             found.next()
         })
+    }
+
+    /// The rate of rows of which some are missing here and there, Hz, from the stamps that have all of theirs; `None` where no rows share
+    /// a stamp, or none are missing.
+    pub fn of_full_stamps(time: &[f64]) -> Option<f64> {
+        let groups: Vec<usize> = time.chunk_by(|a, b| a == b).map(<[f64]>::len).collect();
+        let inside = groups.get(1..groups.len().checked_sub(1)?)?;
+        let mut steps: Vec<f64> = time
+            .windows(2)
+            .map(|w| w[1] - w[0])
+            .filter(|s| *s > 0.0)
+            .collect();
+        let tick = median(&mut steps)?;
+        // What is rounded from one stamp to the next one evens out in two.
+        let mut pairs: Vec<usize> = inside.windows(2).map(|two| two[0] + two[1]).collect();
+        pairs.sort_unstable();
+        let full = pairs
+            .len()
+            .checked_sub(1 + (FULL * pairs.len() as f64) as usize);
+        let (least, most) = (*pairs.first()?, *pairs.get(full?)?);
+        let is_missing = pairs.len() >= FEWEST && most > 2 && least + 2 < most;
+        is_missing.then(|| most as f64 / (2.0 * tick))
     }
 
     /// The longest step of stamps between which no row is missing, s.
@@ -151,6 +177,26 @@ mod tests {
         }
         let exact: Vec<f64> = (0..5000).map(|k| f64::from(k) * 1e-3).collect();
         assert_eq!(Coarse::of_a_part(&exact), None);
+    }
+
+    /// Rows that are missing at random leave the rate of the full stamps, and no rate that counts them.
+    #[test]
+    fn rows_that_are_missing_at_random_leave_the_rate_of_full_stamps() {
+        let whole = stamps(1000.0, 1e-2, 20_000);
+        assert_eq!(Coarse::of_full_stamps(&whole), None);
+        let mut state = 1_u32;
+        let mut missing = whole;
+        missing.retain(|_| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            f64::from(state >> 8) / f64::from(1 << 24) > 0.1
+        });
+        let rate = Coarse::of_full_stamps(&missing).unwrap();
+        assert_eq!(rate.round(), 1000.0);
+        // Halves that are rounded to even stamps make them uneven, and no rows missing.
+        let rounded: Vec<f64> = (0..20_000)
+            .map(|k| (f64::from(k) * 0.1).round_ties_even() * 1e-2)
+            .collect();
+        assert_eq!(Coarse::of_full_stamps(&rounded), None);
     }
 
     #[test]

@@ -21,6 +21,14 @@ const USUAL_SPEED: f64 = 1e3;
 const USUAL_TURNS: f64 = 1e5;
 /// Forces and torques, N and N m, and currents, voltages and parts of a rated value: of a stage on a chip to the largest press.
 const USUAL_FORCES: RangeInclusive<f64> = 1e-9..=1e8;
+/// Speeds and accelerations, SI, beyond both of which no servo axis is: of a linear one twice the fastest machine, at a hundred
+/// times gravity; of a rotary one a motor of 20 000 rpm, faster than any starts.
+const SERVO_LINEAR: [f64; 2] = [20.0, 981.0];
+const SERVO_ROTARY: [f64; 2] = [2e3, 2e5];
+/// Seconds over which a motion is looked at, so that noise and steps of an encoder are neither speed nor acceleration.
+const LOOK: f64 = 0.01;
+/// Part of the samples that may be faster without a word, such as a few that are damaged.
+const FASTER: f64 = 0.02;
 /// Rounding errors of the largest number up to which a signal counts as constant.
 const CONSTANT_WITHIN: f64 = 8.0;
 
@@ -95,7 +103,74 @@ pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> 
             tell(role, largest, says, &range, unit);
         }
     }
+    if found.is_empty() {
+        found.extend(no_servo(log, table, sources));
+    }
     found
+}
+
+/// Names a motion that is both faster and more accelerated than that of any servo axis: most often millimetres that are read as
+/// metres, or milliseconds as microseconds.
+fn no_servo(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Option<Finding> {
+    let steps = ((LOOK * log.rate_hz).round() as usize).max(1);
+    let over = steps as f64 / log.rate_hz;
+    let positions = log.position.as_deref().map(|x| (Role::Position, x));
+    let velocities = log.velocity.as_deref().map(|v| (Role::Velocity, v));
+    let (role, values) = positions.or(velocities)?;
+    let (_, source) = sources.iter().find(|(own, _)| *own == role)?;
+    let rates = |x: &[f64]| -> Vec<f64> {
+        let rate = |k: usize| (x[k + steps] - x[k]) / over;
+        (0..x.len().saturating_sub(steps)).map(rate).collect()
+    };
+    let velocities = match role {
+        Role::Position => rates(values),
+        _ => values.to_vec(),
+    };
+    let (speed, acceleration) = (
+        nearly_largest(&velocities)?,
+        nearly_largest(&rates(&velocities))?,
+    );
+    let [fastest, hardest] = match log.motion {
+        Motion::Linear => SERVO_LINEAR,
+        Motion::Rotary => SERVO_ROTARY,
+    };
+    if speed <= fastest || acceleration <= hardest {
+        return None;
+    }
+    let units = [log.motion.velocity(), log.motion.acceleration()];
+    let [of_speed, of_acceleration] = units.map(|dimension| dimension.si_text());
+    let time = sources.iter().find(|(own, _)| *own == Role::Time);
+    let time = time.map_or(String::new(), |(_, time)| {
+        format!(
+            ", or that of time, column {} ({})",
+            time.place(table),
+            time.unit
+        )
+    });
+    let message = format!(
+        "{role} shows {} {of_speed} and {} {of_acceleration} at once, and no servo axis has more than {} {of_speed} with more than {} \
+         {of_acceleration}: is the unit of column {} ({}) wrong{time}? Another one is given in axis.toml under [columns], as in: {}",
+        short(speed),
+        short(acceleration),
+        short(fastest),
+        short(hardest),
+        source.place(table),
+        source.unit,
+        source.line(table, role, false),
+    );
+    Some(Finding::new(Code::UnlikelySize, Severity::Warning, message))
+}
+
+/// The size that all but a few are below.
+fn nearly_largest(values: &[f64]) -> Option<f64> {
+    let mut sizes: Vec<f64> = values.iter().map(|x| x.abs()).collect();
+    sizes.retain(|x| x.is_finite());
+    if sizes.is_empty() {
+        return None;
+    }
+    let place = ((1.0 - FASTER) * (sizes.len() - 1) as f64) as usize;
+    let (_, size, _) = sizes.select_nth_unstable_by(place, f64::total_cmp);
+    Some(*size)
 }
 
 /// Refuses a log whose rate or one of whose columns cannot be that of an axis. A column that never changes is told elsewhere.

@@ -165,9 +165,17 @@ fn wrong(position: &[f64], period: f64, unit: &str) -> Option<String> {
         }
         before = Some(x);
     }
-    let left = median(&mut left)?;
-    let how = if high - low > period * (1.0 + ROUNDING) {
-        let covered = short(high - low);
+    let covers_more = high - low > period * (1.0 + ROUNDING);
+    let covered = short(high - low);
+    let Some(left) = median(&mut left) else {
+        return covers_more.then(|| {
+            format!(
+                "its numbers cover {covered} {unit}, which is more than the wrap, and go on without a jump: it does not begin again after \
+                 that, so leave wrap out of [log] in axis.toml, or correct it"
+            )
+        });
+    };
+    let how = if covers_more {
         format!("its numbers cover {covered} {unit}, which is more")
     } else if left > LEFT * longest {
         format!("jumps of {} {unit} are left there", short(left))

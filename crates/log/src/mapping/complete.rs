@@ -521,12 +521,18 @@ fn judge(
         Finding::new(Code::ForceUnit, Severity::Warning, message)
     } else {
         let message = format!(
-            "the force is in {is}; parameters come out in {is} too, unless a scale in {wanted}/{} is \
-             given{}",
-            unit.text(),
-            match [Dimension::VOLTAGE, Dimension::ONE].contains(&source.dimension) {
-                true => ", or the motor under [drive]: docs/axis.md#drive",
-                false => "",
+            "the force is in {is}; parameters come out in {is} too, unless a scale in {} is given{}",
+            match source.dimension {
+                Dimension::ONE => wanted.clone(),
+                _ => format!("{wanted}/{}", unit.text()),
+            },
+            match source.dimension {
+                Dimension::VOLTAGE => ", or the motor under [drive]: docs/axis.md#drive".into(),
+                Dimension::ONE => format!(
+                    ": of a part of a rated value the scale is that value, scale = \"RATED {wanted}\" (of CiA 402 object 6076h, or the \
+                     nameplate); of a duty it is the motor under [drive]: docs/axis.md#drive"
+                ),
+                _ => String::new(),
             }
         );
         Finding::new(Code::ForceNotCalibrated, Severity::Note, message)

@@ -4,7 +4,7 @@ use super::channel::Selector;
 use super::flags::{has_zeros, is_flag};
 use super::select::select;
 use super::{Mapping, describe, names};
-use crate::findings::{Finding, Severity};
+use crate::findings::{Finding, Severity, full};
 use crate::{Error, Table};
 use stiction_codes::Code;
 
@@ -18,9 +18,17 @@ pub(super) const NAME: &str = "enable";
 pub struct Enable {
     /// Which column.
     pub column: Selector,
-    /// The number of the rows that are kept; `None` for a column of 0 and 1, of which 1 is kept.
+    /// The number of the rows that are kept; `None` for a column of 0 and 1, of which 1 is kept, and for a mask, of which all bits
+    /// are then to be set.
     pub equals: Option<f64>,
+    /// The bits of a status word that count; the others may be anything.
+    pub mask: Option<u32>,
 }
+
+/// Bits of a status word of CiA 402 (object 6041h) that say its state, and what they are where operation is enabled:
+/// `xxxx xxxx x01x 0111`.
+const STATE: u32 = 0x6f;
+const OPERATION_ENABLED: u32 = 0x27;
 
 impl Enable {
     /// Where the column of a mapping is in a table; `None` where the mapping names none.
@@ -34,7 +42,30 @@ impl Enable {
 
     /// The number of the rows that are kept.
     pub fn kept(&self) -> f64 {
-        self.equals.unwrap_or(1.0)
+        self.equals.unwrap_or(self.mask.map_or(1.0, f64::from))
+    }
+
+    /// The number of the rows that are kept, in words.
+    pub(crate) fn kept_words(&self) -> String {
+        let kept = full(self.kept());
+        match self.mask {
+            None => kept,
+            Some(mask) => format!("{kept} under mask 0x{mask:x}"),
+        }
+    }
+
+    /// What of a number counts: its bits under the mask, where there is one.
+    pub fn counted(&self, value: f64) -> f64 {
+        match self.mask {
+            None => value,
+            Some(mask) => bits(value).map_or(f64::NAN, |bits| f64::from(bits & mask)),
+        }
+    }
+
+    /// The line of the axis file that keeps the rows in which a status word says that operation is enabled.
+    fn status_line(table: &Table, column: usize) -> String {
+        let with = format!("mask = 0x{STATE:x}, equals = 0x{OPERATION_ENABLED:x}");
+        describe::line_with(table, column, NAME, &with)
     }
 
     /// The line of the axis file that keeps the rows in which this column is 1.
@@ -48,35 +79,84 @@ impl Enable {
     }
 }
 
-/// The column that says by its name and its zeros that the axis was not enabled in some rows, where a mapping keeps them all.
-fn unused(given: &Mapping, table: &Table) -> Option<usize> {
+/// The bits of a whole number, with or without its sign.
+fn bits(value: f64) -> Option<u32> {
+    const SIGNED: f64 = -2_147_483_648.0;
+    const LARGEST: f64 = 4_294_967_295.0;
+    let is_whole = value.fract() == 0.0 && (SIGNED..=LARGEST).contains(&value);
+    // Numbers below zero are those of a counter with a sign.
+    is_whole.then_some(value as i64 as u32)
+}
+
+/// A column that says in which rows the axis is enabled, and is not used.
+enum Unused {
+    /// By its name and its zeros.
+    Flag(usize),
+    /// By the bits of its numbers.
+    Status(usize),
+}
+
+/// The column that says that the axis was not enabled in some rows, where a mapping keeps them all.
+fn unused(given: &Mapping, table: &Table) -> Option<Unused> {
+    if given.enable.is_some() {
+        return None;
+    }
     let says = |column: &usize| {
         names::says_enabled(&table.columns[*column].name)
             && is_flag(table, *column)
             && has_zeros(table, *column)
     };
-    let mut columns = (0..table.columns.len()).filter(|_| given.enable.is_none());
-    columns.find(says)
+    let mut columns = 0..table.columns.len();
+    let flag = columns.clone().find(says).map(Unused::Flag);
+    flag.or_else(|| columns.find(|c| is_status(table, *c)).map(Unused::Status))
+}
+
+/// Whether a column is a status word of CiA 402 by its name, with rows in which operation is enabled and others in which it is not.
+fn is_status(table: &Table, index: usize) -> bool {
+    let column = &table.columns[index];
+    if !names::says_status_word(&column.name) || table.passed.contains_key(&index) {
+        return false;
+    }
+    let enabled = |x: &f64| bits(*x).map(|bits| bits & STATE == OPERATION_ENABLED);
+    let (mut on, mut off) = (false, false);
+    for x in column.values.iter().filter(|x| !x.is_nan()) {
+        match enabled(x) {
+            None => return false,
+            Some(true) => on = true,
+            Some(false) => off = true,
+        }
+    }
+    on && off
 }
 
 impl Mapping {
     /// The line of the axis file that leaves out the rows in which a column, by its name, says that the axis was not enabled, where
     /// this mapping keeps them all.
     pub fn enable_line(&self, table: &Table) -> Option<String> {
-        let column = unused(self, table)?;
-        Some(Enable::whole_line(table, column))
+        Some(match unused(self, table)? {
+            Unused::Flag(column) => Enable::whole_line(table, column),
+            Unused::Status(column) => Enable::status_line(table, column),
+        })
     }
 }
 
 /// Warns of such a column.
 pub(super) fn ignored(given: &Mapping, table: &Table) -> Option<Finding> {
-    let column = unused(given, table)?;
-    let message = format!(
-        "column {} is 0 in some rows, and all rows are used: where the axis is not enabled, the force is not what moves it; if it \
-         is enabled where the column is 1, leave out the others: {} under [columns] of the axis file",
-        place(table, column),
-        Enable::whole_line(table, column)
-    );
+    let message = match unused(given, table)? {
+        Unused::Flag(column) => format!(
+            "column {} is 0 in some rows, and all rows are used: where the axis is not enabled, the force is not what moves it; if it \
+             is enabled where the column is 1, leave out the others: {} under [columns] of the axis file",
+            place(table, column),
+            Enable::whole_line(table, column)
+        ),
+        Unused::Status(column) => format!(
+            "column {} is a status word in which operation is not enabled in some rows (its bits are not xxxx xxxx x01x 0111), and \
+             all rows are used: where the axis is not enabled, the force is not what moves it; leave them out: {} under [columns] of \
+             the axis file",
+            place(table, column),
+            Enable::status_line(table, column)
+        ),
+    };
     Some(Finding::new(
         Code::EnableIgnored,
         Severity::Warning,

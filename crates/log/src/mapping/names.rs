@@ -352,6 +352,14 @@ pub(super) fn says_enabled(name: &str) -> bool {
     says && !has(&["not", "no", "un", "off", "keine"])
 }
 
+/// Whether a name is that of a status word of CiA 402.
+pub(super) fn says_status_word(name: &str) -> bool {
+    let own = name.rsplit_once('.').map_or(name, |(_, own)| own);
+    let letters = own.chars().filter(|c| c.is_alphanumeric());
+    let plain: String = letters.flat_map(char::to_lowercase).collect();
+    plain.contains("statusword") || plain.contains("statuswort") || plain.contains("6041")
+}
+
 /// Whether a name speaks of current.
 pub(super) fn says_current(name: &str) -> bool {
     words(name)

@@ -128,7 +128,10 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
     let taken = hint.and_then(|hint| parts.iter().find(|part| part.role == hint.role));
     let named = Role::ALL.iter().any(|role| given.channel(*role).is_some());
     let enables = matches!(Enable::of(given, table), Ok(Some(own)) if own == column);
-    let kept = given.enable.as_ref().map_or(1.0, Enable::kept);
+    let kept = given
+        .enable
+        .as_ref()
+        .map_or_else(String::new, Enable::kept_words);
     if let Some(part) = joined_from(table, parts, column) {
         return Understood {
             column: describe::place(table, column),

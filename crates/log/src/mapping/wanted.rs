@@ -44,6 +44,16 @@ pub(super) fn by_mapping(mapping: &Mapping, heads: &Table) -> Vec<bool> {
             .zip(stamps)
             .for_each(|(out, own)| *out |= own);
     }
+    if mapping.enable.is_none() {
+        // Its numbers tell whether rows are to be left out.
+        let status = heads
+            .columns
+            .iter()
+            .map(|column| names::says_status_word(&column.name));
+        out.iter_mut()
+            .zip(status)
+            .for_each(|(out, own)| *out |= own);
+    }
     if !motion {
         // Where nothing tells the columns apart, what they count is said.
         let nameless = heads.columns.iter().map(|column| column.name.is_empty());

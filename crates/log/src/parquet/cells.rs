@@ -13,7 +13,8 @@ use parquet::schema::types::ColumnDescriptor;
 use super::column::{Meaning, each};
 use super::{broken, chunk, library, scan};
 use crate::binary::{Clock, Collector, guard};
-use crate::open::hand_on;
+use crate::open::{hand_on, not_opened};
+use crate::regular::regular;
 use crate::{Error, Kind, Limits};
 
 /// A word that is missing.
@@ -123,11 +124,7 @@ fn read(
     bytes: &mut dyn FnMut(&[u8]),
 ) -> Result<Option<Vec<Option<Cells>>>, Error> {
     let io = |error: std::io::Error| Error::new(Kind::Io, format!("cannot be read ({error})"), "");
-    // Looked at before it is opened: opening a pipe that nobody writes to would wait forever.
-    let about = std::fs::metadata(path).map_err(io)?;
-    if !about.is_file() {
-        return Err(Error::new(Kind::Io, "not a regular file", "a Parquet file"));
-    }
+    let about = regular(path).map_err(|e| not_opened(e, "a Parquet file"))?;
     let file = File::open(path).map_err(io)?;
     let mut raw = file.try_clone().map_err(io)?;
     scan::footer(&mut raw, about.len()).map_err(broken)?;

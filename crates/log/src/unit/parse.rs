@@ -21,6 +21,8 @@ pub(super) fn unit(text: &str) -> Result<Unit, Error> {
     let compact: String = inner.chars().filter(|c| !c.is_whitespace()).collect();
     let size = match compact.as_str() {
         "-" => Parser::one(),
+        // Of the rated value, as drives of CiA 402 give torque and current.
+        "0.1%" | "0,1%" => symbol::per_thousand(),
         "1/min" | "/min" | "min-1" | "min^-1" | "min\u{207b}\u{b9}" => symbol::per_minute(),
         _ => {
             let mut parser = Parser {

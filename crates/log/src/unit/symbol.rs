@@ -44,6 +44,7 @@ const CELSIUS: Size = Size {
 const COUNT: Size = plain(1.0, 0, Dimension::COUNTS);
 const TURN: Size = plain(2.0 * PI, 0, Dimension::ANGLE);
 const RPM: Size = plain(PI / 30.0, 0, Dimension::ANGULAR_VELOCITY);
+const THOUSANDTH: Size = plain(1.0, -3, Dimension::ONE);
 const DEGREE: Size = plain(PI / 180.0, 0, Dimension::ANGLE);
 
 /// Symbols, and the prefixes that each may carry.
@@ -104,7 +105,9 @@ const SYMBOLS: &[(&str, &str, Size)] = &[
     ("\u{b0}C", "", CELSIUS),
     ("\u{2103}", "", CELSIUS),
     ("%", "", plain(1.0, -2, Dimension::ONE)),
-    ("\u{2030}", "", plain(1.0, -3, Dimension::ONE)),
+    ("\u{2030}", "", THOUSANDTH),
+    ("permille", "", THOUSANDTH),
+    ("promille", "", THOUSANDTH),
     ("count", "", COUNT),
     ("counts", "", COUNT),
     ("cnt", "", COUNT),
@@ -199,6 +202,11 @@ pub(super) const COMMON: &[&str] = &[
 /// A turn that is one only before `/min` or `/s`: `U/min`, `r/min`.
 pub(super) fn turn(run: &str) -> Option<Size> {
     matches!(run, "U" | "r").then_some(TURN)
+}
+
+/// A thousandth, as it stands in `0.1%`.
+pub(super) const fn per_thousand() -> Size {
+    THOUSANDTH
 }
 
 /// Revolutions a minute, for `1/min` and `min-1`.

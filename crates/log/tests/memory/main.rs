@@ -250,7 +250,7 @@ fn odd_files(folder: &Path) {
         assert_eq!(error.kind, kind, "{error}");
         assert!(error.to_string().contains(word), "{error}");
     };
-    refuse(folder, Kind::Io, "directory");
+    refuse(folder, Kind::Io, "folder");
     refuse(&folder.join("nowhere.mat"), Kind::Io, "nowhere.mat");
     #[cfg(unix)]
     refuse(Path::new("/dev/zero"), Kind::Io, "regular");

@@ -9,6 +9,7 @@ fn enable(name: &str, equals: Option<f64>) -> Mapping {
         enable: Some(Enable {
             column: Selector::Name(name.into()),
             equals,
+            mask: None,
         }),
         ..Mapping::default()
     }
@@ -45,6 +46,51 @@ fn rows_that_are_not_enabled_leave_a_gap() {
     let left_out = log.not_enabled.unwrap();
     assert_eq!((left_out.rows, left_out.of), (411, 4000));
     assert_eq!(left_out.column, "5 \"Enabled\"");
+}
+
+/// The status word of CiA 402: bit 4 (voltage) and 9 (remote) say nothing of the state, bit 5 is 0 while a quick stop is active.
+#[test]
+fn a_status_word_says_where_operation_is_enabled() {
+    let word = |i: usize| match i {
+        500..700 => f64::from(0x1231),
+        700..800 => f64::from(0x1633),
+        800..900 => f64::from(0x1607),
+        i if i % 2 == 0 => f64::from(0x1637),
+        _ => f64::from(0x1227),
+    };
+    for name in [
+        "6041h Statusword",
+        "axis1.Status word",
+        "0x6041",
+        "status_word",
+    ] {
+        let log = Log::from_table(&with(name, word), &Mapping::default()).unwrap();
+        assert_eq!(warnings(&log), ["enable-ignored"], "{name}");
+    }
+    let table = with("Statusword", word);
+    let log = Log::from_table(&table, &Mapping::default()).unwrap();
+    insta::assert_snapshot!(message(&log, "enable-ignored"));
+    let masked = |mask: u32, equals: Option<f64>| {
+        let mut mapping = enable("Statusword", equals);
+        mapping.enable.as_mut().unwrap().mask = Some(mask);
+        Log::from_table(&table, &mapping)
+    };
+    let log = masked(0x6f, Some(39.0)).unwrap();
+    assert_eq!(log.segments, [0..500, 500..3600]);
+    assert_eq!(log.time.len(), 3600);
+    // Signed numbers of 16 bits have the same bits.
+    let signed = with("Statusword", |i| word(i) - 65536.0);
+    let mut mapping = enable("Statusword", Some(39.0));
+    mapping.enable.as_mut().unwrap().mask = Some(0x6f);
+    assert_eq!(Log::from_table(&signed, &mapping).unwrap().time.len(), 3600);
+    // Without equals all bits of the mask are to be set.
+    assert_eq!(masked(0x27, None).unwrap().time.len(), 3600);
+    insta::assert_snapshot!(masked(0x6f, Some(15.0)).unwrap_err().to_string());
+    // Enabled throughout, or no status word at all.
+    for value in [f64::from(0x1637), 0.5] {
+        let log = Log::from_table(&with("Statusword", |_| value), &Mapping::default()).unwrap();
+        assert!(!warnings(&log).contains(&"enable-ignored"), "{value}");
+    }
 }
 
 #[test]
@@ -161,4 +207,12 @@ proptest! {
         prop_assert_eq!(log.segments.len(), starts);
         prop_assert_eq!(log.not_enabled.map(|left| left.rows), Some(4000 - kept.len()));
     }
+}
+
+/// The time, taken for the enable column, is named as what it is not, before it is missed.
+#[test]
+fn a_column_of_many_numbers_is_no_enable() {
+    let error = Log::from_table(&axis(3000).table(), &enable("time", None)).unwrap_err();
+    insta::assert_snapshot!(error.to_string());
+    assert_eq!(error.setting(), Some("columns.enable"));
 }

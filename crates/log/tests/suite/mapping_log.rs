@@ -860,11 +860,11 @@ fn what_no_machine_does_is_named() {
             .map(|f| format!("{}\n", f.message))
             .collect::<String>()
     };
-    let all = [(0, 1e3), (1, 1e9), (1, 1e-8), (3, 1e9)];
+    let all = [(0, 1e3), (0, 1e-3), (1, 1e3), (1, 1e9), (1, 1e-8), (3, 1e9)];
     let all: String = all.into_iter().map(|(k, size)| said(k, size)).collect();
     insta::assert_snapshot!(all);
-    for column in [0, 1, 3] {
-        assert_eq!(said(column, 1.0), "");
+    for (column, size) in [(0, 1.0), (1, 1.0), (1, 10.0), (3, 1.0)] {
+        assert_eq!(said(column, size), "");
     }
 }
 
@@ -982,4 +982,18 @@ fn rows_of_one_rate_keep_their_repeated_stamps() {
     assert_eq!((log.time.len(), log.rate_hz), (8000, 1024.0));
     assert_eq!(warnings(&log), [""; 0]);
     insta::assert_snapshot!(message(&log, "duplicate-time"));
+}
+
+/// A wrap below the travel of a position that goes on without a jump is none.
+#[test]
+fn a_wrap_below_the_travel_is_a_warning() {
+    let mapping = |wrap: f64| Mapping {
+        wrap: Some(Wrap::Travel(wrap)),
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&axis(5000).table(), &mapping(0.06)).unwrap();
+    assert_eq!(warnings(&log), ["position-wrap"]);
+    insta::assert_snapshot!(message(&log, "position-wrap"));
+    let log = Log::from_table(&axis(5000).table(), &mapping(0.12)).unwrap();
+    assert_eq!(warnings(&log), [""; 0]);
 }

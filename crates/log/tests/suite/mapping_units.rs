@@ -1,8 +1,9 @@
 //! Units against their definitions, and text that must not bring the parser down.
 
+use crate::mapping_common::{axis, message};
 use proptest::prelude::*;
 use std::f64::consts::PI;
-use stiction_log::{Dimension as D, Kind, Unit, Value};
+use stiction_log::{Dimension as D, Kind, Log, Mapping, Motion, Unit, Value};
 
 /// Unit, dimension, SI value of one by definition (BIPM brochure; international inch and pound).
 fn definitions() -> Vec<(&'static str, D, f64)> {
@@ -277,4 +278,24 @@ proptest! {
         prop_assert_eq!(Some(ratio.dimension()), ld.per(rd));
         prop_assert!((ratio.factor() / (lf / rf) - 1.0).abs() < 1e-14);
     }
+}
+
+/// Torque of CiA 402 is in thousandths of the rated one: objects 6071h and 6077h.
+#[test]
+fn a_torque_in_thousandths_of_the_rated_one_asks_for_it() {
+    let unit = |text: &str| stiction_log::Unit::parse(text).unwrap().to_si(1.0);
+    for text in ["0.1%", "0.1 %", "[0.1%]", "0,1 %", "permille", "‰"] {
+        assert_eq!(unit(text), 1e-3, "{text}");
+    }
+    let mut table = axis(3000).table();
+    let force = &mut table.columns[3];
+    (force.name, force.unit) = ("6077h Torque actual value".into(), Some("0.1%".into()));
+    let given = Mapping {
+        motion: Some(Motion::Linear),
+        ..Mapping::default()
+    };
+    let log = Log::from_table(&table, &given).unwrap();
+    assert!(message(&log, "force-not-calibrated").contains("scale = \"RATED N\""));
+    let raw = table.columns[3].values[700];
+    assert!((log.force.unwrap()[700] / raw - 1e-3).abs() < 1e-15);
 }

@@ -1,5 +1,6 @@
 //! The report of friction over time: what changed, and the course of each parameter that did.
 
+use crate::apart::apart;
 use crate::drift::{DAY, few, level, noise_of, size, times, unnamed};
 use stiction_files::drift_file::{Alarm, DriftFile};
 use stiction_number::counted;
@@ -39,6 +40,9 @@ pub fn drift(outcome: &DriftOutcome) -> Document {
     }
     if file.input.unnamed > 0 {
         document = document.paragraph(format!("{}.", unnamed(file)));
+    }
+    for line in apart(&file.apart).lines() {
+        document = document.paragraph(line.to_string());
     }
     if let Some(said) = few(file) {
         document = document.paragraph(format!("{said}."));

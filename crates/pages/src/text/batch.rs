@@ -1,11 +1,14 @@
 //! A batch as a terminal shows it.
 
 use super::table::table;
+use crate::apart::{apart, look};
+use crate::more_logs::more_logs;
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::batch::{BatchFile, RESULTS};
 use stiction_files::shell::{quoted, quoted_path};
 use stiction_number::counted;
+use stiction_workflows::drift::least_logs;
 
 /// What became of the logs, and what to do next. `axis` is the axis file of the logs.
 pub fn batch(file: &BatchFile, dir: &Path, axis: Option<&Path>) -> String {
@@ -43,6 +46,7 @@ pub fn batch(file: &BatchFile, dir: &Path, axis: Option<&Path>) -> String {
         ]);
     }
     out.push_str(&table(&rows, &[false, true, false]));
+    out.push_str(&apart(&file.apart));
     if file.status == "complete" {
         let _ = writeln!(out, "\nwritten to {}: {RESULTS}, batch.json", dir.display());
     }
@@ -57,7 +61,11 @@ pub fn batch(file: &BatchFile, dir: &Path, axis: Option<&Path>) -> String {
             quoted(&failure.path)
         );
     }
-    if file.status == "complete" && file.identified > 0 {
+    if let Some(next) = look(&file.apart) {
+        out.push_str(&next);
+    } else if file.status == "complete" && file.identified > 0 && file.identified < least_logs() {
+        out.push_str(&more_logs(file, dir));
+    } else if file.status == "complete" && file.identified > 0 {
         let _ = writeln!(
             out,
             "next: what changed over time, and on which machine\n  stiction drift {table}"

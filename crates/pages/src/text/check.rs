@@ -348,6 +348,13 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
     }
     let last = match log.next {
         Lead::Identify => format!("next: stiction identify {path}{with} --out result"),
+        Lead::Listed => format!(
+            "next, with the logs that are fitted: this one is validated on (validate = \"all\"): stiction identify{with} --out result"
+        ),
+        Lead::Unfitted => format!(
+            "next: leave validate = \"all\" out of [[log]] of a log that is to be fitted{}, then: stiction identify{with} --out result",
+            axis.map_or(String::new(), |file| format!(" in {}", file.display()))
+        ),
         Lead::AxisFile => match (&log.line, axis) {
             (
                 Some(Cure::Line {

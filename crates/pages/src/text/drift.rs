@@ -1,12 +1,16 @@
 //! Friction over time as a terminal shows it.
 
 use super::table::table;
+use crate::apart::{apart, look};
 use crate::drift::{few, level, noise_of, size, times, unnamed};
+use crate::more_logs::more_logs;
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::drift_file::{Alarm, DriftFile};
 use stiction_files::shell::{quoted, quoted_path, shown};
 use stiction_number::{counted, four_digits as short};
+use stiction_workflows::batch::batch_of;
+use stiction_workflows::drift::least_logs;
 
 /// Most alarms that are listed.
 const MOST: usize = 40;
@@ -92,7 +96,10 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
             text.push_str(&alarms(file));
         }
     }
-    if let Some(alarm) = file.alarms.first() {
+    text.push_str(&apart(&file.apart));
+    if let Some(next) = look(&file.apart) {
+        text.push_str(&next);
+    } else if let Some(alarm) = file.alarms.first() {
         let axis = alarm
             .axis
             .as_ref()
@@ -102,6 +109,18 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
             "next: what the log shows with which the largest change was found\n  stiction check {}{axis}",
             quoted(&alarm.log)
         );
+    } else if file.noise.is_empty() {
+        let dir = Path::new(&file.input.path)
+            .parent()
+            .unwrap_or(Path::new(""));
+        let _ = match batch_of(dir) {
+            Some(batch) => write!(text, "{}", more_logs(&batch, dir)),
+            None => writeln!(
+                text,
+                "next: a table with at least {} logs of one machine: stiction batch takes folders of them (docs/fleet.md)",
+                least_logs()
+            ),
+        };
     } else if out.is_none() {
         let folder = Path::new(&file.input.path).with_file_name("drift");
         let _ = writeln!(

@@ -7,6 +7,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use stiction_files::batch::{Listed, is_list, read_list};
 use stiction_files::shell;
+use stiction_log::Irregular;
 
 /// The logs, each once, in the order of the inputs, those of a folder and a pattern in alphabetical order; but for what is in `out`.
 ///
@@ -46,10 +47,14 @@ pub(super) fn found(
             matching(input, out, &mut (&mut all, beside))?;
         } else if is_list(input) {
             all.extend(read_list(input)?);
-        } else if let Err(e) = fs::metadata(input) {
+        } else if let Err(e) = stiction_log::regular(input) {
             let kind = stiction_log::Kind::Io;
-            let missing = stiction_log::Error::new(kind, format!("cannot be read ({e})"), "");
-            return Err(missing.in_file(input).into());
+            let allowed = match e {
+                Irregular::Io(_) => "",
+                Irregular::Other(_) => "recordings, lists of them, folders and patterns",
+            };
+            let refused = stiction_log::Error::new(kind, e.to_string(), allowed);
+            return Err(refused.in_file(input).into());
         } else {
             all.push(log(input.clone()));
         }

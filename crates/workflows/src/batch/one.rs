@@ -9,7 +9,7 @@ use std::sync::RwLock;
 use stiction_codes::Code;
 use stiction_files::batch::LogRow;
 use stiction_files::{sha256, shell};
-use stiction_log::within_memory;
+use stiction_log::{is_regular, within_memory};
 use stiction_search::Observer;
 
 /// Where the report of a log is put.
@@ -54,8 +54,8 @@ pub(super) fn one(
     stopped: &dyn Fn() -> bool,
 ) -> Result<Became, Error> {
     let path = &entry.listed.path;
-    // Opening a pipe would wait for ever; what is no file the reader refuses.
-    let before = path.is_file().then(|| sha256(path).ok()).flatten();
+    // What is no file the reader refuses.
+    let before = is_regular(path).then(|| sha256(path).ok()).flatten();
     let mut row = begun(batch, entry);
     let key = batch.key(entry, before.as_deref().unwrap_or("unread"));
     let failed = batch.key_of_failure(entry, &key);

@@ -282,6 +282,7 @@ impl Batch {
             trustworthy: 0,
             taken: 0,
             failed: Vec::new(),
+            apart: Vec::new(),
         }
     }
 

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError, RwLock};
-use stiction_files::batch::{BatchFile, Failure, LogRow, RESULTS, Results};
+use stiction_files::batch::{BatchFile, Failure, Levels, LogRow, RESULTS, Results};
 use stiction_files::{Error as FileError, Journal};
 use stiction_log::allowed_memory;
 use stiction_search::{Control, Observer, Progress, Shared};
@@ -97,6 +97,7 @@ impl Batch {
             .is_whole()
             .then(|| Results::begin(&dir.join(RESULTS)))
             .transpose()?;
+        let mut levels = Levels::default();
         let mut failed: BTreeMap<&str, Failure> = BTreeMap::new();
         for (entry, key) in self.logs.iter().zip(&done.keys) {
             let Some(key) = key else {
@@ -134,10 +135,12 @@ impl Batch {
                     file.trustworthy += usize::from(trustworthy == Some(true));
                 }
             }
+            levels.take(&row);
             if let Some(table) = &mut table {
                 table.add(&row)?;
             }
         }
+        file.apart = levels.apart();
         file.failed = failed.into_values().collect();
         file.failed
             .sort_by_key(|failure| std::cmp::Reverse(failure.logs));

@@ -55,6 +55,9 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
             };
             let log = Log::from_table(&table, &given);
             let mut found = log.as_ref().map(found).unwrap_or_default();
+            if let (Some(force), true) = (&mut detected.mapping.force, found.brakes) {
+                force.invert = true;
+            }
             found.own_stamps = own_stamps;
             found.coarse = coarse;
             found.enable = detected.mapping.enable_line(&table);
@@ -117,7 +120,14 @@ fn found(log: &Log) -> Found {
         coarse: None,
         enable: None,
         columns: Vec::new(),
+        brakes: brakes(log),
     }
+}
+
+/// Whether the force brakes so clearly that its sign is the other one.
+fn brakes(log: &Log) -> bool {
+    let mut findings = log.findings.iter();
+    findings.any(|found| found.code == Code::ForceSign)
 }
 
 /// The encoder step that was found; none where it is in a unit that is probably wrong: it would stay when that is corrected.
@@ -179,6 +189,9 @@ fn filled_in(mapping: &Mapping, found: &Found) -> Vec<String> {
                 false if found.own_stamps.iter().any(|own| own.role == role) => {
                     format!("{role}, with time stamps of its own")
                 }
+                false if role == Role::Force && found.brakes => {
+                    "force, its sign turned: as it stands it brakes".into()
+                }
                 false => role.to_string(),
             });
         }
@@ -218,16 +231,25 @@ fn additions(given: &Axis, log: &Log) -> Vec<Addition> {
             continue;
         }
         let replaces = given.mapping.channel(role).is_some();
-        if replaces && column.assumed.is_none() {
+        let is_turned = role == Role::Force && !channel.invert && brakes(log);
+        if replaces && column.assumed.is_none() && !is_turned {
             continue;
         }
+        let channel = &Channel {
+            invert: channel.invert || is_turned,
+            ..channel.clone()
+        };
+        let why = match is_turned {
+            true => "its sign turned: as it stands it brakes",
+            false => &column.reason,
+        };
         out.push(Addition {
             replaces,
             ..line(
                 "columns",
                 names(role),
                 stiction_files::axis::entry(channel),
-                &column.reason,
+                why,
             )
         });
     }

@@ -47,6 +47,16 @@ pub struct Shows {
     pub record: String,
 }
 
+impl Shows {
+    /// Takes back a doubt about what a fit to the log determines.
+    pub(super) fn told_by_fit(&mut self, is_determined: bool) {
+        if is_determined && self.shown == "doubtful" {
+            self.shown = "possible".into();
+            self.record.clear();
+        }
+    }
+}
+
 /// What a log can show, parameter by parameter.
 pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
     let speed = |v: f64| format!("{} {}", short(v), symbols::speed_unit(log.motion));

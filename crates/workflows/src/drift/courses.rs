@@ -3,7 +3,7 @@
 use crate::error::Error;
 use std::collections::BTreeMap;
 use stiction_drift::Point;
-use stiction_files::batch::{LogRow, ParameterRow};
+use stiction_files::batch::{Levels, LogRow, ParameterRow};
 
 /// A parameter of a law, with its unit: what is compared with each other.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -28,6 +28,8 @@ pub(super) struct Courses {
     pub of: BTreeMap<Number, BTreeMap<String, Followed>>,
     /// Logs of each machine.
     pub machines: BTreeMap<String, usize>,
+    /// Levels of all logs, which may be of several units.
+    pub levels: Levels,
     pub logs: usize,
     pub failed: usize,
     /// Logs of which something was identified, and that name no machine.
@@ -56,6 +58,7 @@ impl Courses {
             self.failed += 1;
             return Ok(());
         }
+        self.levels.take(row);
         self.unnamed += usize::from(row.machine.is_none());
         *count += 1;
         self.untimed += usize::from(row.time.is_none());

@@ -2,11 +2,12 @@
 
 use super::asked::Limit;
 use super::courses::{Courses, Followed, Number};
+use crate::batch::batch_of;
 use crate::error::Error;
 use std::collections::BTreeMap;
 use std::path::Path;
 use stiction_drift::{Judged, Kind, Limits, Noise, Point, Settings, judge};
-use stiction_files::batch::{BatchFile, LogRow, SUMMARY, read_results_while};
+use stiction_files::batch::{LogRow, read_results_while};
 use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA, Table};
 use stiction_files::{sha256_of, shell};
 
@@ -37,6 +38,11 @@ pub struct Shown {
 }
 
 const DAY: f64 = 86_400.0; // s
+
+/// Logs of one machine from which on something is said of it.
+pub fn least_logs() -> usize {
+    Settings::default().reference + stiction_drift::WINDOWS[0]
+}
 
 /// Follows every parameter of every machine of a table that `batch` wrote, or of a folder of such tables.
 ///
@@ -131,9 +137,7 @@ fn followed(
         ));
     }
     check(limits, &courses)?;
-    let long = |followed: &Followed| {
-        followed.points.len() >= settings.reference + stiction_drift::WINDOWS[0]
-    };
+    let long = |followed: &Followed| followed.points.len() >= least_logs();
     let any_long = |machines: &BTreeMap<String, Followed>| machines.values().any(long);
     // Of a machine as many parameters are looked at as have courses.
     let mut looked: BTreeMap<&str, usize> = BTreeMap::new();
@@ -209,6 +213,7 @@ fn followed(
             too_short: too_short.count(),
             noise,
             alarms,
+            apart: courses.levels.apart(),
         },
         shown,
     }))
@@ -217,8 +222,7 @@ fn followed(
 /// Refuses the table of a batch that is not there since the batch was not finished.
 fn check_finished(table: &Path) -> Result<(), Error> {
     let dir = table.parent().unwrap_or(Path::new(""));
-    let summary = std::fs::read_to_string(dir.join(SUMMARY)).ok();
-    let batch = summary.and_then(|text| serde_json::from_str::<BatchFile>(&text).ok());
+    let batch = batch_of(dir);
     match batch.filter(|_| !table.exists()) {
         None => Ok(()),
         Some(batch) => Err(Error::usage(

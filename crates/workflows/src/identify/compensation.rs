@@ -62,6 +62,8 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
             let next = match evidence.held_out.is_empty() {
                 _ if !is_whole => Next::Check,
                 true => Next::Check,
+                // Nor is one that the axis file never fits.
+                false if log.is_some_and(|log| log.never_fitted) => Next::CheckTheOther,
                 false if !turned && shows_friction(series, top_speed(own)) => {
                     Next::IdentifyTheOther
                 }

@@ -131,6 +131,9 @@ fn is_copy(a: &Log, b: &Log) -> bool {
         && both(&a.force, &b.force)
 }
 
+/// What is allowed where one log is given twice.
+pub(crate) const GIVEN_ONCE: &str = "give each log once, and validate on logs that are not fitted";
+
 /// All logs must be of one kind of axis, with force in one unit, and no log may count twice.
 pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<(), Error> {
     let Some(first) = sources.first() else {
@@ -157,10 +160,7 @@ pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<
                     log.log.time.len()
                 ),
             };
-            return Err(Error::usage(
-                found,
-                "give each log once, and validate on logs that are not fitted",
-            ));
+            return Err(Error::usage(found, GIVEN_ONCE));
         }
     }
     for other in sources.iter().chain(held_out).skip(1) {

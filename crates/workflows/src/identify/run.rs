@@ -14,7 +14,7 @@ use super::planned;
 use super::procedure::{static_map, step};
 use super::simulate;
 use crate::error::Error;
-use crate::source::{Source, Used, load_held_out, refuse_several};
+use crate::source::{Source, Used, load_held_out, refuse_several, usage_at};
 use crate::wording::{Setting, TOGETHER_WITH};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -76,6 +76,20 @@ pub fn identify(
     let mut held_out = used.held_out;
     held_out.extend(load_held_out(&files.validate, &axis)?);
     if used.fitted.is_empty() && !held_out.is_empty() {
+        if let Some(listed) = logs.iter().find_map(|path| axis.listed(path)) {
+            let found = format!(
+                "\"all\", and nothing else is fitted: {}",
+                stiction_files::shell::text(&listed.file)
+            );
+            let allowed = "stretches of the log, or a log beside it that is fitted: without logs on the command line all that are listed \
+                           are taken";
+            return Err(usage_at(
+                &axis,
+                &format!("{}.validate", listed.key),
+                found,
+                allowed,
+            ));
+        }
         return Err(Error::usage(
             "no log to fit: validate = \"all\" under [[log]] of the axis file takes every one",
             "at least one log, or a part of one, that is fitted",

@@ -74,6 +74,7 @@ impl Judged {
             elsewhere,
             other,
             few_levels,
+            estimated_offset,
         }: Reasons,
         warnings: Vec<Warning>,
     ) -> Self {
@@ -95,7 +96,9 @@ impl Judged {
                     Shown::Presliding => true,
                     Shown::TooLittle => false,
                 };
-            let known = |p: &Parameter| p.identifiable && holds;
+            // What an estimated offset is off is part of the delay, and no interval of the fit counts it.
+            let of_clocks = |p: &Parameter| estimated_offset && p.name == Quantity::Delay;
+            let known = |p: &Parameter| p.identifiable && holds && !of_clocks(p);
             // What one log has more than another may be open, but is none of the machine's.
             // With one level for both directions, what they differ by passes for half of a constant force.
             let mixed = |p: &Parameter| p.name == Quantity::Offset && !law.law.asymmetric;
@@ -170,6 +173,8 @@ pub(super) struct Reasons {
     other: Vec<String>,
     /// Whether the force that was fitted takes a few values only.
     few_levels: bool,
+    /// Whether the offset between the clocks of two files was estimated, which a delay then makes up for.
+    estimated_offset: bool,
 }
 
 impl Reasons {
@@ -177,6 +182,10 @@ impl Reasons {
     fn of_force(sources: &[Source]) -> Self {
         Self {
             few_levels: sources.iter().any(|s| s.log.has_few_force_levels()),
+            estimated_offset: sources
+                .iter()
+                .flat_map(|source| &source.log.findings)
+                .any(|finding| finding.code == Code::OffsetEstimated),
             ..Self::default()
         }
     }

@@ -174,6 +174,7 @@ fn enable(given: &Given<'_>) -> Result<Enable, Error> {
         return Ok(Enable {
             column: selector(given, allowed)?,
             equals: None,
+            mask: None,
         });
     };
     let column = table.get("column");
@@ -182,10 +183,27 @@ fn enable(given: &Given<'_>) -> Result<Enable, Error> {
         Some(number) if number.is_finite() => Ok(number),
         _ => Err(given.refused("the number in the rows that are kept, without quotes, such as 8")),
     });
+    let mask = table.get("mask");
+    let bits = mask.as_ref().map(|given| {
+        let bits = given.as_whole().and_then(|bits| u32::try_from(bits).ok());
+        let allowed = "the bits that count, a whole number from 1 to 0xffffffff such as 0x6f";
+        bits.filter(|bits| *bits > 0)
+            .ok_or_else(|| given.refused(allowed))
+    });
     let enable = Enable {
         column: selector(&column, "a column name or a column number from 1")?,
         equals: equals.transpose()?,
+        mask: bits.transpose()?,
     };
+    if let (Some(mask), Some(given)) = (enable.mask, table.get("equals"))
+        && enable.counted(enable.kept()) != enable.kept()
+    {
+        let found = format!(
+            "{} has bits that mask = 0x{mask:x} leaves out",
+            given.shown()
+        );
+        return Err(given.refuse(found, "equals with bits of mask alone, else no row is kept"));
+    }
     table.end()?;
     Ok(enable)
 }

@@ -5,7 +5,8 @@ use crate::axis::listed::{ListedLog, Validated};
 use crate::axis::values::Axis;
 use crate::config::{Given, Table};
 use crate::error::Error;
-use std::path::Path;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 use stiction_log::mapping::{FORCE_LIMITS, RESOLUTIONS, WRAP_COUNTS, WRAPS};
 use stiction_log::{Dimension, Mapping, Rests, Wrap};
 
@@ -28,16 +29,20 @@ impl Resolver {
         let most = root.tables("log", MOST_LOGS);
         let allowed = format!("a table [log], or [[log]] for each log, at most {MOST_LOGS}");
         let tables = most.map_err(|_| given.refused(&allowed))?;
+        // One file may have several paths.
+        let mut numbers: HashMap<PathBuf, usize> = HashMap::new();
         for (i, table) in tables.iter().enumerate() {
             let listed = self.one_log(table, &axis.mapping, folder, i + 1)?;
-            if axis.logs.iter().any(|other| other.file == listed.file) {
+            let place = listed.file.canonicalize();
+            let place = place.unwrap_or_else(|_| listed.file.clone());
+            if let Some(before) = numbers.insert(place, i + 1) {
                 let name = table.find("file").map(|given| given.shown());
                 let allowed = "one [[log]] for each file, with all its stretches";
-                return Err(table.refuse(
-                    "file",
-                    format!("{} a second time", name.unwrap_or_default()),
-                    allowed,
-                ));
+                let found = format!(
+                    "{} a second time: it is the file of log[{before}]",
+                    name.unwrap_or_default()
+                );
+                return Err(table.refuse("file", found, allowed));
             }
             axis.logs.push(listed);
         }
@@ -72,14 +77,19 @@ impl Resolver {
     /// A travel, or the counts of a counter.
     fn wrap(&self, given: &Given<'_>) -> Result<Wrap, Error> {
         let (counts, dimension) =
-            given.positive(&[Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS])?;
+            given.value(&[Dimension::LENGTH, Dimension::ANGLE, Dimension::COUNTS])?;
         if dimension != Dimension::COUNTS {
             return Ok(Wrap::Travel(self.within(given, &LENGTHS, &WRAPS)?));
         }
         match WRAP_COUNTS.contains(&counts) && counts.fract() == 0.0 {
             true => Ok(Wrap::Counts(counts)),
             false => {
-                Err(given.refused("a whole number of counts, such as \"65536 counts\" of 16 bits"))
+                let allowed = format!(
+                    "a whole number from {} to {} counts, such as \"65536 counts\" of 16 bits",
+                    WRAP_COUNTS.start(),
+                    WRAP_COUNTS.end()
+                );
+                Err(given.refused(&allowed))
             }
         }
     }

@@ -7,6 +7,7 @@ use std::io::Read;
 use std::path::Path;
 use stiction_files::sha256_of;
 use stiction_files::{check_writable, write_atomic};
+use stiction_log::regular;
 use stiction_search::{Finished, Run, Searcher};
 
 /// Name of the schema.
@@ -153,10 +154,7 @@ fn is_checkpoint(file: &Path) -> bool {
 
 fn text(file: &Path) -> Result<String, String> {
     let describe = |e: std::io::Error| format!("cannot be read ({e})");
-    // Opening a pipe would wait for ever.
-    if file.exists() && !file.is_file() {
-        return Err("not a file".into());
-    }
+    regular(file).map_err(|e| e.to_string())?;
     let mut text = String::new();
     let file = std::fs::File::open(file).map_err(describe)?;
     let many = file.take(LARGEST_CHECKPOINT + 1).read_to_string(&mut text);

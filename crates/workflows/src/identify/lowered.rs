@@ -1,0 +1,63 @@
+//! The line of `[conditioning]` with which samples are left, where the one that is there leaves too few.
+
+use stiction_identify::Losses;
+use stiction_log::Motion;
+use stiction_number::short;
+
+/// Part of the fastest sample that a lower limit of the speed is: most samples of a motion are faster.
+const OF_THE_FASTEST: f64 = 0.1;
+/// Samples that are left by another decimation: ten for each of thirty unknowns.
+const ENOUGH: usize = 300;
+
+/// The line in place of the one that leaves too few samples; none where another cause does. `decimate` is what the axis file gives.
+pub fn lowered(
+    losses: &Losses,
+    needed: usize,
+    decimate: Option<usize>,
+    motion: Motion,
+) -> Option<String> {
+    let taken = losses.logged.saturating_sub(losses.short) / losses.decimate.max(1);
+    if losses.slow > 0 && taken >= needed && losses.fastest_slow > 0.0 {
+        let speed = OF_THE_FASTEST * losses.fastest_slow;
+        // Two digits are enough of a limit.
+        let speed: f64 = format!("{speed:.1e}").parse().ok()?;
+        let unit = motion.velocity().si_text();
+        return Some(format!("min_speed = \"{} {unit}\"", short(speed)));
+    }
+    let by = decimate.filter(|by| *by > 1)?;
+    let is_too_short = losses.short == losses.logged;
+    let is_too_thin = losses.decimate > 1 && losses.logged >= needed;
+    let least = (losses.logged / ENOUGH).clamp(1, by / 2);
+    ((is_too_short || is_too_thin) && losses.logged >= ENOUGH)
+        .then(|| format!("decimate = {least}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_key_that_leaves_nothing_is_named_with_a_value_that_leaves_something() {
+        let slow = Losses {
+            logged: 9001,
+            decimate: 8,
+            slow: 1110,
+            fastest_slow: 0.1963,
+            ..Losses::default()
+        };
+        let line = |losses, decimate| lowered(losses, 40, decimate, Motion::Linear);
+        assert_eq!(line(&slow, None).unwrap(), "min_speed = \"0.02 m/s\"");
+        let short = Losses {
+            logged: 9001,
+            short: 9001,
+            ..Losses::default()
+        };
+        assert_eq!(line(&short, Some(10_000)).unwrap(), "decimate = 30");
+        assert_eq!(line(&short, None), None);
+        let of_few = Losses {
+            logged: 30,
+            ..Losses::default()
+        };
+        assert_eq!(line(&of_few, Some(2)), None);
+    }
+}
