@@ -16,8 +16,9 @@ const ORDER: usize = 4;
 /// terms beside it in units of Coulomb friction, the offset over it where one is fitted, and the delay in samples.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Information {
-    /// The first of the unknowns that are parameters of interest, and all of them.
+    /// How many of the unknowns, the first ones, are parameters whose deviation counts.
     pub parameters: usize,
+    /// All of them.
     pub unknowns: usize,
     /// The sums of a pair, one pair after the other.
     sums: Vec<f64>,
@@ -214,7 +215,7 @@ const EXCESS: [usize; 2] = [1, 4];
 const VELOCITY: [usize; 2] = [2, 5];
 const RATIO: usize = 3;
 
-/// Derivatives of the force with respect to the unknowns along the true motion.
+/// Derivatives of the force with respect to the unknowns along the true motion, in the order of [`Subject::names`](crate::Subject::names).
 fn jacobian(candidate: &Candidate, step: f64, run: &Run) -> Result<Vec<Vec<f64>>, SignalError> {
     let Candidate {
         sigma1,

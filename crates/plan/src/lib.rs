@@ -1,9 +1,10 @@
 //! The motion to record before friction is identified, within the limits of an axis.
 //!
 //! Pieces from rest to rest ([`Atom`]) are simulated in closed loop, with the encoder, on axes that the nameplate allows
-//! ([`Nameplate`]), or that a first identification leaves open ([`Belief`]). Each run gives sums that say how well its log would determine the parameters of LuGre, the mass and the
-//! terms beside them ([`Subject`]); they add over pieces, so the best pieces of a given length are found without further simulation ([`select()`]), and the whole motion is
-//! then simulated once more ([`Entry::of`]).
+//! ([`Nameplate`]), or that a first identification leaves open ([`Belief`]). Each run gives sums that say how well its log would
+//! determine the parameters of LuGre, the mass and the terms beside them ([`Subject`]); they add over pieces, so the best pieces of
+//! a given length are found without further simulation ([`select()`]), and the whole motion is then simulated once more
+//! ([`Entry::of`]).
 //!
 //! ```text
 //! Limits, Rig --dictionary--> Atoms --Entry::of, on Nameplate::draw--> Table --select--> Motion --Entry::of--> Expected

@@ -4,8 +4,8 @@ use stiction_identify::{
     Conditioning, Dependence, Law, LawKind, Samples, Settings, Silent, Terms, condition, identify,
 };
 use stiction_plan::{
-    Aim, Alone, Atom, Back, Candidate, Entry, Expected, HandMade, Limits, Loop, Motion, NAMES, Nameplate,
-    Rig, Subject, Table, dictionary, hand_made, places, run, select,
+    Aim, Alone, Atom, Back, Candidate, Entry, Expected, HandMade, Limits, Loop, Motion, NAMES,
+    Nameplate, Rig, Subject, Table, dictionary, hand_made, places, run, select,
 };
 use stiction_servo::noise::Noise;
 
@@ -79,10 +79,19 @@ fn is_realised(axis: &Candidate, motion: &Motion, terms: &Terms) {
     let expected = Expected::of(&[entry], &Aim::new(RIG.force_noise));
     let found = realised(motion, axis, terms, 8);
     let (mut pooled, count) = (0.0, found.len());
-    for ((name, found), predicted) in axis.subject.names().iter().zip(&found).zip(&expected.axes[0]) {
+    for ((name, found), predicted) in axis
+        .subject
+        .names()
+        .iter()
+        .zip(&found)
+        .zip(&expected.axes[0])
+    {
         let ratio = found / predicted;
         pooled += ratio * ratio / count as f64;
-        assert!((0.25..3.0).contains(&ratio), "{name}: {found} of {predicted}");
+        assert!(
+            (0.25..3.0).contains(&ratio),
+            "{name}: {found} of {predicted}"
+        );
     }
     let pooled = libm::sqrt(pooled);
     assert!((0.6..1.7).contains(&pooled), "{pooled}");
@@ -187,7 +196,12 @@ fn motion_to_places() -> Motion {
     let sines = hand_made(HandMade::ThreeSines, &LIMITS, &RIG, 6.0);
     let mut atoms = sines.unwrap().unwrap().atoms().to_vec();
     let moves = places(&LIMITS, &RIG);
-    atoms.extend(moves.into_iter().filter(|atom| atom.duration() < 3.0).step_by(2));
+    atoms.extend(
+        moves
+            .into_iter()
+            .filter(|atom| atom.duration() < 3.0)
+            .step_by(2),
+    );
     Motion::new(atoms).unwrap()
 }
 
@@ -230,7 +244,8 @@ fn gravity_is_known_as_predicted() {
     let moves = places(&limits, &RIG).into_iter();
     let moves = moves.filter(|atom| atom.duration() < 4.0).step_by(2);
     let sines = hand_made(HandMade::ThreeSines, &LIMITS, &RIG, 6.0);
-    let atoms = sines.unwrap().unwrap().atoms().iter().copied().chain(moves);
+    let sines = sines.unwrap().unwrap();
+    let atoms = sines.atoms().iter().copied().chain(moves);
     let terms = Terms {
         gravity: true,
         ..terms()
@@ -306,7 +321,10 @@ fn both_directions_are_excited_alike() {
     let names = axis.subject.names();
     for (name, deviation) in names.iter().zip(&expected.axes[0]) {
         if let Some(stem) = name.strip_suffix("_pos") {
-            let other = names.iter().position(|n| *n == format!("{stem}_neg")).unwrap();
+            let other = names
+                .iter()
+                .position(|n| *n == format!("{stem}_neg"))
+                .unwrap();
             let ratio = deviation / expected.axes[0][other];
             assert!((0.7..1.4).contains(&ratio), "{stem}: {ratio}");
         }
@@ -329,7 +347,10 @@ fn axes_with_terms_are_those_without_and_more() {
             assert_eq!(Candidate::of(&subject, &values), Some(axis.clone()));
             for (name, value) in NAMES.iter().zip(plain.values()) {
                 let positive = format!("{name}_pos");
-                let at = names.iter().position(|n| n == name || *n == positive).unwrap();
+                let at = names
+                    .iter()
+                    .position(|n| n == name || *n == positive)
+                    .unwrap();
                 assert_eq!(values[at], value, "{name}");
             }
         }

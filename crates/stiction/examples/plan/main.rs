@@ -47,6 +47,8 @@ struct Found {
     all: usize,
     /// Squares of errors over predicted deviations.
     ratio: Vec<f64>,
+    /// Squares of the errors of each parameter, in percent.
+    squares: Vec<Vec<f64>>,
 }
 
 impl Found {
@@ -57,6 +59,18 @@ impl Found {
         self.claimed += other.claimed;
         self.flagged += other.flagged;
         self.all += other.all;
+        self.squares.resize(other.squares.len(), Vec::new());
+        for (own, other) in self.squares.iter_mut().zip(other.squares) {
+            own.extend(other);
+        }
+    }
+
+    /// How long the motion would have to be for a root mean square error of 1 % of every parameter, by the root of the time, s; none
+    /// where a parameter is left open.
+    fn seconds(&self, duration: f64) -> Option<f64> {
+        let mean = |squares: &Vec<f64>| squares.iter().sum::<f64>() / squares.len().max(1) as f64;
+        let worst = self.squares.iter().map(mean).fold(0.0, f64::max);
+        (self.flagged == 0).then_some(duration * worst)
     }
 }
 
@@ -74,7 +88,7 @@ fn main() {
     }
     let logs = number(0, 10) as u64;
     println!(
-        "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted |\n|---|---|---|---|---|---|---|---|---|"
+        "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted | s to 1 % |\n|---|---|---|---|---|---|---|---|---|---|"
     );
     for (name, axis, values) in AXES {
         let folder =
@@ -160,7 +174,11 @@ fn fresh(count: usize) {
     let mut all: [Found; 3] = Default::default();
     let mut better = [0, 0, 0];
     println!("| {name} | plan | two stages | README |\n|---|---|---|---|");
-    for (number, truth) in plate.draw(&one_stage.given.subject, count, FRESH).into_iter().enumerate() {
+    for (number, truth) in plate
+        .draw(&one_stage.given.subject, count, FRESH)
+        .into_iter()
+        .enumerate()
+    {
         let seed = 10_000 + number as u64;
         let mut own: [Found; 3] = Default::default();
         one(
@@ -209,7 +227,7 @@ fn fresh(count: usize) {
         }
     }
     println!(
-        "\n| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted |\n|---|---|---|---|---|---|---|---|---|"
+        "\n| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted | s to 1 % |\n|---|---|---|---|---|---|---|---|---|---|"
     );
     for (motion, found) in ["plan, nameplate", "probe + plan", "README"]
         .iter()
@@ -314,7 +332,9 @@ fn one(
     let reference = value("position_reference").map(|x| x - planned.given.start);
     let names = planned.given.subject.names();
     let all = names.iter().zip(terms::values(truth, reference));
-    for ((name, truth), (unit, predicted)) in all.zip(truth.units().iter().zip(predicted)) {
+    found.squares.resize(names.len(), Vec::new());
+    let each = all.zip(truth.units().iter().zip(predicted)).enumerate();
+    for (i, ((name, truth), (unit, predicted))) in each {
         found.all += 1;
         let Some(p) = fit.parameter(name).filter(|p| p.is_identifiable()) else {
             found.flagged += 1;
@@ -322,6 +342,7 @@ fn one(
         };
         let error = (p.value() - truth) / unit;
         worst = worst.max(error.abs());
+        found.squares[i].push(1e4 * error * error);
         found.ratio.push((error / predicted) * (error / predicted));
         if let Some((low, high)) = p.interval() {
             found.claimed += 1;
@@ -336,8 +357,10 @@ fn say(axis: &str, motion_name: &str, duration: f64, found: &mut Found) {
     let n = found.worst.len();
     let median = 0.5 * (found.worst[(n - 1) / 2] + found.worst[n / 2]);
     let rms = (found.ratio.iter().sum::<f64>() / found.ratio.len().max(1) as f64).sqrt();
+    let seconds = found.seconds(duration);
+    let seconds = seconds.map_or("open".into(), |seconds| format!("{seconds:.1}"));
     println!(
-        "| {axis} | {motion_name} | {:.1} | {n} | {median:.2} | {:.2} | {:.0} | {:.0} | {rms:.2} |",
+        "| {axis} | {motion_name} | {:.1} | {n} | {median:.2} | {:.2} | {:.0} | {:.0} | {rms:.2} | {seconds} |",
         duration,
         found.worst[n - 1],
         100.0 * found.inside as f64 / found.claimed.max(1) as f64,

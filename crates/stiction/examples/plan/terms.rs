@@ -86,7 +86,7 @@ const AXES: [Made; 6] = [
 /// A table of them: logs of each motion.
 pub fn terms(logs: u64) {
     println!(
-        "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted |\n|---|---|---|---|---|---|---|---|---|"
+        "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted | s to 1 % |\n|---|---|---|---|---|---|---|---|---|---|"
     );
     for made in AXES {
         let folder = std::env::temp_dir().join(format!("stiction-terms-{}", std::process::id()));

@@ -53,10 +53,9 @@ pub(super) fn asked(
         offset: terms.offset,
         terms: own,
     };
-    let warnings = not_planned(axis, &terms).chain(longer_than_the_stroke(&terms, limits, motion));
     Ok(Asked {
         waves: terms.gravity || !terms.cogging.is_empty() || pitches > 0,
-        warnings: warnings.collect(),
+        warnings: not_planned(axis, &terms).collect(),
         subject: match is_asymmetric {
             true => subject.directed(),
             false => subject,
@@ -127,31 +126,6 @@ fn not_planned<'a>(axis: &'a Axis, terms: &'a Terms) -> impl Iterator<Item = War
         .chain(given)
         .chain(elements)
         .chain(mass)
-}
-
-/// Waves of which the stroke shows less than one: their amplitudes cannot be told from a constant force or from another.
-fn longer_than_the_stroke<'a>(
-    terms: &'a Terms,
-    limits: &Limits,
-    motion: Motion,
-) -> impl Iterator<Item = Warning> + 'a {
-    let [low, high] = limits.reach();
-    let length = motion.position().si_text();
-    let levels = terms.level_pitches();
-    let cogging = terms.cogging.iter().map(|pitch| ("cogging", *pitch));
-    let all = cogging.chain(levels.into_iter().map(|pitch| ("coulomb_pitch", pitch)));
-    let long: Vec<(&str, f64)> = all.filter(|(_, pitch)| *pitch > high - low).collect();
-    long.into_iter().map(move |(key, pitch)| {
-        Warning::new(
-            Code::NotPlanned,
-            format!(
-                "terms.{key}: a pitch of {} {length} is longer than the stroke, of which a motion may use {} {length}: it is planned for, \
-                 but hardly told from a constant. Give it a longer stroke, or leave the pitch out",
-                stiction_number::short(pitch),
-                stiction_number::short(high - low)
-            ),
-        )
-    })
 }
 
 /// What a first model has and the axis file does not ask for.
