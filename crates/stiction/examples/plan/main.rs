@@ -325,15 +325,17 @@ fn one(
     }
     let fit = identify(&logs, axis, &options).expect("a fit");
     let entry = Entry::of(motion, truth, (limits, rig), 1 << 25).expect("as before");
-    let predicted = &Expected::of(&[entry], &planned.given.aim).axes[0];
+    let expected = Expected::of(&[entry], &planned.given.aim);
+    let predicted = &expected.axes[0];
     let mut worst: f64 = 0.0;
     let value = |name: &str| fit.parameter(name).map(|p| p.value());
     // What changes along the stroke holds at the position that the fit names.
     let reference = value("position_reference").map(|x| x - planned.given.start);
     let names = planned.given.subject.names();
+    let units = truth.units();
     let all = names.iter().zip(terms::values(truth, reference));
     found.squares.resize(names.len(), Vec::new());
-    let each = all.zip(truth.units().iter().zip(predicted)).enumerate();
+    let each = all.zip(units.iter().zip(predicted)).enumerate();
     for (i, ((name, truth), (unit, predicted))) in each {
         found.all += 1;
         let Some(p) = fit.parameter(name).filter(|p| p.is_identifiable()) else {
