@@ -575,6 +575,9 @@ pub struct Plan {
     /// A first log, such as that of --stage probe: it is identified, and the motion is planned for what it leaves open.
     #[arg(long, value_name = "LOG")]
     pub log: Option<PathBuf>,
+    /// Plan for parameters of each direction of motion, as identify --asymmetric finds them.
+    #[arg(long)]
+    pub asymmetric: bool,
     /// A first, careful motion whose log is for --log, or the whole.
     #[arg(long, value_enum, default_value_t = Stage::Whole)]
     pub stage: Stage,

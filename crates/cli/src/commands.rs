@@ -770,6 +770,7 @@ fn plan(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
     let options = PlanOptions {
         time: plan.time,
         probe: plan.stage == arguments::Stage::Probe,
+        asymmetric: plan.asymmetric,
         known: model.or(plan.log.clone().map(Known::Log)),
         seed: plan.seed,
         wants: (plan.wants.iter())

@@ -100,6 +100,7 @@ codes! {
     LogValue = "log-value": "a number is outside the allowed range",
 
     // What came up after the recording was read.
+    NotPlanned = "not-planned": "something that the axis file asks for is not in the plan of a motion",
     PlanDiffers = "plan-differs": "a log shows another motion than its plan, or not all of it",
     NotIdentifiable = "not-identifiable": "the data do not determine a parameter",
     NotConverged = "not-converged": "the search ended without converging",

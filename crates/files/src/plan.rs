@@ -4,6 +4,7 @@ mod read;
 
 pub use read::{ReadExpected, ReadPlan};
 
+use crate::error::Warning;
 use serde::Serialize;
 use stiction_plan::Atom;
 
@@ -38,6 +39,9 @@ pub struct PlanFile {
     pub evaluations: u64,
     /// Factor on the predicted deviations by which those that are found exceed them, included in what follows.
     pub trust: f64,
+    /// Whether it is planned for parameters of each direction.
+    #[serde(skip_serializing_if = "is_false")]
+    pub asymmetric: bool,
     /// What was not given and is assumed: key, value and unit.
     pub assumed: Vec<Assumed>,
     /// Files that were read.
@@ -59,8 +63,17 @@ pub struct PlanFile {
     pub largest: LargestEntry,
     /// Where to abort.
     pub abort: AbortEntry,
+    /// What is not planned for though the axis file asks for it, and what to do about it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warning: Vec<Warning>,
     /// The pieces in their order.
     pub atom: Vec<AtomEntry>,
+}
+
+/// For `serde`, which hands on a reference.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_false(value: &bool) -> bool {
+    !*value
 }
 
 /// A value that was assumed.
@@ -124,11 +137,17 @@ pub struct RangeEntry {
     pub range: [f64; 2],
 }
 
-/// Expected for one parameter; all in percent of its value.
+/// Expected for one parameter; all in percent of its value, of a term beside the law of what `of` says.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExpectedEntry {
     /// Name, such as `sigma0`.
     pub name: String,
+    /// Of a term: `coulomb`, of which what it adds at its most is given in percent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub of: Option<String>,
+    /// Of a term: what its size is multiplied by where it is at its most, SI.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<f64>,
     /// Standard deviation on half of the axes at most.
     pub std_percent: f64,
     /// On nine of ten axes at most.

@@ -91,7 +91,7 @@ mod watch;
 
 pub use agreement::{Disagreement, NOT_CONSTANT};
 pub use alignment::alignment;
-pub use along::{Along, lugre_along};
+pub use along::{Along, asymmetric_lugre_along, lugre_along};
 pub use choice::{NEVER_EQUAL_RATIO, Standing, choose};
 pub use conditioning::accelerometer::Accelerometer;
 pub use conditioning::channels::Channels;

@@ -275,11 +275,18 @@ pub(crate) fn planned(result: &ResultFile, dir: &Path) -> Option<String> {
     };
     let dir: &Path = &dir.components().collect::<PathBuf>();
     let out = quoted(&format!("{}-plan", text(dir)));
-    Some(format!("stiction plan {}{known} --out {out}", quoted(axis)))
+    let law = match result.asymmetric {
+        true => " --asymmetric",
+        false => "",
+    };
+    Some(format!(
+        "stiction plan {}{known}{law} --out {out}",
+        quoted(axis)
+    ))
 }
 
 /// What the names of parameters begin with that a motion is planned for.
-const PLANNED: [&str; 7] = [
+const PLANNED: [&str; 10] = [
     "sigma0",
     "sigma1",
     "sigma2",
@@ -287,6 +294,9 @@ const PLANNED: [&str; 7] = [
     "static",
     "stribeck_velocity",
     "mass",
+    "gravity_",
+    "cogging",
+    "quadratic_viscous",
 ];
 
 /// The cycle of a controller as fast as the logs, where that is shorter than the usual one.

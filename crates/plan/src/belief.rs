@@ -1,6 +1,8 @@
 //! What is believed of an axis that was identified once.
 
-use crate::candidate::{Candidate, PARAMETERS};
+use crate::candidate::{Back, Candidate};
+use crate::limits::Limits;
+use crate::prior::unit;
 use stiction_friction::ParamError;
 
 /// A first identification: values and how well they are known.
@@ -8,8 +10,8 @@ use stiction_friction::ParamError;
 pub struct Belief {
     /// The identified axis.
     pub axis: Candidate,
-    /// Relative standard deviation of each parameter; `None` where the data did not determine it.
-    pub deviations: [Option<f64>; PARAMETERS],
+    /// Deviation of each parameter in its [unit](Candidate::units); `None` where the data did not determine it.
+    pub deviations: Vec<Option<f64>>,
 }
 
 /// Deviations to either side that are thought possible.
@@ -18,9 +20,6 @@ const WIDE: f64 = 2.0;
 const LEAST: f64 = 1.3;
 const OPEN: f64 = 3.0;
 const MOST: f64 = 10.0;
-/// Places of static and Coulomb friction among the parameters.
-const COULOMB: usize = 3;
-const STATIC: usize = 4;
 /// Least Fs/Fc - 1.
 const LEAST_EXCESS: f64 = 0.02;
 
@@ -30,37 +29,79 @@ impl Belief {
         self.axis.validate()
     }
 
-    /// How many times larger or smaller each may be; for static friction it is the factor of Fs/Fc - 1.
-    pub fn factors(&self) -> [f64; PARAMETERS] {
-        let ratio = 1.0 + 1.0 / self.axis.excess();
-        std::array::from_fn(|i| {
-            let steeper = if i == STATIC { ratio } else { 1.0 };
-            match self.deviations[i] {
+    /// Places of Coulomb and static friction of each direction among the parameters.
+    fn levels(&self) -> impl Iterator<Item = [usize; 2]> + use<> {
+        let sides = if self.axis.back.is_some() { 2 } else { 1 };
+        (0..sides).map(move |side| [2 + sides + side, 2 + 2 * sides + side])
+    }
+
+    /// Fs/Fc - 1 of a direction.
+    fn excess(&self, side: usize) -> f64 {
+        let Back {
+            static_friction,
+            coulomb,
+            ..
+        } = self.axis.direction(side);
+        static_friction / coulomb - 1.0
+    }
+
+    /// How many times larger or smaller each parameter of the law may be; for static friction it is the factor of Fs/Fc - 1.
+    pub fn factors(&self) -> Vec<f64> {
+        let law = 0..self.axis.subject.first_term();
+        let factor = |i: usize| {
+            let own = self.levels().position(|[_, level]| level == i);
+            let steeper = own.map_or(1.0, |side| 1.0 + 1.0 / self.excess(side));
+            match self.deviations.get(i).copied().flatten() {
                 Some(deviation) => libm::exp(WIDE * steeper * deviation).clamp(LEAST, MOST),
                 None => OPEN,
             }
-        })
+        };
+        law.map(factor).collect()
     }
 
-    /// The axis at a place in the unit cube.
-    fn at(&self, unit: [f64; PARAMETERS]) -> Candidate {
-        let factors = self.factors();
+    /// The range of a term where it was determined, SI.
+    pub fn range(&self, term: usize) -> Option<[f64; 2]> {
+        let at = self.axis.subject.first_term() + term;
+        let deviation = self.deviations.get(at).copied().flatten()?;
+        let size = self.axis.sizes.get(term)?;
+        let unit = self.axis.coulomb / self.axis.subject.terms.get(term)?.reach;
+        // As rarely as good as it says.
+        let wide = (WIDE * deviation * unit).max((LEAST - 1.0) * size.abs());
+        Some([size - wide, size + wide])
+    }
+
+    /// The axis at a place in the unit cube; terms that were not determined are those that the nameplate allows.
+    fn at(&self, limits: &Limits, unit: impl Fn(usize) -> f64) -> Candidate {
         let mut values = self.axis.values();
-        let by: [f64; PARAMETERS] =
-            std::array::from_fn(|i| libm::pow(factors[i], 2.0 * unit[i] - 1.0));
-        for (value, by) in values.iter_mut().zip(by) {
+        let by: Vec<f64> = (self.factors().iter().enumerate())
+            .map(|(i, factor)| libm::pow(*factor, 2.0 * unit(i) - 1.0))
+            .collect();
+        for (value, by) in values.iter_mut().zip(&by) {
             *value *= by;
         }
-        let excess = (self.axis.excess() * by[STATIC]).max(LEAST_EXCESS);
-        values[STATIC] = values[COULOMB] * (1.0 + excess);
-        Candidate::from_values(values)
+        for (side, [coulomb, level]) in self.levels().enumerate() {
+            let excess = (self.excess(side) * by[level]).max(LEAST_EXCESS);
+            values[level] = values[coulomb] * (1.0 + excess);
+        }
+        let subject = &self.axis.subject;
+        let Some(axis) = Candidate::of(subject, &values) else {
+            return self.axis.clone();
+        };
+        let dressed = subject.dress(axis.clone(), limits, &unit);
+        let sizes = dressed.sizes.iter().enumerate();
+        let sizes = sizes.map(|(k, open)| match self.range(k) {
+            Some([low, high]) => low + (high - low) * unit(by.len() + k),
+            None => *open,
+        });
+        Candidate {
+            sizes: sizes.collect(),
+            ..axis
+        }
     }
 
     /// `count` axes, spread evenly by a scrambled Sobol sequence; other seeds are other axes.
-    pub fn draw(&self, count: usize, seed: u32) -> Vec<Candidate> {
-        let unit = |i: usize, d: usize| f64::from(sobol_burley::sample(i as u32, d as u32, seed));
-        (0..count)
-            .map(|i| self.at(std::array::from_fn(|d| unit(i, d))))
-            .collect()
+    pub fn draw(&self, limits: &Limits, count: usize, seed: u32) -> Vec<Candidate> {
+        let one = |i: usize| self.at(limits, |d| unit(i, d, seed));
+        (0..count).map(one).collect()
     }
 }

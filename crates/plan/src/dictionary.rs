@@ -119,6 +119,51 @@ pub fn dictionary(limits: &Limits, rig: &Rig) -> Vec<Atom> {
     all
 }
 
+/// Moves there and back to several places of the stroke, as parts of the way to its ends, with the largest speeds that they have
+/// there, as parts of the limit: for terms that depend on the position.
+const PLACES: [f64; 3] = [1.0, 0.6, 0.3];
+const PLACE_SPEEDS: [f64; 5] = [1.0, 0.4, 0.16, 0.06, 0.025];
+/// Parts of the largest speed and acceleration with which slow moves reach their speed: they are for what they see on the way.
+const PLACE_ACCELERATION: f64 = 0.6;
+/// Longest of them, s.
+const LONGEST_PLACE: f64 = 12.0;
+
+/// Moves to several places within the limits, both ways from where the axis stands.
+pub fn places(limits: &Limits, rig: &Rig) -> Vec<Atom> {
+    let limits = &Limits {
+        speed: FAST * limits.speed,
+        ..*limits
+    };
+    let mut all: Vec<Atom> = Vec::new();
+    for end in limits.reach() {
+        for (part, speed) in PLACES
+            .into_iter()
+            .flat_map(|part| PLACE_SPEEDS.map(|speed| (part, speed)))
+        {
+            let most = limits.part(speed, PLACE_ACCELERATION);
+            let atom = Atom::Move {
+                distance: MARGIN * part * end,
+                speed: most.velocity,
+                acceleration: most.acceleration,
+                jerk: most.jerk,
+            };
+            let seen = (part * end).abs() >= LEAST_STEPS * rig.encoder_step;
+            if !seen || atom.validate().is_err() || atom.duration() > LONGEST_PLACE {
+                continue;
+            }
+            let atom = atom.scaled(fits(&atom, limits));
+            // A way too short for a higher speed is the same move.
+            if !all.iter().any(|other| {
+                (other.duration() - atom.duration()).abs() < 1e-9
+                    && other.extremes() == atom.extremes()
+            }) {
+                all.push(atom);
+            }
+        }
+    }
+    all
+}
+
 /// A sine of this speed amplitude with fades of half a period.
 pub(crate) fn sine(speed: f64, frequency: f64, duration: f64) -> Atom {
     let fade = (0.5 / frequency).min(0.5 * duration);

@@ -1,7 +1,6 @@
 //! What a whole motion can be expected to tell.
 
 use crate::aim::Aim;
-use crate::candidate::PARAMETERS;
 use crate::predict::{Deviations, deviations, worst};
 use crate::run::Peaks;
 use crate::select::score;
@@ -10,7 +9,7 @@ use crate::table::Entry;
 /// Deviations that a motion gives, over the axes that are thought possible.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expected {
-    /// For each axis the relative deviation of each parameter.
+    /// For each axis the deviation of each parameter, in its [units](crate::Candidate::units).
     pub axes: Vec<Deviations>,
     /// What [`select`](crate::select()) minimises; less is better.
     pub score: f64,
@@ -41,19 +40,14 @@ impl Expected {
         }
     }
 
-    /// The relative deviation of a parameter that a part of the axes, 0 to 1, does not exceed.
+    /// The deviation of a parameter that a part of the axes, 0 to 1, does not exceed.
     pub fn quantile(&self, parameter: usize, part: f64) -> f64 {
         quantile(self.axes.iter().map(|d| d[parameter]).collect(), part)
     }
 
     /// The same of the worst parameter of each axis.
     pub fn worst(&self, part: f64) -> f64 {
-        quantile(self.axes.iter().map(worst).collect(), part)
-    }
-
-    /// Whether all parameters have a deviation; there is always one.
-    pub fn parameters(&self) -> std::ops::Range<usize> {
-        0..PARAMETERS
+        quantile(self.axes.iter().map(|d| worst(d)).collect(), part)
     }
 }
 

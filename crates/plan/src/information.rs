@@ -1,15 +1,10 @@
 //! What a run tells of the parameters: sums over its samples, which add over the pieces of a motion.
 
-use crate::candidate::{Candidate, PARAMETERS};
+use crate::candidate::Candidate;
 use crate::rig::Rig;
 use crate::run::Run;
-use stiction_identify::lugre_along;
+use stiction_identify::{Along, asymmetric_lugre_along, lugre_along};
 use stiction_signal::{SignalError, Sos, gradient, gradient_sixth_order};
-
-/// Unknowns of a fit: the logarithms of the parameters, the offset over Coulomb friction, and the delay in samples.
-pub(crate) const UNKNOWNS: usize = PARAMETERS + 2;
-/// Entries of a symmetric matrix of them.
-pub(crate) const ENTRIES: usize = UNKNOWNS * (UNKNOWNS + 1) / 2;
 
 /// Pairs of cut-offs that an identification is likely to choose among: the rate over each, in common and on the position.
 const PAIRS: [(f64, f64); PAIR_COUNT] = [(10.0, 10.0), (20.0, 5.0), (10.0, 20.0), (40.0, 10.0)];
@@ -17,42 +12,89 @@ pub(crate) const PAIR_COUNT: usize = 4;
 /// Order of the filters, as in an identification.
 const ORDER: usize = 4;
 
-/// Sums over samples for a pair of cut-offs, in N^2 (N^2 m^2).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Sums {
-    /// `J^T J`, the lower triangle by rows.
-    pub gram: [f64; ENTRIES],
-    /// Covariance of `J^T r` over where the encoder stands in its step.
-    pub scatter: [f64; ENTRIES],
-    /// Mean of `J^T r`: what the encoder and the filters add whatever the noise.
-    pub bias: [f64; UNKNOWNS],
+/// Sums over samples for each pair of cut-offs, in N^2 (N^2 m^2). The unknowns are the logarithms of the parameters of the law, the
+/// terms beside it in units of Coulomb friction, the offset over it where one is fitted, and the delay in samples.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Information {
+    /// How many of the unknowns, the first ones, are parameters whose deviation counts.
+    pub parameters: usize,
+    /// All of them.
+    pub unknowns: usize,
+    /// The sums of a pair, one pair after the other.
+    sums: Vec<f64>,
 }
 
-impl Sums {
-    pub const ZERO: Sums = Sums {
-        gram: [0.0; ENTRIES],
-        scatter: [0.0; ENTRIES],
-        bias: [0.0; UNKNOWNS],
-    };
+/// The sums of a pair of cut-offs.
+pub(crate) struct Sums<'a> {
+    /// `J^T J`, the lower triangle by rows.
+    pub gram: &'a [f64],
+    /// Covariance of `J^T r` over where the encoder stands in its step.
+    pub scatter: &'a [f64],
+    /// Mean of `J^T r`: what the encoder and the filters add whatever the noise.
+    pub bias: &'a [f64],
+}
 
-    pub fn add(&mut self, other: &Sums, sign: f64) {
-        let add = |to: &mut [f64], from: &[f64]| {
-            to.iter_mut().zip(from).for_each(|(a, b)| *a += sign * b);
-        };
-        add(&mut self.gram, &other.gram);
-        add(&mut self.scatter, &other.scatter);
-        add(&mut self.bias, &other.bias);
+/// Entries of a symmetric matrix of unknowns.
+pub(crate) const fn entries(unknowns: usize) -> usize {
+    unknowns * (unknowns + 1) / 2
+}
+
+impl Information {
+    /// None, of parameters of interest among unknowns.
+    pub fn none(parameters: usize, unknowns: usize) -> Self {
+        let pair = 2 * entries(unknowns) + unknowns;
+        Information {
+            parameters,
+            unknowns,
+            sums: vec![0.0; PAIR_COUNT * pair],
+        }
+    }
+
+    /// None, of an axis.
+    pub fn none_of(candidate: &Candidate) -> Self {
+        let subject = &candidate.subject;
+        let parameters = subject.parameters();
+        Self::none(parameters, parameters + usize::from(subject.offset) + 1)
+    }
+
+    pub fn add(&mut self, other: &Information, sign: f64) {
+        let both = self.sums.iter_mut().zip(&other.sums);
+        both.for_each(|(a, b)| *a += sign * b);
+    }
+
+    /// Takes the sums of another one of as many unknowns.
+    pub fn copy_from(&mut self, other: &Information) {
+        self.sums.copy_from_slice(&other.sums);
+    }
+
+    /// The sums of each pair.
+    pub fn pairs(&self) -> impl Iterator<Item = Sums<'_>> {
+        let n = entries(self.unknowns);
+        self.sums
+            .chunks(2 * n + self.unknowns)
+            .map(move |pair| Sums {
+                gram: &pair[..n],
+                scatter: &pair[n..2 * n],
+                bias: &pair[2 * n..],
+            })
+    }
+
+    /// `J^T J`, the scatter and the mean of `J^T r` of a pair.
+    fn pair_mut(&mut self, pair: usize) -> (&mut [f64], &mut [f64], &mut [f64]) {
+        let n = entries(self.unknowns);
+        let size = 2 * n + self.unknowns;
+        let own = &mut self.sums[pair * size..(pair + 1) * size];
+        let (gram, rest) = own.split_at_mut(n);
+        let (scatter, bias) = rest.split_at_mut(n);
+        (gram, scatter, bias)
     }
 }
 
-/// Those of every pair of cut-offs.
-pub(crate) type Information = [Sums; PAIR_COUNT];
-
 /// `J^T J` and `J^T r` of a run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug, Default)]
 struct Products {
-    gram: [f64; ENTRIES],
-    gradient: [f64; UNKNOWNS],
+    gram: Vec<f64>,
+    gradient: Vec<f64>,
 }
 
 /// Information of a motion, from runs with the encoder in several places of its step.
@@ -62,23 +104,29 @@ pub(crate) fn information(candidate: &Candidate, rig: &Rig, runs: &[Run]) -> Opt
         .map(|run| products(candidate, rig, run).ok())
         .collect::<Option<_>>()?;
     let count = all.len() as f64;
-    let mut out = [Sums::ZERO; PAIR_COUNT];
-    for (pair, sums) in out.iter_mut().enumerate() {
+    let mut out = Information::none_of(candidate);
+    let unknowns = out.unknowns;
+    for pair in 0..PAIR_COUNT {
+        let (gram_sum, scatter, bias) = out.pair_mut(pair);
         for products in &all {
             let Products { gram, gradient } = &products[pair];
-            for (sum, x) in sums.gram.iter_mut().zip(gram) {
+            for (sum, x) in gram_sum.iter_mut().zip(gram) {
                 *sum += x / count;
             }
-            for (sum, x) in sums.bias.iter_mut().zip(gradient) {
+            for (sum, x) in bias.iter_mut().zip(gradient) {
                 *sum += x / count;
             }
         }
         for products in &all {
-            let off: [f64; UNKNOWNS] =
-                std::array::from_fn(|i| products[pair].gradient[i] - sums.bias[i]);
-            for i in 0..UNKNOWNS {
+            let off: Vec<f64> = products[pair]
+                .gradient
+                .iter()
+                .zip(&*bias)
+                .map(|(x, mean)| x - mean)
+                .collect();
+            for i in 0..unknowns {
                 for j in 0..=i {
-                    sums.scatter[i * (i + 1) / 2 + j] += off[i] * off[j] / (count - 1.0).max(1.0);
+                    scatter[i * (i + 1) / 2 + j] += off[i] * off[j] / (count - 1.0).max(1.0);
                 }
             }
         }
@@ -95,10 +143,8 @@ fn products(
 ) -> Result<[Products; PAIR_COUNT], SignalError> {
     let (rate, step) = (rig.rate, 1.0 / rig.rate);
     let columns = jacobian(candidate, step, run)?;
-    let mut out = [Products {
-        gram: [0.0; ENTRIES],
-        gradient: [0.0; UNKNOWNS],
-    }; PAIR_COUNT];
+    let unknowns = columns.len();
+    let mut out: [Products; PAIR_COUNT] = Default::default();
     let mut done = [false; PAIR_COUNT];
     for first in 0..PAIR_COUNT {
         if done[first] {
@@ -122,61 +168,135 @@ fn products(
             let both = a.iter().zip(b).step_by(thin);
             thin as f64 * both.map(|(x, y)| x * y).sum::<f64>()
         };
-        let mut gram = [0.0; ENTRIES];
-        for i in 0..UNKNOWNS {
+        let mut gram = vec![0.0; entries(unknowns)];
+        for i in 0..unknowns {
             for j in 0..=i {
                 gram[i * (i + 1) / 2 + j] = product(&filtered[i], &filtered[j]);
             }
         }
         for (k, &pair) in pairs.iter().enumerate() {
-            let residual = &filtered[UNKNOWNS + k];
+            let residual = &filtered[unknowns + k];
+            let own = filtered[..unknowns].iter();
             out[pair] = Products {
-                gram,
-                gradient: std::array::from_fn(|i| product(&filtered[i], residual)),
+                gram: gram.clone(),
+                gradient: own.map(|column| product(column, residual)).collect(),
             };
         }
     }
     Ok(out)
 }
 
-/// Derivatives of the force with respect to the unknowns along the true motion.
+/// The law along a velocity.
+fn along(candidate: &Candidate, step: f64, velocity: &[f64], slopes: bool) -> Along {
+    let kappa = candidate.sigma0 / candidate.coulomb;
+    match candidate.back {
+        None => {
+            let (excess, vs) = (candidate.excess(), candidate.stribeck_velocity);
+            lugre_along(kappa, excess, vs, step, velocity, slopes)
+        }
+        Some(back) => asymmetric_lugre_along(
+            kappa,
+            [
+                candidate.excess(),
+                back.static_friction / back.coulomb - 1.0,
+            ],
+            [candidate.stribeck_velocity, back.stribeck_velocity],
+            back.coulomb / candidate.coulomb,
+            (step, velocity),
+            slopes,
+        ),
+    }
+}
+
+/// Places of the derivatives of [`Along`]: of the length of presliding, of Fs/Fc - 1 and the Stribeck velocity of each direction, and of
+/// the ratio of their levels.
+const KAPPA: usize = 0;
+const EXCESS: [usize; 2] = [1, 4];
+const VELOCITY: [usize; 2] = [2, 5];
+const RATIO: usize = 3;
+
+/// Derivatives of the force with respect to the unknowns along the true motion, in the order of [`Subject::names`](crate::Subject::names).
 fn jacobian(candidate: &Candidate, step: f64, run: &Run) -> Result<Vec<Vec<f64>>, SignalError> {
     let Candidate {
-        sigma0,
         sigma1,
-        sigma2,
         coulomb,
-        static_friction,
-        stribeck_velocity,
         mass,
+        ..
     } = *candidate;
-    let (kappa, excess) = (sigma0 / coulomb, candidate.excess());
-    let along = lugre_along(kappa, excess, stribeck_velocity, step, &run.velocity, true);
+    let along = along(candidate, step, &run.velocity, true);
     // The force about an instant is the mean over the periods beside it, and so are these differences.
     let acceleration = gradient(&run.velocity, step)?;
     let n = run.velocity.len();
+    let has_levels = candidate.subject.has_levels();
+    let level = |i: usize| match has_levels {
+        true => coulomb * candidate.level(usize::from(along.eta[i] < 0.0), run.reading[i]),
+        false => coulomb,
+    };
     let slope =
-        |k: usize, i: usize| coulomb * along.eta_slope[k][i] + sigma1 * along.rate_slope[k][i];
-    // ln (Fs/Fc - 1) grows this much faster than ln Fs.
-    let steeper = static_friction / (static_friction - coulomb);
+        |k: usize, i: usize| level(i) * along.eta_slope[k][i] + sigma1 * along.rate_slope[k][i];
     let column = |f: &dyn Fn(usize) -> f64| (0..n).map(f).collect::<Vec<f64>>();
+    let viscous = |i: usize| {
+        let v = run.velocity[i];
+        candidate.direction(usize::from(v < 0.0)).sigma2 * v
+    };
+    let terms = candidate.subject.terms.len();
     let force = column(&|i| {
-        coulomb * along.eta[i]
-            + sigma1 * along.rate[i]
-            + sigma2 * run.velocity[i]
-            + mass * acceleration[i]
+        let law =
+            coulomb * along.eta[i] + sigma1 * along.rate[i] + viscous(i) + mass * acceleration[i];
+        match terms {
+            0 => law,
+            _ => law + candidate.beside(along.eta[i], run.reading[i], run.velocity[i]),
+        }
     });
-    Ok(vec![
-        column(&|i| slope(0, i)),
+    let sides = 0..1 + usize::from(candidate.back.is_some());
+    // ln (Fs/Fc - 1) grows this much faster than ln Fs.
+    let steeper = [0, 1].map(|side| {
+        let of = candidate.direction(side);
+        of.static_friction / (of.static_friction - of.coulomb)
+    });
+    let mut out = vec![
+        column(&|i| slope(KAPPA, i)),
         column(&|i| sigma1 * along.rate[i]),
-        column(&|i| sigma2 * run.velocity[i]),
-        column(&|i| coulomb * along.eta[i] - slope(0, i) - steeper * slope(1, i)),
-        column(&|i| steeper * slope(1, i)),
-        column(&|i| slope(2, i)),
-        column(&|i| mass * acceleration[i]),
-        vec![coulomb; n],
-        gradient(&force, 1.0)?,
-    ])
+    ];
+    for side in sides.clone() {
+        let is_one = candidate.back.is_none();
+        let moves = |v: f64| is_one || usize::from(v < 0.0) == side;
+        out.push(column(&|i| {
+            if moves(run.velocity[i]) {
+                viscous(i)
+            } else {
+                0.0
+            }
+        }));
+    }
+    for side in sides.clone() {
+        out.push(column(&|i| {
+            let own = match (side, candidate.back) {
+                (0, None) => coulomb * along.eta[i] - slope(KAPPA, i),
+                (0, Some(_)) => coulomb * along.eta[i] - slope(KAPPA, i) - slope(RATIO, i),
+                _ => slope(RATIO, i),
+            };
+            own - steeper[side] * slope(EXCESS[side], i)
+        }));
+    }
+    for side in sides.clone() {
+        out.push(column(&|i| steeper[side] * slope(EXCESS[side], i)));
+    }
+    for side in sides {
+        out.push(column(&|i| slope(VELOCITY[side], i)));
+    }
+    out.push(column(&|i| mass * acceleration[i]));
+    for (k, term) in candidate.subject.terms.iter().enumerate() {
+        let unit = coulomb / term.reach;
+        out.push(column(&|i| {
+            unit * candidate.column(k, along.eta[i], run.reading[i], run.velocity[i])
+        }));
+    }
+    if candidate.subject.offset {
+        out.push(vec![coulomb; n]);
+    }
+    out.push(gradient(&force, 1.0)?);
+    Ok(out)
 }
 
 /// What the law leaves of the force at the true parameters, driven by the filtered encoder.
@@ -191,15 +311,19 @@ fn residual(
     let position = filter.zero_phase(&run.reading)?;
     let velocity = gradient_sixth_order(&position, step)?;
     let acceleration = gradient_sixth_order(&velocity, step)?;
-    let kappa = candidate.sigma0 / candidate.coulomb;
-    let (excess, vs) = (candidate.excess(), candidate.stribeck_velocity);
-    let along = lugre_along(kappa, excess, vs, step, &velocity, false);
+    let along = along(candidate, step, &velocity, false);
+    let has_terms = !candidate.subject.terms.is_empty();
     let left = run.force.iter().enumerate().map(|(i, force)| {
-        force
+        let v = velocity[i];
+        let left = force
             - candidate.coulomb * along.eta[i]
             - candidate.sigma1 * along.rate[i]
-            - candidate.sigma2 * velocity[i]
-            - candidate.mass * acceleration[i]
+            - candidate.direction(usize::from(v < 0.0)).sigma2 * v
+            - candidate.mass * acceleration[i];
+        match has_terms {
+            true => left - candidate.beside(along.eta[i], position[i], v),
+            false => left,
+        }
     });
     Ok(left.collect())
 }

@@ -1,9 +1,10 @@
 //! The motion to record before friction is identified, within the limits of an axis.
 //!
 //! Pieces from rest to rest ([`Atom`]) are simulated in closed loop, with the encoder, on axes that the nameplate allows
-//! ([`Nameplate`]), or that a first identification leaves open ([`Belief`]). Each run gives sums that say how well its log would determine the parameters of LuGre and the mass; they add
-//! over pieces, so the best pieces of a given length are found without further simulation ([`select()`]), and the whole motion is
-//! then simulated once more ([`Entry::of`]).
+//! ([`Nameplate`]), or that a first identification leaves open ([`Belief`]). Each run gives sums that say how well its log would
+//! determine the parameters of LuGre, the mass and the terms beside them ([`Subject`]); they add over pieces, so the best pieces of
+//! a given length are found without further simulation ([`select()`]), and the whole motion is then simulated once more
+//! ([`Entry::of`]).
 //!
 //! ```text
 //! Limits, Rig --dictionary--> Atoms --Entry::of, on Nameplate::draw--> Table --select--> Motion --Entry::of--> Expected
@@ -33,17 +34,19 @@ mod limits;
 mod motion;
 mod predict;
 mod prior;
+mod pushed;
 mod recognise;
 mod rig;
 mod run;
 mod select;
+mod subject;
 mod table;
 
 pub use aim::Aim;
 pub use atom::{Atom, Extremes, Instant};
 pub use belief::Belief;
-pub use candidate::{Candidate, NAMES, PARAMETERS};
-pub use dictionary::dictionary;
+pub use candidate::{Back, Candidate, NAMES, PARAMETERS};
+pub use dictionary::{dictionary, places};
 pub use expected::Expected;
 pub use hand_made::{HandMade, hand_made};
 pub use limits::Limits;
@@ -54,4 +57,5 @@ pub use recognise::{How, Ran, Recognised, recognise};
 pub use rig::{Loop, Rig};
 pub use run::{Peaks, Run, run};
 pub use select::{Alone, Choice, Spread, select};
+pub use subject::{Along, Shape, Subject, Term};
 pub use table::{Entry, Table};

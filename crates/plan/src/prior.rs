@@ -3,6 +3,7 @@
 use crate::candidate::{Candidate, PARAMETERS};
 use crate::limits::Limits;
 use crate::rig::Rig;
+use crate::subject::Subject;
 use stiction_friction::ParamError;
 
 /// What the nameplate of a servo axis leaves open: ranges in equal ratios, independent of each other.
@@ -63,15 +64,15 @@ impl Nameplate {
         let viscous = value(4, ranges[4].1);
         let sigma0 = coulomb / value(5, ranges[5].1);
         let damping = value(6, ranges[6].1);
-        Candidate {
+        Candidate::from_values([
             sigma0,
-            sigma1: 2.0 * damping * libm::sqrt(sigma0 * mass),
-            sigma2: viscous * coulomb / self.limits.speed,
+            2.0 * damping * libm::sqrt(sigma0 * mass),
+            viscous * coulomb / self.limits.speed,
             coulomb,
-            static_friction: coulomb * (1.0 + excess),
+            coulomb * (1.0 + excess),
             stribeck_velocity,
             mass,
-        }
+        ])
     }
 
     /// Refuses numbers out of range.
@@ -85,9 +86,16 @@ impl Nameplate {
     }
 
     /// `count` axes, spread evenly by a scrambled Sobol sequence; other seeds are other axes.
-    pub fn draw(&self, count: usize, seed: u32) -> Vec<Candidate> {
-        let unit = |i: usize, d: usize| f64::from(sobol_burley::sample(i as u32, d as u32, seed));
-        let cube = |i: usize| std::array::from_fn(|d| unit(i, d));
-        (0..count).map(|i| self.at(cube(i))).collect()
+    pub fn draw(&self, subject: &Subject, count: usize, seed: u32) -> Vec<Candidate> {
+        let one = |i: usize| {
+            let axis = self.at(std::array::from_fn(|d| unit(i, d, seed)));
+            subject.dress(axis, &self.limits, |d| unit(i, d, seed))
+        };
+        (0..count).map(one).collect()
     }
+}
+
+/// A place of the sequence, 0 to 1.
+pub(crate) fn unit(number: usize, dimension: usize, seed: u32) -> f64 {
+    f64::from(sobol_burley::sample(number as u32, dimension as u32, seed))
 }

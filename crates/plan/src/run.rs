@@ -1,14 +1,16 @@
 //! A motion on a candidate, simulated in closed loop with its encoder.
 
 use crate::candidate::Candidate;
+use crate::pushed::{Push, Pushed, depends};
 use crate::rig::Rig;
-use stiction_friction::ParamError;
+use stiction_friction::{Held, ParamError};
 use stiction_servo::axis::{Axis, AxisSettings, Correction};
 use stiction_servo::controller::Controller;
 use stiction_servo::drive::Drive;
 use stiction_servo::encoder::Encoder;
 use stiction_servo::feedforward::Feedforward;
-use stiction_servo::integrator::Quick;
+use stiction_servo::integrator::{Integrator, Mid, Quick};
+use stiction_servo::levelled::{Depending, Levelled};
 use stiction_servo::path::Reference;
 use stiction_servo::plant::Plant;
 use stiction_servo::trajectory::Trajectory;
@@ -51,7 +53,7 @@ const BRISTLE_STEP: f64 = 0.4;
 const MOST_STEPS: f64 = 64.0;
 
 /// Runs a motion from rest on the candidate under a largest force, N (N m). `phase`, 0 to 1, is where the encoder stands in its
-/// step.
+/// step. The controller holds at the start what pushes the axis there.
 pub fn run(
     motion: &impl Trajectory,
     candidate: &Candidate,
@@ -59,12 +61,40 @@ pub fn run(
     force_limit: f64,
     phase: f64,
 ) -> Result<Run, ParamError> {
-    let every = rig.periods();
-    let rate = rig.rate * every as f64;
+    let push = Push::of(candidate);
+    let law = candidate.law()?;
+    let hold = push.asks(0.0, 0.0);
+    match (depends(candidate), push.is_none()) {
+        (None, true) => {
+            let settings = settings(law, candidate, rig, (force_limit, phase))?;
+            follow(Axis::new(settings, Quick::new(1)?)?, motion, rig, hold)
+        }
+        (None, false) => {
+            let settings = settings(law, candidate, rig, (force_limit, phase))?;
+            let pushed = Pushed::new(Quick::new(1)?, push);
+            follow(Axis::new(settings, pushed)?, motion, rig, hold)
+        }
+        (Some(depends), _) => {
+            let law = Levelled::unchanged(law);
+            let settings = settings(law, candidate, rig, (force_limit, phase))?;
+            let pushed = Pushed::new(Depending::new(Mid::new(1)?, depends), push);
+            follow(Axis::new(settings, pushed)?, motion, rig, hold)
+        }
+    }
+}
+
+/// The axis with its law, drive, encoder and controller.
+fn settings<L: Held<f64>>(
+    law: L,
+    candidate: &Candidate,
+    rig: &Rig,
+    (force_limit, phase): (f64, f64),
+) -> Result<AxisSettings<L>, ParamError> {
+    let rate = rig.rate * rig.periods() as f64;
     let bristles = libm::sqrt(candidate.sigma0 / candidate.mass) / rate;
     let substeps = libm::ceil(bristles / BRISTLE_STEP).clamp(1.0, MOST_STEPS) as u32;
-    let settings = AxisSettings {
-        plant: Plant::new(candidate.mass, candidate.law()?)?,
+    Ok(AxisSettings {
+        plant: Plant::new(candidate.mass, law)?,
         drive: Drive::ideal(),
         encoder: Encoder::new(rig.encoder_step)?.with_phase(phase)?,
         position_noise: 0.0,
@@ -75,9 +105,19 @@ pub fn run(
         rate,
         substeps,
         seed: 0,
-    };
-    let force_limit = settings.controller.force_limit();
-    let mut axis = Axis::new(settings, Quick::new(1)?)?;
+    })
+}
+
+/// Runs an axis along a motion, with a force that is held throughout, N (N m): what the integrator of a controller has at the start.
+fn follow<L: Held<f64>, I: Integrator<L>>(
+    mut axis: Axis<L, I>,
+    motion: &impl Trajectory,
+    rig: &Rig,
+    hold: f64,
+) -> Result<Run, ParamError> {
+    let every = rig.periods();
+    let rate = axis.settings().rate;
+    let force_limit = axis.settings().controller.force_limit();
     let samples = libm::floor(motion.duration() * rig.rate + 1e-6) as usize + 1;
     let mut out = Run {
         reading: Vec::with_capacity(samples),
@@ -93,7 +133,7 @@ pub fn run(
         let reference: Reference = motion.at(k as f64 / rate);
         let correction = Correction {
             velocity: (fed - 1.0) * reference.velocity,
-            force: 0.0,
+            force: hold,
         };
         let sample = axis.step(reference, 0.0, correction);
         if k % every == 0 {

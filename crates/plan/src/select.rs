@@ -1,8 +1,8 @@
 //! Which pieces make the best motion of a given length.
 
 use crate::aim::Aim;
-use crate::information::{Information, PAIR_COUNT, Sums};
-use crate::predict::{deviations, worst};
+use crate::information::Information;
+use crate::predict::{Scratch, least_worst};
 use crate::table::Table;
 
 /// At most so many of one piece: one alone would come again and again where the prediction favours it by chance.
@@ -67,25 +67,22 @@ struct Sum<'a> {
 impl Sum<'_> {
     fn add(&mut self, piece: usize, sign: f64) {
         for (sum, entry) in self.information.iter_mut().zip(&self.table.entries[piece]) {
-            for (sum, sums) in sum.iter_mut().zip(&entry.information) {
-                sum.add(sums, sign);
-            }
+            sum.add(&entry.information, sign);
         }
         self.time += sign * self.table.atoms[piece].duration();
     }
 
     fn score_with(&self, piece: Option<usize>) -> f64 {
+        let Some(first) = self.information.first() else {
+            return 0.0;
+        };
+        let (mut sums, mut scratch) = (first.clone(), Scratch::new(first));
         let each = self.information.iter().enumerate().map(|(axis, before)| {
-            let mut sums = *before;
+            sums.copy_from(before);
             if let Some(piece) = piece {
-                for (sum, more) in sums
-                    .iter_mut()
-                    .zip(&self.table.entries[piece][axis].information)
-                {
-                    sum.add(more, 1.0);
-                }
+                sums.add(&self.table.entries[piece][axis].information, 1.0);
             }
-            libm::log(worst(&deviations(&sums, self.aim)).max(1e-12))
+            libm::log(least_worst(&sums, self.aim, &mut scratch).max(1e-12))
         });
         score(&mut each.collect::<Vec<f64>>())
     }
@@ -130,11 +127,13 @@ pub fn select(
     spread: &dyn Spread,
     go_on: &mut dyn FnMut(f64) -> bool,
 ) -> Choice {
-    let axes = table.entries.first().map_or(0, Vec::len);
+    let first = table.entries.first().into_iter().flatten();
+    let nothing =
+        first.map(|e| Information::none(e.information.parameters, e.information.unknowns));
     let mut sum = Sum {
         table,
         aim,
-        information: vec![[Sums::ZERO; PAIR_COUNT]; axes],
+        information: nothing.collect(),
         time: 0.0,
         pieces: Vec::new(),
     };

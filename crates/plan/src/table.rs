@@ -2,7 +2,7 @@
 
 use crate::atom::Atom;
 use crate::candidate::Candidate;
-use crate::information::{Information, PAIR_COUNT, Sums, information};
+use crate::information::{Information, information};
 use crate::limits::Limits;
 use crate::rig::Rig;
 use crate::run::{Peaks, Run, run};
@@ -38,10 +38,10 @@ impl Entry {
         let runs: Vec<Run> = (0..PHASES)
             .map(|k| run(motion, candidate, rig, limits.peak_force, phase(k)))
             .collect::<Result<_, _>>()?;
-        // A piece too short to be filtered tells nothing.
-        let nothing = [Sums::ZERO; PAIR_COUNT];
+        let found = information(candidate, rig, &runs);
         Ok(Entry {
-            information: information(candidate, rig, &runs).unwrap_or(nothing),
+            // A piece too short to be filtered tells nothing.
+            information: found.unwrap_or_else(|| Information::none_of(candidate)),
             peaks: runs
                 .iter()
                 .map(|run| run.peaks)

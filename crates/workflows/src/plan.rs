@@ -1,5 +1,6 @@
 //! The motion to record, within the limits of an axis.
 
+mod asked;
 mod assume;
 mod band;
 mod block;
@@ -32,6 +33,8 @@ pub struct PlanOptions {
     pub time: Option<f64>,
     /// A first, careful motion at half the speed and acceleration, whose log a second plan is made from.
     pub probe: bool,
+    /// Whether each direction of motion has parameters of its own; those of a model that is so have it anyway.
+    pub asymmetric: bool,
     /// What is known of the axis beside its nameplate.
     pub known: Option<Known>,
     /// What is to be known how well: the shortest motion is taken that is enough. Empty: the best of the longest time.
@@ -81,7 +84,10 @@ pub fn plan(
     let axis = Axis::read(axis_file)?;
     let kind = axis.limits.as_ref().map(|limits| limits.motion);
     let told = match (&options.known, kind) {
-        (Some(known), Some(kind)) => Some(known::told(known, axis_file, kind, observer)?),
+        (Some(known), Some(kind)) => {
+            let law = (kind, options.asymmetric);
+            Some(known::told(known, axis_file, law, observer)?)
+        }
         _ => None,
     };
     // Of exactly what was read: the files may change while it is planned.
@@ -96,7 +102,8 @@ pub fn plan(
         });
     }
     let given = assume::given(&axis, told, options)?;
-    let start = carried::start(&given, options)?;
+    wanted::are_planned(&options.wants, &given.subject)?;
+    let start = given.start;
     carried::tried(&given, options, start)?;
     let planned = design::design(&axis, given, inputs, options, observer)?;
     planned

@@ -574,3 +574,154 @@ fn a_wish_is_granted_or_it_is_said_what_would() {
         );
     }
 }
+
+/// The axis with terms beside the law.
+fn with_terms(terms: &str) -> tempfile::TempDir {
+    folder(&format!("{AXIS}\n[terms]\n{terms}"))
+}
+
+/// What is not planned for is said by its name, with the motion to add, and the rest is planned.
+#[test]
+fn what_a_plan_leaves_out_is_said() {
+    let folder = with_terms(
+        "coulomb_load = true\ncoulomb_temperature = true\nsigma2_temperature = true\ncoulomb_driven = true\ncoulomb_transmitted = true\n\
+         coulomb_log = true\nsigma2_log = true\nstribeck_exponent = 1.5\ngms_elements = 4\n",
+    );
+    let all = ["plan", "axis.toml", "--time", "3s", "--out", "out"];
+    let (code, out, err) = run(folder.path(), &all);
+    assert_eq!((code, err.as_str()), (0, ""));
+    let warnings: Vec<&str> = out.lines().filter(|l| l.starts_with("warning")).collect();
+    insta::assert_snapshot!(warnings.join("\n"));
+    let report = std::fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    let file = std::fs::read_to_string(folder.path().join("out/plan.toml")).unwrap();
+    for text in [report, file] {
+        assert!(text.contains("not-planned") && text.contains("at least three loads"));
+    }
+}
+
+/// Terms that are planned for have an expected interval, which a wish may be about and a log is held against.
+#[test]
+fn terms_are_expected_wanted_and_compared() {
+    let folder = with_terms("cogging = [\"10 mm\"]\nquadratic_viscous = true\n");
+    let at = folder.path();
+    let plan = |wish: &str| {
+        let all = [
+            "plan",
+            "axis.toml",
+            "--time",
+            "4s",
+            "--want",
+            wish,
+            "--out",
+            "out",
+            "--force",
+        ];
+        run(at, &all)
+    };
+    let (code, out, err) = plan("cogging1_cos < 90 %");
+    assert_eq!((code, err.as_str()), (0, ""), "{out}");
+    for said in [
+        "quadratic_viscous",
+        "cogging1_sin",
+        "of coulomb",
+        "(--start) = 0 m",
+    ] {
+        assert!(out.contains(said), "{said}\n{out}");
+    }
+    assert!(!out.contains("warning"), "{out}");
+    // A log of it by an ideal axis with cogging of 1 and 0.5 N.
+    let rows = rows(at, "out/setpoints.csv");
+    let force = |[_, x, v, a]: &[f64; 4]| {
+        let angle = std::f64::consts::TAU * x / 0.01;
+        let sign = if *v == 0.0 { 0.0 } else { v.signum() };
+        4.0 * sign + 20.0 * v + 4.0 * a + libm::sin(angle) + 0.5 * libm::cos(angle)
+    };
+    let log: String = (rows.iter())
+        .map(|row| format!("{},{},{}\n", row[0], row[1], force(row)))
+        .collect();
+    let log = format!("time [s],position [m],force [N]\n{log}");
+    std::fs::write(at.join("log.csv"), log).unwrap();
+    let all = [
+        "identify",
+        "log.csv",
+        "--axis",
+        "axis.toml",
+        "--law",
+        "coulomb-viscous",
+        "--plan",
+        "out/plan.toml",
+        "--json",
+        "--out",
+        "found",
+    ];
+    let (_, out, err) = run(at, &all);
+    let result: serde_json::Value = serde_json::from_str(&out).unwrap_or_else(|_| panic!("{err}"));
+    let parameters = result["planned"]["parameters"].as_array().unwrap();
+    let cosine = parameters.iter().find(|p| p["name"] == "cogging1_cos");
+    let cosine = cosine.unwrap();
+    assert_eq!(cosine["of"], "coulomb");
+    let found = result["parameters"].as_array().unwrap();
+    let own = |name: &str| found.iter().find(|p| p["name"] == name).unwrap();
+    let end = |k: usize| own("cogging1_cos")["ci95"][k].as_f64().unwrap();
+    let percent = 50.0 * (end(1) - end(0)) / own("coulomb")["value"].as_f64().unwrap();
+    let said = cosine["found_percent"].as_f64().unwrap();
+    assert!((said / percent - 1.0).abs() < 1e-3, "{said} {percent}");
+    // What the axis has no term for cannot be wanted.
+    let (code, _, err) = plan("gravity_sin < 5 %");
+    assert_eq!(code, 2);
+    for said in ["gravity_sin", "cogging1_cos"] {
+        assert!(err.contains(said), "{err}");
+    }
+}
+
+/// Gravity of a linear axis is refused as an identification refuses it.
+#[test]
+fn gravity_on_a_linear_axis_is_refused() {
+    let folder = with_terms("gravity = true\n");
+    let (code, _, err) = run(folder.path(), &["plan", "axis.toml", "--out", "out"]);
+    assert_eq!(code, 2, "{err}");
+    assert!(err.contains("terms.gravity"), "{err}");
+}
+
+/// A model whose directions differ.
+fn asymmetric_model() -> String {
+    let model = MODEL.replace("law = \"lugre\"", "law = \"lugre\"\nasymmetric = true");
+    let mut out = String::new();
+    for line in model.lines() {
+        let names = ["sigma2", "coulomb", "static", "stribeck_velocity"];
+        let own = names
+            .iter()
+            .find(|name| line.contains(&format!("\"{name}\"")));
+        match own {
+            Some(name) => {
+                for side in ["_pos", "_neg"] {
+                    let of = format!("\"{name}{side}\"");
+                    out += &(line.replace(&format!("\"{name}\""), &of) + "\n");
+                }
+            }
+            None => out += &format!("{line}\n"),
+        }
+    }
+    out
+}
+
+/// Parameters of each direction, asked for or those of a model, and the command that identifies them.
+#[test]
+fn a_plan_for_each_direction() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    std::fs::write(at.join("model.toml"), asymmetric_model()).unwrap();
+    for more in [["--asymmetric", "--seed=0"], ["--model", "model.toml"]] {
+        let mut all = vec!["plan", "axis.toml", "--time", "4s", "--out", "out"];
+        all.extend(more);
+        let (code, out, err) = run(at, &all);
+        assert_eq!((code, err.as_str()), (0, ""));
+        for said in [
+            "sigma2_neg",
+            "static_pos",
+            "--axis axis.toml --law lugre --asymmetric --plan out/plan.toml",
+        ] {
+            assert!(out.contains(said), "{said}\n{out}");
+        }
+    }
+}

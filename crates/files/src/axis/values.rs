@@ -134,13 +134,22 @@ impl Axis {
     /// is a current, a force limit in another unit than the force.
     pub fn terms_for(&self, log: &Log, asymmetric: bool) -> Result<Terms, Error> {
         self.fits(log.motion, &log.force_unit, "log")?;
-        if self.terms.gravity && log.motion == Motion::Linear {
+        let terms = self.terms_of(log.motion, asymmetric)?;
+        self.check_pitches(log)?;
+        Ok(terms)
+    }
+
+    /// The same before there is a log.
+    ///
+    /// # Errors
+    /// Where gravity is asked for on a linear axis.
+    pub fn terms_of(&self, motion: Motion, asymmetric: bool) -> Result<Terms, Error> {
+        if self.terms.gravity && motion == Motion::Linear {
             let allowed = "sin q and cos q need the angle of a rotary axis; gravity on a linear axis is \
                            the constant force";
             let found = "true on a linear axis".into();
             return Err(self.places.refuse("terms.gravity", found, allowed));
         }
-        self.check_pitches(log)?;
         let mut terms = self.terms.clone();
         terms.offset = self.offset.unwrap_or(!asymmetric);
         Ok(terms)

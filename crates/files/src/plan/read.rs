@@ -28,11 +28,13 @@ pub struct ReadPlan {
     pub expected: Vec<ReadExpected>,
 }
 
-/// Expected for one parameter: half of its 95 % interval, percent of its value.
+/// Expected for one parameter: half of its 95 % interval, percent of its value or of what `of` says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReadExpected {
     /// Name, such as `sigma0`.
     pub name: String,
+    /// Of a term beside the law: the parameter of which it is given in percent, and what the term is multiplied by for that, SI.
+    pub of: Option<(String, f64)>,
     /// On half of the axes at most.
     pub interval_percent: f64,
     /// On nine of ten axes at most.
@@ -71,6 +73,10 @@ impl ReadPlan {
                 name: table
                     .required("name", table.line("name")?, "a name")?
                     .into(),
+                of: match table.line("of")? {
+                    Some(of) => Some((of.to_string(), number(&table, "at")?)),
+                    None => None,
+                },
                 interval_percent: number(&table, "interval_percent")?,
                 interval90_percent: number(&table, "interval90_percent")?,
             });

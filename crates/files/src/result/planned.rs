@@ -42,6 +42,9 @@ pub struct PieceEntry {
 pub struct PlannedParameter {
     /// Name.
     pub name: String,
+    /// Of a term beside the law: the parameter of which, at its most, it is given in percent; absent of others.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub of: Option<String>,
     /// On half of the axes at most.
     pub expected_percent: f64,
     /// On nine of ten axes at most.

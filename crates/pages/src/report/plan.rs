@@ -3,7 +3,8 @@
 use stiction_files::plan::{ComparedEntry, PlanFile};
 use stiction_number::{Percent, four_digits as short, unit};
 use stiction_report::{
-    Align, Axis, Block, Document, Figure, KeyFigure, Layer, Panel, Table, number,
+    Align, Axis, Block, Callout, Document, Figure, KeyFigure, Layer, Panel, Severity, Table, Text,
+    number,
 };
 use stiction_workflows::plan::Planned;
 
@@ -48,6 +49,9 @@ pub fn plan(planned: &Planned) -> Document {
         ))
         .footer(format!("stiction {} · seed {}", file.version, file.seed))
         .block(Block::KeyFigures(figures));
+    let document = not_planned(file)
+        .into_iter()
+        .fold(document, Document::block);
     document
         .heading(2, "Motion")
         .block(motion(planned))
@@ -67,6 +71,17 @@ pub fn plan(planned: &Planned) -> Document {
         .block(aborts(file))
         .heading(2, "Assumptions")
         .block(assumptions(file))
+}
+
+/// What is not planned for, each by its name.
+fn not_planned(file: &PlanFile) -> Vec<Callout> {
+    let each = file.warning.iter().map(|warning| Callout {
+        severity: Severity::Warning,
+        code: warning.code.to_string(),
+        text: Text::of_message(&warning.message),
+        link: String::new(),
+    });
+    each.collect()
 }
 
 fn within(percent: f64) -> String {
@@ -157,10 +172,14 @@ fn expected(file: &PlanFile) -> Table {
     ];
     let rows = file.parameter.iter();
     rows.fold(Table::new(columns), |table, p| {
+        let of = match &p.of {
+            Some(of) => format!(" of {of}"),
+            None => String::new(),
+        };
         table.row([
             p.name.clone(),
-            within(p.interval_percent),
-            within(p.interval90_percent),
+            format!("{}{of}", within(p.interval_percent)),
+            format!("{}{of}", within(p.interval90_percent)),
         ])
     })
 }

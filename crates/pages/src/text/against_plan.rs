@@ -37,8 +37,12 @@ pub(super) fn section(entry: Option<&PlannedEntry>) -> String {
     let mut rows = vec![header.map(String::from).to_vec()];
     let half = |percent: f64| format!("+-{}", Percent::deviation(percent).short());
     rows.extend(entry.parameters.iter().map(|p| {
+        let name = match &p.of {
+            Some(of) => format!("{}, of {of}", p.name),
+            None => p.name.clone(),
+        };
         vec![
-            p.name.clone(),
+            name,
             half(p.expected_percent),
             half(p.expected90_percent),
             p.found_percent.map_or("-".into(), half),

@@ -36,6 +36,9 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
             let _ = writeln!(out, "    {} = {}{with}", assumed.key, short(assumed.value));
         }
     }
+    for warning in &file.warning {
+        let _ = writeln!(out, "\nwarning [{}] {}", warning.code, warning.message);
+    }
     out.push_str(&expected(file));
     out.push_str(&wanted(planned, axis, written));
     out.push_str(&beside(file));
@@ -70,19 +73,28 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
 fn next(planned: &Planned, axis: &Path, written: &Path) -> String {
     let typed = quoted_path;
     let axis = typed(axis);
+    let [sides, law] = sides(&planned.file);
     if planned.options.probe {
         let out = quoted(&format!(
             "{}-2",
             text(&written.components().collect::<PathBuf>())
         ));
-        return format!("stiction plan {axis} --log LOG.csv --out {out}");
+        return format!("stiction plan {axis} --log LOG.csv{sides} --out {out}");
     }
     let first = match &planned.options.known {
         Some(Known::Log(log)) => format!("{} ", typed(log)),
         _ => String::new(),
     };
     let [plan, out] = ["plan.toml", "identified"].map(|name| typed(&written.join(name)));
-    format!("stiction identify {first}LOG.csv --axis {axis} --plan {plan} --out {out}")
+    format!("stiction identify {first}LOG.csv --axis {axis}{law} --plan {plan} --out {out}")
+}
+
+/// Options by which a plan, and an identification, is for parameters of each direction.
+fn sides(file: &PlanFile) -> [&'static str; 2] {
+    match file.asymmetric {
+        true => [" --asymmetric", " --law lugre --asymmetric"],
+        false => ["", ""],
+    }
 }
 
 /// Units of length, speed and force.
@@ -126,10 +138,14 @@ fn expected(file: &PlanFile) -> String {
         .to_vec(),
     ];
     rows.extend(file.parameter.iter().map(|p| {
+        let of = match &p.of {
+            Some(of) => format!(" of {of}"),
+            None => String::new(),
+        };
         vec![
             p.name.clone(),
-            within(p.interval_percent),
-            within(p.interval90_percent),
+            format!("{}{of}", within(p.interval_percent)),
+            format!("{}{of}", within(p.interval90_percent)),
         ]
     }));
     let mut out = String::from("\nexpected of its log, by simulation, at most:\n");
@@ -189,8 +205,9 @@ fn wanted(planned: &Planned, axis: &Path, written: &Path) -> String {
         });
         let _ = writeln!(
             out,
-            "a longer motion may grant it: stiction plan {} --time {needed}s{wishes} --out {}",
+            "a longer motion may grant it: stiction plan {} --time {needed}s{wishes}{} --out {}",
             quoted_path(axis),
+            sides(file)[0],
             beside("-longer")
         );
     } else {
@@ -198,9 +215,10 @@ fn wanted(planned: &Planned, axis: &Path, written: &Path) -> String {
             out,
             "no motion of at most {LONGEST} s grants it within these limits: deviations fall with the root of the time, and this one \
              would take {} s. A finer encoder, less noise of the force and more speed help, and a first log, from which less is open:\n    \
-             stiction plan {} --stage probe --out {}",
+             stiction plan {} --stage probe{} --out {}",
             short(needed),
             quoted_path(axis),
+            sides(file)[0],
             beside("-probe")
         );
     }

@@ -1,7 +1,7 @@
 //! Limits hold at every instant, not only at samples.
 
 use proptest::prelude::*;
-use stiction_plan::{Atom, HandMade, Limits, Loop, Motion, Rig, dictionary, hand_made};
+use stiction_plan::{Atom, HandMade, Limits, Loop, Motion, Rig, dictionary, hand_made, places};
 
 /// Axes from a piezo stage to a gantry, most of them with limits that do not go together well.
 fn axes() -> impl Strategy<Value = (Limits, Rig)> {
@@ -41,6 +41,11 @@ fn axes() -> impl Strategy<Value = (Limits, Rig)> {
     )
 }
 
+/// All pieces, those to several places too.
+fn all(limits: &Limits, rig: &Rig) -> Vec<Atom> {
+    [dictionary(limits, rig), places(limits, rig)].concat()
+}
+
 /// The largest of what a piece does on a grid of `count` points.
 fn on_grid(atom: &Atom, count: usize) -> [f64; 5] {
     let mut out = [0.0_f64; 5];
@@ -62,7 +67,7 @@ proptest! {
     #[test]
     fn every_piece_holds_every_limit_on_a_fine_grid((limits, rig) in axes(), one in any::<prop::sample::Index>()) {
         limits.validate().unwrap();
-        let atoms = dictionary(&limits, &rig);
+        let atoms = all(&limits, &rig);
         prop_assume!(!atoms.is_empty());
         let atom = one.get(&atoms);
         let [low, high] = limits.reach();
@@ -77,7 +82,7 @@ proptest! {
     /// The bounds are bounds, and not much more than what happens.
     #[test]
     fn bounds_are_tight((limits, rig) in axes(), one in any::<prop::sample::Index>()) {
-        let atoms = dictionary(&limits, &rig);
+        let atoms = all(&limits, &rig);
         prop_assume!(!atoms.is_empty());
         let atom = one.get(&atoms);
         // Those of moves are their extremes, in ramps that may be too short for any grid.
@@ -116,7 +121,7 @@ fn no_limit_is_broken_on(cases: u32) {
         ),
     );
     let run = runner.run(&axes(), |(limits, rig)| {
-        for atom in dictionary(&limits, &rig) {
+        for atom in all(&limits, &rig) {
             let motion = Motion::new(vec![atom]).unwrap();
             prop_assert!(motion.holds(&limits), "{atom:?} {limits:?}");
         }
@@ -197,4 +202,47 @@ fn limits_that_are_none_are_refused_by_name() {
     for (name, limits) in bad {
         assert_eq!(limits.validate().unwrap_err().name, name);
     }
+}
+
+/// Moves go to both sides and to several places, fast and slow.
+#[test]
+fn places_are_those_of_the_whole_stroke() {
+    let limits = Limits {
+        stroke: [-0.1, 0.15],
+        end_zone: 0.05,
+        speed: 0.2,
+        acceleration: 6.0,
+        jerk: 1500.0,
+        rated_force: 150.0,
+        peak_force: 200.0,
+    };
+    let rig = Rig {
+        rate: 2000.0,
+        encoder_step: 50e-9,
+        force_noise: 1.0,
+        loop_: Loop::Tuned(60.0),
+    };
+    let [low, high] = limits.reach();
+    let atoms = places(&limits, &rig);
+    for part in [0.3, 0.6, 1.0] {
+        for end in [low, high] {
+            let goes_there = |atom: &&Atom| {
+                let [least, most] = atom.extremes().position;
+                (if end < 0.0 { least } else { most } / (part * end) - 1.0).abs() < 1e-5
+            };
+            let speeds: Vec<f64> = (atoms.iter().filter(goes_there))
+                .map(|atom| atom.extremes().speed)
+                .collect();
+            assert!(speeds.len() >= 2, "{part} {end} {speeds:?}");
+        }
+    }
+    // An axis at an end of its stroke goes to one side alone.
+    let ended = Limits {
+        stroke: [0.0, 0.1],
+        end_zone: 0.0,
+        ..limits
+    };
+    let atoms = places(&ended, &rig);
+    assert!(!atoms.is_empty());
+    assert!(atoms.iter().all(|atom| atom.extremes().position[0] >= 0.0));
 }

@@ -1,11 +1,11 @@
 //! What is predicted, held against fits of simulated logs.
 
 use stiction_identify::{
-    Conditioning, Law, LawKind, Samples, Settings, Silent, Terms, condition, identify,
+    Conditioning, Dependence, Law, LawKind, Samples, Settings, Silent, Terms, condition, identify,
 };
 use stiction_plan::{
-    Aim, Alone, Atom, Candidate, Entry, Expected, HandMade, Limits, Loop, Motion, NAMES, Nameplate,
-    Rig, Table, dictionary, hand_made, run, select,
+    Aim, Alone, Atom, Back, Candidate, Entry, Expected, HandMade, Limits, Loop, Motion, NAMES,
+    Nameplate, Rig, Subject, Table, dictionary, hand_made, places, run, select,
 };
 use stiction_servo::noise::Noise;
 
@@ -30,9 +30,10 @@ fn machine() -> Candidate {
     Candidate::from_values([1.2e5, 600.0, 60.0, 20.0, 30.0, 5e-3, 10.0])
 }
 
-/// Root mean square errors of the parameters, relative, over logs with other noise; the fit has the default cut-offs.
-fn realised(motion: &Motion, axis: &Candidate, logs: u64) -> [f64; 7] {
-    let mut squares = [0.0; 7];
+/// Root mean square errors of the parameters in their units over logs with other noise; the fit has the default cut-offs.
+fn realised(motion: &Motion, axis: &Candidate, terms: &Terms, logs: u64) -> Vec<f64> {
+    let names = axis.subject.names();
+    let mut squares = vec![0.0; names.len()];
     for seed in 0..logs {
         let mut noise = Noise::new(100 + seed);
         let phase = noise.uniform();
@@ -48,19 +49,52 @@ fn realised(motion: &Motion, axis: &Candidate, logs: u64) -> [f64; 7] {
             ..Samples::default()
         };
         let record = condition(&[samples], &Conditioning::default()).unwrap();
-        let terms = Terms {
-            offset: true,
-            ..Terms::default()
-        };
         let law = Law::new(LawKind::LuGre);
-        let estimate =
-            identify(&record, law, &terms, 0.0, &Settings::default(), &mut Silent).unwrap();
-        for (i, (name, truth)) in NAMES.iter().zip(axis.values()).enumerate() {
-            let error = libm::log(estimate.value(name).unwrap() / truth);
-            squares[i] += error * error / logs as f64;
+        let law = match axis.back {
+            None => law,
+            Some(_) => law.asymmetric(),
+        };
+        let settings = Settings::default();
+        let about = terms.about(&record);
+        let estimate = identify(&record, law, &about, 0.0, &settings, &mut Silent).unwrap();
+        let each = names.iter().zip(axis.values()).zip(axis.units());
+        for (square, ((name, truth), unit)) in squares.iter_mut().zip(each) {
+            let error = (estimate.value(name.as_str()).unwrap() - truth) / unit;
+            *square += error * error / logs as f64;
         }
     }
-    squares.map(f64::sqrt)
+    squares.into_iter().map(f64::sqrt).collect()
+}
+
+fn terms() -> Terms {
+    Terms {
+        offset: true,
+        ..Terms::default()
+    }
+}
+
+/// Holds predicted deviations against those of fits; pooled, and each within what a few logs leave open.
+fn is_realised(axis: &Candidate, motion: &Motion, terms: &Terms) {
+    let entry = Entry::of(motion, axis, (&LIMITS, &RIG), 3).unwrap();
+    let expected = Expected::of(&[entry], &Aim::new(RIG.force_noise));
+    let found = realised(motion, axis, terms, 8);
+    let (mut pooled, count) = (0.0, found.len());
+    for ((name, found), predicted) in axis
+        .subject
+        .names()
+        .iter()
+        .zip(&found)
+        .zip(&expected.axes[0])
+    {
+        let ratio = found / predicted;
+        pooled += ratio * ratio / count as f64;
+        assert!(
+            (0.25..3.0).contains(&ratio),
+            "{name}: {found} of {predicted}"
+        );
+    }
+    let pooled = libm::sqrt(pooled);
+    assert!((0.6..1.7).contains(&pooled), "{pooled}");
 }
 
 /// The errors that fits of simulated logs make are those that are predicted, within what filters that are not tuned leave.
@@ -71,8 +105,8 @@ fn predicted_deviations_are_those_of_fits() {
         .unwrap()
         .unwrap();
     let entry = Entry::of(&motion, &axis, (&LIMITS, &RIG), 3).unwrap();
-    let predicted = Expected::of(&[entry], &Aim::new(RIG.force_noise)).axes[0];
-    let found = realised(&motion, &axis, 12);
+    let predicted = Expected::of(&[entry], &Aim::new(RIG.force_noise)).axes[0].clone();
+    let found = realised(&motion, &axis, &terms(), 12);
     for ((name, found), predicted) in NAMES.iter().zip(found).zip(predicted) {
         let ratio = found / predicted;
         assert!(
@@ -111,7 +145,7 @@ fn table(atoms: Vec<Atom>, axes: &[Candidate]) -> Table {
 #[test]
 fn a_chosen_motion_is_better_than_hand_made_ones() {
     let atoms: Vec<Atom> = dictionary(&LIMITS, &RIG).into_iter().step_by(2).collect();
-    let axes = plate().draw(10, 1);
+    let axes = plate().draw(&Subject::default(), 10, 1);
     let table = table(atoms, &axes).safe(&LIMITS);
     let mut rounds = 0;
     let choice = select(&table, &Aim::new(RIG.force_noise), 6.0, &Alone, &mut |_| {
@@ -133,7 +167,7 @@ fn a_chosen_motion_is_better_than_hand_made_ones() {
     // whole holds, which is why the whole is simulated.
     let off = judged(&motion, &axes).score - choice.score;
     assert!((0.0..0.6).contains(&off), "{off}");
-    let fresh = plate().draw(12, 77);
+    let fresh = plate().draw(&Subject::default(), 12, 77);
     let designed = judged(&motion, &fresh);
     for kind in HandMade::ALL {
         let made = hand_made(kind, &LIMITS, &RIG, 6.0).unwrap().unwrap();
@@ -150,9 +184,175 @@ fn a_chosen_motion_is_better_than_hand_made_ones() {
 #[test]
 fn a_choice_that_is_stopped_keeps_what_it_has() {
     let atoms: Vec<Atom> = dictionary(&LIMITS, &RIG).into_iter().step_by(6).collect();
-    let table = table(atoms, &plate().draw(3, 1));
+    let table = table(atoms, &plate().draw(&Subject::default(), 3, 1));
     let choice = select(&table, &Aim::new(RIG.force_noise), 4.0, &Alone, &mut |_| {
         false
     });
     assert!(choice.interrupted && !choice.pieces.is_empty());
+}
+
+/// Three sines, and moves to both ends and to places between.
+fn motion_to_places() -> Motion {
+    let sines = hand_made(HandMade::ThreeSines, &LIMITS, &RIG, 6.0);
+    let mut atoms = sines.unwrap().unwrap().atoms().to_vec();
+    let moves = places(&LIMITS, &RIG);
+    atoms.extend(
+        moves
+            .into_iter()
+            .filter(|atom| atom.duration() < 3.0)
+            .step_by(2),
+    );
+    Motion::new(atoms).unwrap()
+}
+
+fn with(subject: Subject, sizes: &[f64]) -> Candidate {
+    Candidate {
+        sizes: sizes.to_vec(),
+        subject,
+        ..machine()
+    }
+}
+
+fn of(terms: Vec<stiction_plan::Term>) -> Subject {
+    Subject {
+        terms,
+        ..Subject::default()
+    }
+}
+
+#[test]
+fn cogging_is_known_as_predicted() {
+    let axis = with(of(Subject::cogging(1, 0.024, 0.0).to_vec()), &[3.0, -2.0]);
+    let terms = Terms {
+        cogging: vec![0.024],
+        ..terms()
+    };
+    is_realised(&axis, &motion_to_places(), &terms);
+}
+
+/// Of a mass on a rail that is bent like a circle of 1 m: x in m is the angle in rad.
+#[test]
+fn gravity_is_known_as_predicted() {
+    let limits = stiction_plan::Limits {
+        stroke: [-1.5, 1.5],
+        speed: 3.0,
+        acceleration: 30.0,
+        jerk: 7500.0,
+        ..LIMITS
+    };
+    let axis = with(of(Subject::gravity(0.0).to_vec()), &[25.0, 10.0]);
+    let moves = places(&limits, &RIG).into_iter();
+    let moves = moves.filter(|atom| atom.duration() < 4.0).step_by(2);
+    let sines = hand_made(HandMade::ThreeSines, &LIMITS, &RIG, 6.0);
+    let sines = sines.unwrap().unwrap();
+    let atoms = sines.atoms().iter().copied().chain(moves);
+    let terms = Terms {
+        gravity: true,
+        ..terms()
+    };
+    is_realised(&axis, &Motion::new(atoms.collect()).unwrap(), &terms);
+}
+
+#[test]
+fn quadratic_viscous_friction_is_known_as_predicted() {
+    let axis = with(of(vec![Subject::square(&LIMITS)]), &[150.0]);
+    let terms = Terms {
+        quadratic_viscous: true,
+        ..terms()
+    };
+    is_realised(&axis, &motion_to_places(), &terms);
+}
+
+#[test]
+fn friction_along_the_stroke_is_known_as_predicted() {
+    let axis = with(of(vec![Subject::level(&LIMITS)]), &[40.0]);
+    let terms = Terms {
+        dependences: vec![Dependence::CoulombPosition(0.0)],
+        ..terms()
+    };
+    is_realised(&axis, &motion_to_places(), &terms);
+    let axis = with(of(Subject::level_wave(1, 0.016, 0.0).to_vec()), &[1.5, 1.0]);
+    let terms = Terms {
+        dependences: vec![Dependence::CoulombPitch(0.016)],
+        ..terms
+    };
+    is_realised(&axis, &motion_to_places(), &terms);
+}
+
+#[test]
+fn each_direction_is_known_as_predicted() {
+    let back = Back {
+        sigma2: 45.0,
+        coulomb: 25.0,
+        static_friction: 34.0,
+        stribeck_velocity: 8e-3,
+    };
+    let axis = Candidate {
+        back: Some(back),
+        ..with(
+            Subject {
+                offset: false,
+                ..Subject::default().directed()
+            },
+            &[],
+        )
+    };
+    assert_eq!(axis.values().len(), axis.subject.names().len());
+    let terms = Terms {
+        offset: false,
+        ..Terms::default()
+    };
+    is_realised(&axis, &motion_to_places(), &terms);
+}
+
+/// Both directions get the same from every piece of an axis whose directions do not differ.
+#[test]
+fn both_directions_are_excited_alike() {
+    let subject = Subject::default().directed();
+    let machine = machine();
+    let axis = Candidate {
+        back: Some(machine.direction(1)),
+        subject,
+        ..machine
+    };
+    let motion = motion_to_places();
+    let entry = Entry::of(&motion, &axis, (&LIMITS, &RIG), 3).unwrap();
+    let expected = Expected::of(&[entry], &Aim::new(RIG.force_noise));
+    let names = axis.subject.names();
+    for (name, deviation) in names.iter().zip(&expected.axes[0]) {
+        if let Some(stem) = name.strip_suffix("_pos") {
+            let other = names
+                .iter()
+                .position(|n| *n == format!("{stem}_neg"))
+                .unwrap();
+            let ratio = deviation / expected.axes[0][other];
+            assert!((0.7..1.4).contains(&ratio), "{stem}: {ratio}");
+        }
+    }
+}
+
+/// Axes that a nameplate allows are axes, whatever is asked of them, and those without terms are the same as with them.
+#[test]
+fn axes_with_terms_are_those_without_and_more() {
+    let mut terms = vec![Subject::square(&LIMITS), Subject::level(&LIMITS)];
+    terms.extend(Subject::cogging(1, 0.024, 0.0));
+    terms.extend(Subject::level_wave(1, 0.016, 0.0));
+    for subject in [of(terms.clone()), of(terms).directed()] {
+        let plain = plate().draw(&Subject::default(), 40, 5);
+        let names = subject.names();
+        for (plain, axis) in plain.iter().zip(plate().draw(&subject, 40, 5)) {
+            axis.validate().unwrap();
+            let values = axis.values();
+            assert_eq!(values.len(), names.len());
+            assert_eq!(Candidate::of(&subject, &values), Some(axis.clone()));
+            for (name, value) in NAMES.iter().zip(plain.values()) {
+                let positive = format!("{name}_pos");
+                let at = names
+                    .iter()
+                    .position(|n| n == name || *n == positive)
+                    .unwrap();
+                assert_eq!(values[at], value, "{name}");
+            }
+        }
+    }
 }

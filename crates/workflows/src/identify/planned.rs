@@ -89,9 +89,12 @@ fn parameters(plan: &ReadPlan, result: &ResultFile) -> Vec<PlannedParameter> {
         ))
     });
     both.map(|(expected, found)| {
-        let half = found
-            .range()
-            .map(|(low, high)| 50.0 * (high - low) / found.value.abs());
+        let (times, per) = match &expected.of {
+            None => (1.0, Some(found.value)),
+            Some((of, times)) => (*times, value(result, of)),
+        };
+        let half = found.range().zip(per);
+        let half = half.map(|((low, high), per)| 50.0 * times * (high - low) / per.abs());
         let half = half.filter(|percent| percent.is_finite());
         let status = match half {
             _ if !found.identifiable => "open",
@@ -101,6 +104,7 @@ fn parameters(plan: &ReadPlan, result: &ResultFile) -> Vec<PlannedParameter> {
         };
         PlannedParameter {
             name: expected.name.clone(),
+            of: expected.of.as_ref().map(|(of, _)| of.clone()),
             expected_percent: expected.interval_percent,
             expected90_percent: expected.interval90_percent,
             found_percent: half,
@@ -108,6 +112,14 @@ fn parameters(plan: &ReadPlan, result: &ResultFile) -> Vec<PlannedParameter> {
         }
     })
     .collect()
+}
+
+/// The value of a parameter; of one that is another in each direction that of the positive one.
+fn value(result: &ResultFile, name: &str) -> Option<f64> {
+    let positive = format!("{name}_pos");
+    let mut own = result.parameters.iter();
+    own.find(|p| p.name == name || p.name == positive.as_str())
+        .map(|p| p.value)
 }
 
 /// What was run otherwise than planned.

@@ -1,14 +1,14 @@
 //! From what the axis file gives to what a plan needs, with what is assumed where it is silent.
 
-use super::PlanOptions;
 use super::known::{Known, Told};
 use super::possible::{reachable, samples, thinned};
+use super::{PlanOptions, asked, carried};
 use crate::error::Error;
-use stiction_files::Axis;
 use stiction_files::plan::Assumed;
+use stiction_files::{Axis, Warning};
 use stiction_identify::Mass;
 use stiction_log::Motion;
-use stiction_plan::{Aim, Belief, Candidate, Limits, Loop, Nameplate, Rig};
+use stiction_plan::{Aim, Belief, Candidate, Limits, Loop, Nameplate, Rig, Subject};
 use stiction_servo::cascade::Cascade;
 
 /// What a plan is made with.
@@ -24,16 +24,22 @@ pub struct Given {
     pub belief: Option<Belief>,
     /// The noise, and what is known from a log that will be identified together with that of the motion.
     pub aim: Aim,
+    /// What an identification of the log will fit.
+    pub subject: Subject,
+    /// Where the axis stands when the motion starts, m (rad).
+    pub start: f64,
     /// What the axis file does not give.
     pub assumed: Vec<Assumed>,
+    /// What is not planned for though it is asked for.
+    pub warnings: Vec<Warning>,
 }
 
 impl Given {
     /// Axes that are thought possible; other seeds are others.
     pub(super) fn draw(&self, count: usize, seed: u32) -> Vec<Candidate> {
         match &self.belief {
-            Some(belief) => belief.draw(count, seed),
-            None => self.nameplate.draw(count, seed),
+            Some(belief) => belief.draw(&self.nameplate.limits, count, seed),
+            None => self.nameplate.draw(&self.subject, count, seed),
         }
     }
 
@@ -135,7 +141,7 @@ pub(super) fn given(
         Mass::Given(mass) => Some(mass),
         Mass::Fitted | Mass::Absent => None,
     });
-    let mass = mass.or(told.as_ref().map(|told| told.belief.axis.mass));
+    let mass = mass.or(told.as_ref().and_then(Told::mass));
     let missing: Vec<(&str, String)> = lacking(axis, mass.is_some())
         .map(|lack| (lack.key, format!("{}, such as {}", lack.what, lack.example)))
         .collect();
@@ -259,16 +265,35 @@ pub(super) fn given(
         rig: thinned(rig),
         ..logged
     };
+    let is_asymmetric = options.asymmetric || told.as_ref().is_some_and(Told::is_asymmetric);
+    let start = carried::start(motion, options)?;
+    let mut asked = asked::asked(axis, (motion, is_asymmetric), start, &whole)?;
+    if let Some(told) = &told {
+        asked
+            .warnings
+            .extend(asked::of_model(&told.beyond(&asked.subject)));
+    }
+    if asked.waves && options.start.is_none() {
+        assumed.push(Assumed {
+            key: "position where it starts (--start)".into(),
+            value: 0.0,
+            unit: motion.position().si_text(),
+        });
+    }
+    let belief = told.map(|told| told.belief(&asked.subject)).transpose()?;
     let mut aim = Aim::new(nameplate.rig.force_noise);
-    if let (Some(Known::Log(_)), Some(told)) = (&options.known, &told) {
-        aim.known = told.belief.deviations;
+    if let (Some(Known::Log(_)), Some(belief)) = (&options.known, &belief) {
+        aim.known = belief.deviations.clone();
     }
     Ok(Given {
         motion,
         nameplate,
         logged: rig,
-        belief: told.map(|told| told.belief),
+        belief,
         aim,
+        subject: asked.subject,
+        start,
         assumed,
+        warnings: asked.warnings,
     })
 }

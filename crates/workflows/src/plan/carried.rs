@@ -10,11 +10,11 @@ use stiction_plan::carrier::{Carried, Carrier, Job};
 use stiction_plan::{HandMade, Motion as Path, hand_made};
 
 /// Where the axis stands when the motion starts, m (rad).
-pub(super) fn start(given: &Given, options: &PlanOptions) -> Result<f64, Error> {
+pub(super) fn start(motion: Motion, options: &PlanOptions) -> Result<f64, Error> {
     let Some(text) = &options.start else {
         return Ok(0.0);
     };
-    let (wanted, example) = match given.motion {
+    let (wanted, example) = match motion {
         Motion::Linear => (Dimension::LENGTH, "120 mm"),
         Motion::Rotary => (Dimension::ANGLE, "30 deg"),
     };

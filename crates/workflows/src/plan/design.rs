@@ -16,8 +16,8 @@ use stiction_files::plan::{
 };
 use stiction_friction::ParamError;
 use stiction_plan::{
-    Aim, Atom, Candidate, Choice, Entry, HandMade, Limits, Motion, NAMES, Nameplate, Peaks, Spread,
-    Table, dictionary, hand_made, select,
+    Aim, Atom, Candidate, Choice, Entry, HandMade, Limits, Motion, Nameplate, Peaks, Spread,
+    Subject, Table, dictionary, hand_made, places, select,
 };
 use stiction_search::{Control, Observer, Progress, Shared, Stage};
 
@@ -50,7 +50,12 @@ pub(super) fn design(
     let longest = options.longest();
     let plate = &given.nameplate;
     let (limits, rig) = (&plate.limits, &plate.rig);
-    let atoms: Vec<Atom> = dictionary(limits, rig)
+    let names = given.subject.names();
+    let mut pieces = dictionary(limits, rig);
+    if given.subject.has_places() {
+        pieces.extend(places(limits, rig));
+    }
+    let atoms: Vec<Atom> = pieces
         .into_iter()
         .filter(|atom| atom.duration() <= longest)
         .collect();
@@ -88,7 +93,7 @@ pub(super) fn design(
             // What was found for a shorter time stands.
             break;
         };
-        let enough = wanted::are_met(&options.wants, &designed.expected);
+        let enough = wanted::are_met(&options.wants, &designed.expected, &names);
         let stopped = choice.interrupted;
         tried = Some((time, choice, designed));
         if enough || stopped {
@@ -120,7 +125,7 @@ pub(super) fn design(
     let finalists = all.into_iter().filter(|(_, j)| j.keeps(limits));
     // One that grants the wishes before one that does not.
     let order = |judged: &Judged| {
-        let lacks = !wanted::are_met(&options.wants, &judged.expected);
+        let lacks = !wanted::are_met(&options.wants, &judged.expected, &names);
         (lacks, judged.expected.score)
     };
     let best = finalists.min_by(|(_, a), (_, b)| {
@@ -149,6 +154,7 @@ pub(super) fn design(
         simulated,
         evaluations,
         trust: TRUST,
+        asymmetric: given.subject.asymmetric,
         assumed: given.assumed.clone(),
         inputs,
         limits: LimitsEntry {
@@ -167,8 +173,8 @@ pub(super) fn design(
             bandwidth: given.logged.bandwidth(),
         },
         prior: ranges(&given),
-        parameter: (0..NAMES.len()).map(|i| expected(&best, i)).collect(),
-        wanted: wanted::entries(&options.wants, &best.expected),
+        parameter: expected(&best, &given.subject),
+        wanted: wanted::entries(&options.wants, &best.expected, &names),
         compared,
         largest: LargestEntry {
             position: largest.position,
@@ -183,6 +189,7 @@ pub(super) fn design(
             force: (1.2 * largest.force).min(limits.peak_force),
             speed: (1.5 * largest.speed).min(1.1 * limits.speed),
         },
+        warning: given.warnings.clone(),
         atom: (best.motion.timed())
             .map(|(start, atom)| AtomEntry::of(start, atom))
             .collect(),
@@ -308,23 +315,43 @@ fn ranges(given: &Given) -> Vec<RangeEntry> {
         name: name.into(),
         range,
     };
-    let Some(belief) = &given.belief else {
-        let ranges = given.nameplate.ranges();
-        return ranges.map(|(name, range)| entry(name, range)).to_vec();
+    let (subject, limits) = (&given.subject, &given.nameplate.limits);
+    let of_nameplate = |term: usize| {
+        let (name, range) = subject.term_range(term, limits)?;
+        Some(entry(&name, range))
     };
-    let values = NAMES.iter().zip(belief.axis.values()).zip(belief.factors());
-    let each = values.map(|((name, value), by)| match *name {
+    let terms = 0..subject.terms.len();
+    let Some(belief) = &given.belief else {
+        let own = given.nameplate.ranges().into_iter();
+        let own = own.map(|(name, range)| entry(name, range));
+        let between = subject.direction_ranges().into_iter();
+        let between = between.map(|(name, range)| entry(&name, range));
+        return own
+            .chain(between)
+            .chain(terms.filter_map(of_nameplate))
+            .collect();
+    };
+    let names = given.subject.names();
+    let factors = belief.factors();
+    let values = names.iter().zip(belief.axis.values()).zip(&factors);
+    let each = values.map(|((name, value), by)| {
         // Its factor is that of what it has above Coulomb friction.
-        "static" => {
-            let excess = belief.axis.excess();
-            entry(
-                "static over coulomb",
-                [1.0 + excess / by, 1.0 + excess * by],
-            )
+        match name.strip_prefix("static") {
+            Some(side) => {
+                let of = belief.axis.direction(usize::from(side == "_neg"));
+                let excess = of.static_friction / of.coulomb - 1.0;
+                let range = [1.0 + excess / by, 1.0 + excess * by];
+                entry(&format!("static{side} over coulomb{side}"), range)
+            }
+            None => entry(name, [value / by, value * by]),
         }
-        name => entry(name, [value / by, value * by]),
     });
-    each.collect()
+    // What the first identification does not know of the terms is what the nameplate allows.
+    let terms = terms.filter_map(|k| match belief.range(k) {
+        Some(range) => Some(entry(&subject.terms[k].name.to_string(), range)),
+        None => of_nameplate(k),
+    });
+    each.chain(terms).collect()
 }
 
 fn percent(deviation: f64) -> f64 {
@@ -336,15 +363,24 @@ pub(super) fn half_interval(deviation: f64) -> f64 {
     HALF_INTERVAL * percent(deviation)
 }
 
-fn expected(found: &Judged, parameter: usize) -> ExpectedEntry {
-    let at = |part: f64| percent(found.expected.quantile(parameter, part));
-    ExpectedEntry {
-        name: NAMES[parameter].into(),
-        std_percent: at(0.5),
-        std90_percent: at(0.9),
-        interval_percent: HALF_INTERVAL * at(0.5),
-        interval90_percent: HALF_INTERVAL * at(0.9),
-    }
+/// What is expected of each parameter.
+fn expected(found: &Judged, subject: &Subject) -> Vec<ExpectedEntry> {
+    let names = subject.names();
+    let entry = |(parameter, name): (usize, String)| {
+        let at = |part: f64| percent(found.expected.quantile(parameter, part));
+        let term = parameter.checked_sub(subject.first_term());
+        let term = term.and_then(|term| subject.terms.get(term));
+        ExpectedEntry {
+            name,
+            of: term.map(|_| "coulomb".into()),
+            at: term.map(|term| term.reach),
+            std_percent: at(0.5),
+            std90_percent: at(0.9),
+            interval_percent: HALF_INTERVAL * at(0.5),
+            interval90_percent: HALF_INTERVAL * at(0.9),
+        }
+    };
+    names.into_iter().enumerate().map(entry).collect()
 }
 
 fn compared(name: &str, found: &Judged, limits: &Limits) -> ComparedEntry {

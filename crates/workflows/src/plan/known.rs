@@ -4,9 +4,10 @@ use crate::error::Error;
 use crate::identify::{Files, Options, identify};
 use std::path::{Path, PathBuf};
 use stiction_files::ModelFile;
-use stiction_files::model::ReadModel;
+use stiction_files::model::{ModelParameter, ReadModel};
 use stiction_identify::{LawKind, Observer};
-use stiction_plan::{Belief, Candidate, NAMES, PARAMETERS};
+use stiction_parameters::{Name, Quantity};
+use stiction_plan::{Belief, Candidate, Subject};
 use stiction_signal::noise_deviation;
 
 /// What is known of an axis beside its nameplate.
@@ -29,7 +30,8 @@ impl Known {
 
 /// What it says.
 pub(super) struct Told {
-    pub belief: Belief,
+    model: ModelFile,
+    file: PathBuf,
     /// SHA-256 of what it was read from.
     pub sha256: String,
     /// Rate of the log, Hz, one encoder step, m (rad), and noise of the force, N (N m), where a log shows them.
@@ -42,14 +44,16 @@ pub(super) struct Told {
 pub(super) fn told(
     known: &Known,
     axis_file: &Path,
-    kind: stiction_log::Motion,
+    (kind, asymmetric): (stiction_log::Motion, bool),
     observer: &mut dyn Observer,
 ) -> Result<Told, Error> {
     match known {
         Known::Model(file) => {
             let model = ReadModel::read(file)?;
+            fits(&model.model, file, kind)?;
             Ok(Told {
-                belief: belief(&model.model, file, kind)?,
+                model: model.model,
+                file: file.clone(),
                 sha256: model.sha256,
                 rate: None,
                 step: None,
@@ -64,6 +68,7 @@ pub(super) fn told(
             };
             let options = Options {
                 law: Some(LawKind::LuGre),
+                asymmetric,
                 compare_laws: false,
                 ..Options::default()
             };
@@ -74,8 +79,10 @@ pub(super) fn told(
             let force = log.and_then(|log| log.force.as_deref());
             let noise = force.map(|force| noise_deviation(std::iter::once(force)));
             let model = ModelFile::from_result(&outcome.result);
+            fits(&model, file, kind)?;
             Ok(Told {
-                belief: belief(&model, file, kind)?,
+                model,
+                file: file.clone(),
                 sha256: sha256.unwrap_or_default(),
                 rate: log.map(|log| log.rate_hz),
                 step: log.and_then(|log| log.quantum),
@@ -88,24 +95,25 @@ pub(super) fn told(
 /// Largest relative deviation with which a parameter counts as determined.
 const DETERMINED: f64 = 0.5;
 
-/// The belief that a model gives: a symmetric LuGre law with a mass, in N (N m).
-fn belief(model: &ModelFile, file: &Path, kind: stiction_log::Motion) -> Result<Belief, Error> {
-    let refuse = |found: String, allowed: &str| {
-        Error::usage(format!("{}: {found}", file.display()), allowed.to_string())
-    };
+fn refuse(file: &Path, found: &str, allowed: &str) -> Error {
+    Error::usage(format!("{}: {found}", file.display()), allowed.to_string())
+}
+
+/// Refuses a model of another kind of axis or law, or in another unit of force.
+fn fits(model: &ModelFile, file: &Path, kind: stiction_log::Motion) -> Result<(), Error> {
     if model.kind != kind.to_string() {
         let found = format!(
             "a {} axis; the limits are those of a {kind} one",
             model.kind
         );
-        return Err(refuse(found, "a model or log of the axis of the axis file"));
+        let allowed = "a model or log of the axis of the axis file";
+        return Err(refuse(file, &found, allowed));
     }
-    if model.law != LawKind::LuGre.name() || model.asymmetric {
-        let side = if model.asymmetric { ", asymmetric" } else { "" };
-        let found = format!("the law {}{side}", model.law);
+    if model.law != LawKind::LuGre.name() {
         return Err(refuse(
-            found,
-            "symmetric LuGre: identify with --law lugre, or leave --model out",
+            file,
+            &format!("the law {}", model.law),
+            "LuGre, which alone is planned for: identify with --law lugre, or leave --model out",
         ));
     }
     if model.force_unit != kind.force().si_text() {
@@ -114,40 +122,104 @@ fn belief(model: &ModelFile, file: &Path, kind: stiction_log::Motion) -> Result<
             "{}: give the force of the log a scale",
             kind.force().si_text()
         );
-        return Err(refuse(found, &allowed));
+        return Err(refuse(file, &found, &allowed));
     }
-    let mut values = [0.0; PARAMETERS];
-    let mut deviations = [None; PARAMETERS];
-    for (i, name) in NAMES.iter().enumerate() {
-        let Some(p) = model.parameter.iter().find(|p| p.name == *name) else {
-            return Err(refuse(
-                format!("no {name}"),
-                "a model with all parameters of LuGre and the mass",
-            ));
-        };
-        values[i] = p.value;
-        let relative = p
-            .std
-            .map(|std| std / p.value)
-            .filter(|d| d.is_finite() && *d < DETERMINED);
-        deviations[i] = match p.origin.as_str() {
-            "given" => Some(0.0),
-            _ => relative.filter(|_| p.identifiable),
-        };
+    for name in [Quantity::Sigma0, Quantity::Mass] {
+        if find(model, &Name::from(name).to_string()).is_none() {
+            return Err(lacks(file, &Name::from(name).to_string()));
+        }
     }
-    let belief = Belief {
-        axis: Candidate::from_values(values),
-        deviations,
-    };
-    belief.validate().map_err(|e| {
-        let found = format!("{} = {}", e.name, stiction_number::short(e.value));
-        refuse(
-            found,
-            &format!(
+    Ok(())
+}
+
+fn lacks(file: &Path, name: &str) -> Error {
+    let allowed = "a model with all parameters of LuGre and the mass";
+    refuse(file, &format!("no {name}"), allowed)
+}
+
+fn find<'a>(model: &'a ModelFile, name: &str) -> Option<&'a ModelParameter> {
+    model.parameter.iter().find(|p| p.name == name)
+}
+
+impl Told {
+    /// Whether each direction has parameters of its own.
+    pub fn is_asymmetric(&self) -> bool {
+        self.model.asymmetric
+    }
+
+    /// kg (kg m^2)
+    pub fn mass(&self) -> Option<f64> {
+        find(&self.model, "mass").map(|p| p.value)
+    }
+
+    /// What friction or the force of the model depends on and the subject does not have.
+    pub fn beyond(&self, subject: &Subject) -> Vec<String> {
+        let names = subject.names();
+        let counts = |name: &Name| {
+            !matches!(
+                name.quantity,
+                Quantity::Offset
+                    | Quantity::Delay
+                    | Quantity::LoadReference
+                    | Quantity::TemperatureReference
+                    | Quantity::PositionReference
+                    | Quantity::TransmittedReference
+                    | Quantity::StribeckExponent
+            ) && !names.contains(&name.to_string())
+        };
+        let parsed = self.model.parameter.iter();
+        let parsed = parsed.filter_map(|p| p.name.to_string().parse::<Name>().ok());
+        let exponent = find(&self.model, "stribeck_exponent").filter(|p| p.value != 2.0);
+        parsed
+            .filter(counts)
+            .map(|name| name.to_string())
+            .chain(exponent.map(|_| "stribeck_exponent".to_string()))
+            .collect()
+    }
+
+    /// The belief that the model gives.
+    pub fn belief(&self, subject: &Subject) -> Result<Belief, Error> {
+        let first_term = subject.first_term();
+        let mut values = Vec::new();
+        let mut found = Vec::new();
+        for (i, name) in subject.names().iter().enumerate() {
+            let own = find(&self.model, name);
+            // A model of one curve for both directions says little of each.
+            let both = name
+                .strip_suffix("_pos")
+                .or_else(|| name.strip_suffix("_neg"))
+                .and_then(|stem| find(&self.model, stem));
+            match (own.or(both), i < first_term) {
+                (Some(p), _) => values.push(p.value),
+                // A term that the model does not have is what the nameplate allows.
+                (None, false) => values.push(0.0),
+                (None, true) => return Err(lacks(&self.file, name)),
+            }
+            found.push(own);
+        }
+        let Some(axis) = Candidate::of(subject, &values) else {
+            return Err(lacks(&self.file, "parameter of LuGre"));
+        };
+        let units = axis.units();
+        let deviation = |(p, unit): (&Option<&ModelParameter>, &f64)| {
+            let p = (*p)?;
+            let relative = p.std.map(|std| std / unit);
+            let relative = relative.filter(|d| d.is_finite() && *d < DETERMINED);
+            match p.origin.as_str() {
+                "given" => Some(0.0),
+                _ => relative.filter(|_| p.identifiable),
+            }
+        };
+        let deviations = found.iter().zip(&units).map(deviation).collect();
+        let belief = Belief { axis, deviations };
+        belief.validate().map_err(|e| {
+            let found = format!("{} = {}", e.name, stiction_number::short(e.value));
+            let allowed = format!(
                 "{}; without a usable first fit plan from the nameplate alone",
                 e.allowed
-            ),
-        )
-    })?;
-    Ok(belief)
+            );
+            refuse(&self.file, &found, &allowed)
+        })?;
+        Ok(belief)
+    }
 }

@@ -4,13 +4,14 @@ use super::design::half_interval;
 use crate::error::Error;
 use stiction_files::plan::WantedEntry;
 use stiction_number::full;
-use stiction_plan::{Expected, NAMES};
+use stiction_parameters::{Name, Quantity, Side};
+use stiction_plan::{Expected, NAMES, Subject};
 
 /// How well a parameter is to be known on nine of ten axes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Want {
-    /// Its place in [`NAMES`]; `None` for each of them.
-    parameter: Option<usize>,
+    /// Its name; `None` for each of those that are planned for.
+    parameter: Option<Name>,
     /// Half of the 95 % interval, percent of the value.
     percent: f64,
 }
@@ -45,37 +46,79 @@ impl Want {
         let (name, percent) = (name.trim(), percent.trim());
         let number = percent.strip_suffix('%').ok_or_else(refused)?;
         let percent: f64 = number.trim().parse().map_err(|_| refused())?;
-        let parameter = NAMES.iter().position(|own| *own == name);
+        let parameter = name.parse::<Name>().ok().filter(|name| is_planned(*name));
         if (parameter.is_none() && name != ALL) || !(RANGE[0]..=RANGE[1]).contains(&percent) {
             return Err(refused());
         }
         Ok(Self { parameter, percent })
     }
 
-    /// The wish beside what is expected: of all parameters, the worst.
-    fn entry(&self, expected: &Expected) -> WantedEntry {
+    /// The wish beside what is expected of the parameters of these names: of all, the worst.
+    fn entry(&self, expected: &Expected, names: &[String]) -> WantedEntry {
         let at = |parameter: usize| half_interval(expected.quantile(parameter, PART));
-        let (name, found) = match self.parameter {
-            Some(parameter) => (NAMES[parameter], at(parameter)),
-            None => (ALL, (0..NAMES.len()).map(at).fold(0.0, f64::max)),
-        };
+        let name = self.name();
+        let own = |parameter: &usize| self.parameter.is_none() || names[*parameter] == name;
+        let found = (0..names.len()).filter(own).map(at).fold(0.0, f64::max);
         WantedEntry {
-            name: name.into(),
+            name,
             percent: self.percent,
             expected90_percent: found,
             met: found <= self.percent,
         }
     }
+
+    fn name(&self) -> String {
+        self.parameter.map_or(ALL.into(), |name| name.to_string())
+    }
 }
 
-/// Every wish beside what is expected.
-pub(super) fn entries(wants: &[Want], expected: &Expected) -> Vec<WantedEntry> {
-    wants.iter().map(|want| want.entry(expected)).collect()
+/// Whether there are axes whose plan has the parameter.
+fn is_planned(name: Name) -> bool {
+    use Quantity as Q;
+    let has_sides = matches!(
+        name.quantity,
+        Q::Sigma2
+            | Q::Coulomb
+            | Q::Static
+            | Q::StribeckVelocity
+            | Q::QuadraticViscous
+            | Q::CoulombPosition
+            | Q::CoulombPitch(..)
+    );
+    let has_none = matches!(
+        name.quantity,
+        Q::Sigma0 | Q::Sigma1 | Q::Mass | Q::Gravity(_) | Q::Cogging(..)
+    );
+    has_sides || (has_none && name.side == Side::Both)
+}
+
+/// Refuses wishes for parameters that the axis is not planned for.
+pub(super) fn are_planned(wants: &[Want], subject: &Subject) -> Result<(), Error> {
+    let names = subject.names();
+    let lacks = |want: &&Want| want.parameter.is_some() && !names.contains(&want.name());
+    match wants.iter().find(lacks) {
+        Some(want) => {
+            let found = format!("--want \"{} < {} %\"", want.name(), full(want.percent));
+            let allowed = format!(
+                "what this axis is planned for: {}, or {ALL}",
+                names.join(", ")
+            );
+            Err(Error::usage(found, allowed))
+        }
+        None => Ok(()),
+    }
+}
+
+/// Every wish beside what is expected of the parameters of these names.
+pub(super) fn entries(wants: &[Want], expected: &Expected, names: &[String]) -> Vec<WantedEntry> {
+    let each = wants.iter();
+    each.map(|want| want.entry(expected, names)).collect()
 }
 
 /// Whether every wish is met.
-pub(super) fn are_met(wants: &[Want], expected: &Expected) -> bool {
-    entries(wants, expected).iter().all(|entry| entry.met)
+pub(super) fn are_met(wants: &[Want], expected: &Expected, names: &[String]) -> bool {
+    let mut each = wants.iter();
+    each.all(|want| want.entry(expected, names).met)
 }
 
 /// Lengths to try, rising, of which the last is the longest.

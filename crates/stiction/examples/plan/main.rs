@@ -1,11 +1,14 @@
 //! What plans are worth: logs of known axes along planned and hand-made motions, identified with defaults. Writes the table of
 //! docs/plan.md: `plan [LOGS]`, LOGS of each motion and axis (10). `plan fresh [AXES]`: the slide's nameplate on AXES axes (32)
-//! that it allows, a log each, by one plan, in two stages, and by the motion of the README.
+//! that it allows, a log each, by one plan, in two stages, and by the motion of the README. `plan terms [LOGS]`: axes with terms beside
+//! LuGre, and with friction of its own in each direction.
+
+mod terms;
 
 use std::path::Path;
 use stiction::commands::{Known, PlanOptions, Planned, plan_motion};
-use stiction::{Axis, Column, Log, Options, Silent, identify};
-use stiction_plan::{Candidate, Entry, Expected, HandMade, Motion, NAMES, hand_made, run};
+use stiction::{Axis, Column, LawKind, Log, Options, Silent, identify};
+use stiction_plan::{Candidate, Entry, Expected, HandMade, Motion, hand_made, run};
 use stiction_servo::noise::Noise;
 
 /// Name, axis file, and sigma0, sigma1, sigma2, Fc, Fs, vs, M.
@@ -44,6 +47,8 @@ struct Found {
     all: usize,
     /// Squares of errors over predicted deviations.
     ratio: Vec<f64>,
+    /// Squares of the errors of each parameter, in percent.
+    squares: Vec<Vec<f64>>,
 }
 
 impl Found {
@@ -54,6 +59,18 @@ impl Found {
         self.claimed += other.claimed;
         self.flagged += other.flagged;
         self.all += other.all;
+        self.squares.resize(other.squares.len(), Vec::new());
+        for (own, other) in self.squares.iter_mut().zip(other.squares) {
+            own.extend(other);
+        }
+    }
+
+    /// How long the motion would have to be for a root mean square error of 1 % of every parameter, by the root of the time, s; none
+    /// where a parameter is left open.
+    fn seconds(&self, duration: f64) -> Option<f64> {
+        let mean = |squares: &Vec<f64>| squares.iter().sum::<f64>() / squares.len().max(1) as f64;
+        let worst = self.squares.iter().map(mean).fold(0.0, f64::max);
+        (self.flagged == 0).then_some(duration * worst)
     }
 }
 
@@ -66,9 +83,12 @@ fn main() {
     if arguments.first().is_some_and(|word| word == "fresh") {
         return fresh(number(1, 32));
     }
+    if arguments.first().is_some_and(|word| word == "terms") {
+        return terms::terms(number(1, 10) as u64);
+    }
     let logs = number(0, 10) as u64;
     println!(
-        "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted |\n|---|---|---|---|---|---|---|---|---|"
+        "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted | s to 1 % |\n|---|---|---|---|---|---|---|---|---|---|"
     );
     for (name, axis, values) in AXES {
         let folder =
@@ -154,7 +174,11 @@ fn fresh(count: usize) {
     let mut all: [Found; 3] = Default::default();
     let mut better = [0, 0, 0];
     println!("| {name} | plan | two stages | README |\n|---|---|---|---|");
-    for (number, truth) in plate.draw(count, FRESH).into_iter().enumerate() {
+    for (number, truth) in plate
+        .draw(&one_stage.given.subject, count, FRESH)
+        .into_iter()
+        .enumerate()
+    {
         let seed = 10_000 + number as u64;
         let mut own: [Found; 3] = Default::default();
         one(
@@ -203,7 +227,7 @@ fn fresh(count: usize) {
         }
     }
     println!(
-        "\n| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted |\n|---|---|---|---|---|---|---|---|---|"
+        "\n| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted | s to 1 % |\n|---|---|---|---|---|---|---|---|---|---|"
     );
     for (motion, found) in ["plan, nameplate", "probe + plan", "README"]
         .iter()
@@ -251,6 +275,9 @@ fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed:
     let time = (0..run.reading.len())
         .map(|k| k as f64 / rig.rate)
         .collect();
+    // In the coordinates of the controller.
+    let start = planned.given.start;
+    let reading = run.reading.iter().map(|x| start + x).collect();
     let column = |name: &str, unit: &str, values: Vec<f64>| Column {
         name: name.into(),
         unit: Some(unit.into()),
@@ -259,8 +286,12 @@ fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed:
     };
     let columns = vec![
         column("time", "s", time),
-        column("position", "m", run.reading),
-        column("force", "N", force),
+        column(
+            "position",
+            &planned.given.motion.position().si_text(),
+            reading,
+        ),
+        column("force", &planned.given.motion.force().si_text(), force),
     ];
     Log::from_columns("log", columns, axis).expect("a log")
 }
@@ -288,18 +319,32 @@ fn one(
     let (limits, rig) = (&plate.limits, &plate.rig);
     let mut logs: Vec<Log> = before.into_iter().cloned().collect();
     logs.push(log(motion, truth, planned, axis, seed));
-    let fit = identify(&logs, axis, &Options::default()).expect("a fit");
+    let mut options = Options::default();
+    if planned.given.subject.asymmetric {
+        (options.law, options.asymmetric) = (Some(LawKind::LuGre), true);
+    }
+    let fit = identify(&logs, axis, &options).expect("a fit");
     let entry = Entry::of(motion, truth, (limits, rig), 1 << 25).expect("as before");
-    let predicted = Expected::of(&[entry], &planned.given.aim).axes[0];
+    let expected = Expected::of(&[entry], &planned.given.aim);
+    let predicted = &expected.axes[0];
     let mut worst: f64 = 0.0;
-    for ((name, truth), predicted) in NAMES.iter().zip(truth.values()).zip(predicted) {
+    let value = |name: &str| fit.parameter(name).map(|p| p.value());
+    // What changes along the stroke holds at the position that the fit names.
+    let reference = value("position_reference").map(|x| x - planned.given.start);
+    let names = planned.given.subject.names();
+    let units = truth.units();
+    let all = names.iter().zip(terms::values(truth, reference));
+    found.squares.resize(names.len(), Vec::new());
+    let each = all.zip(units.iter().zip(predicted)).enumerate();
+    for (i, ((name, truth), (unit, predicted))) in each {
         found.all += 1;
         let Some(p) = fit.parameter(name).filter(|p| p.is_identifiable()) else {
             found.flagged += 1;
             continue;
         };
-        let error = p.value() / truth - 1.0;
+        let error = (p.value() - truth) / unit;
         worst = worst.max(error.abs());
+        found.squares[i].push(1e4 * error * error);
         found.ratio.push((error / predicted) * (error / predicted));
         if let Some((low, high)) = p.interval() {
             found.claimed += 1;
@@ -314,8 +359,10 @@ fn say(axis: &str, motion_name: &str, duration: f64, found: &mut Found) {
     let n = found.worst.len();
     let median = 0.5 * (found.worst[(n - 1) / 2] + found.worst[n / 2]);
     let rms = (found.ratio.iter().sum::<f64>() / found.ratio.len().max(1) as f64).sqrt();
+    let seconds = found.seconds(duration);
+    let seconds = seconds.map_or("open".into(), |seconds| format!("{seconds:.1}"));
     println!(
-        "| {axis} | {motion_name} | {:.1} | {n} | {median:.2} | {:.2} | {:.0} | {:.0} | {rms:.2} |",
+        "| {axis} | {motion_name} | {:.1} | {n} | {median:.2} | {:.2} | {:.0} | {:.0} | {rms:.2} | {seconds} |",
         duration,
         found.worst[n - 1],
         100.0 * found.inside as f64 / found.claimed.max(1) as f64,
