@@ -759,6 +759,7 @@ proptest! {
             own_stamps: Vec::new(),
             coarse: None,
             enable: None,
+            brakes: true,
             columns: names.iter().map(|(name, _)| name.clone()).collect(),
         };
         let text = template(&table, Ok(&mapping), &found);

@@ -64,6 +64,7 @@ fn parts_and_a_mode() {
         enable: Some(Enable {
             column: Selector::Name("on".into()),
             equals: None,
+            mask: None,
         }),
         ..parts(Parts::inside(vec![(0.5, 1.5)]))
     };

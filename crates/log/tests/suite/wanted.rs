@@ -127,6 +127,7 @@ fn mapping() -> impl Strategy<Value = Mapping> {
             enable: enable.map(|column| Enable {
                 column,
                 equals: None,
+                mask: None,
             }),
             ..Mapping::default()
         }
