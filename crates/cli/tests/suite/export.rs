@@ -115,15 +115,22 @@ fn platforms_of_an_fmu() {
 
 /// A time with a unit is told what is meant.
 #[test]
-fn a_cycle_time_is_in_seconds() {
+fn a_cycle_time_has_a_unit_or_is_in_seconds() {
     let dir = tempfile::tempdir().unwrap();
     let output = export("c", dir.path())
-        .args(["--cycle-time", "1ms"])
+        .args(["--cycle-time", "1rev"])
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", said(&output));
-    let allowed = "a number of seconds is allowed, without a unit, such as 0.001 for 1 ms";
+    let allowed = "in seconds or with its unit (us, ms, s, min, h), such as 0.001 or 1ms";
     assert!(said(&output).contains(allowed), "{}", said(&output));
+    let output = export("c", dir.path())
+        .args(["--cycle-time", "250us"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(0), "{}", said(&output));
+    let out = String::from_utf8(output.stdout).unwrap();
+    assert!(out.contains("for a cycle of 0.00025 s"), "{out}");
 }
 
 /// No room for the files: nothing has the name of the folder, and nothing is left beside it.

@@ -40,7 +40,7 @@ fn next(said: &str) -> String {
 fn what_is_no_regular_file_is_refused_by_name_everywhere() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    log(&at.join("log.csv"), "mm", 300);
+    log(&at.join("log.csv"), "mm", 3000);
     let made = Command::new("mkfifo").arg(at.join("pipe")).status();
     assert!(made.unwrap().success());
     for (path, what) in [
@@ -133,12 +133,7 @@ fn a_checkpoint_is_kept_apart_from_what_is_written() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
     log(&at.join("a.csv"), "mm", 1500);
-    for checkpoint in [
-        "out/result.json",
-        "out/study.toml",
-        "out",
-        "./out/../out/fit.csv",
-    ] {
+    for checkpoint in ["out/result.json", "out/study.toml", "out", "./out/fit.csv"] {
         let line = format!(
             "identify a.csv --law lugre --method ga --evaluations 60 --out out --checkpoint {checkpoint}"
         );

@@ -239,7 +239,10 @@ fn a_checkpoint_replaces_nothing_but_a_checkpoint() {
     let line = format!("{SEARCH} --time 1e-6 --checkpoint b/result.json --out b");
     let (exit, _, err) = bench.run(&line);
     assert_eq!(exit, 2, "{err}");
-    assert!(err.contains("b/result.json: is an input"), "{err}");
+    assert!(
+        err.contains("b/result.json: is where the result is written"),
+        "{err}"
+    );
 }
 
 #[test]

@@ -759,7 +759,7 @@ proptest! {
             own_stamps: Vec::new(),
             coarse: None,
             enable: None,
-            brakes: false,
+            brakes: true,
             columns: names.iter().map(|(name, _)| name.clone()).collect(),
         };
         let text = template(&table, Ok(&mapping), &found);

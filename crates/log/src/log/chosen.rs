@@ -252,8 +252,9 @@ fn refuse(table: &Table, column: usize, enable: &Enable, values: &[f64]) -> Resu
     let is_flag = there.iter().all(|x| *x == 0.0 || *x == 1.0);
     let (found, allowed) = if enable.equals.is_none() && enable.mask.is_none() && !is_flag {
         let found = format!("enable, column {place}, holds {holds}");
-        let allowed = match many {
-            true => "0 and 1 alone, or a column of modes, of which one is kept with equals; a column of so many numbers is neither"
+        let are_whole = there.iter().all(|x| x.fract() == 0.0);
+        let allowed = match many && !are_whole {
+            true => "0 and 1 alone, or a column of modes, of which one is kept with equals; a column of so many fractions is neither"
                 .into(),
             false => {
                 format!("0 and 1 alone; of a column of modes say which one is kept, as in: {line}")

@@ -235,7 +235,7 @@ fn nameless(table: &Table) -> Error {
         "say which is which in axis.toml: rate = \"1 kHz\" where column 1 numbers the samples, as halsampler -t does, or \
          under [columns] time = { column = 1, unit = \"ms\" } where it counts milliseconds; and under [columns], by number \
          counted from 1, as in: position = { column = 2, unit = \"mm\" }, force = { column = 3, unit = \"N\" }"
-    } else if table.columns.len() < 3 {
+    } else if table.columns.len() == 2 {
         "say which is which in axis.toml: rate = \"1 kHz\", since so few columns are none of time beside motion and force, and under \
          [columns], by number counted from 1, as in: position = { column = 1, unit = \"rad\" }, force = { column = 2, unit = \"N*m\" }"
     } else {
