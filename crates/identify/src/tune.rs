@@ -134,39 +134,36 @@ pub fn tune(
         };
         let mut terms = terms.about(&record);
         terms.lag = tuned.lag;
-        let found = match &last {
+        let mut found = match &last {
             // The law is the same, so the fit of the round before is near.
             Some(start) => follow(start, &record, law, &terms, settings, observer)?,
-            None => {
-                let found = separable(&record, law, &terms, settings, observer)?;
-                let settled = Conditioning {
-                    settling: found.settling(),
-                    ..trial
-                };
-                let later = condition(logs, &settled)?;
-                let found = match depends_on_before(&record, &later, &found) {
-                    true => {
-                        tuned.counts.add(&found.counts);
-                        wanted.settling = settled.settling;
-                        tuned.conditioning = wanted;
-                        trial = settled;
-                        record = later;
-                        follow(&found.p, &record, law, &terms, settings, observer)?
-                    }
-                    false => found,
-                };
-                let near = (&wanted, &record);
-                match lag(logs, near, &terms, &found, settings, observer)? {
-                    Some((lag, counts)) => {
-                        tuned.counts.add(&counts);
-                        tuned.counts.add(&found.counts);
-                        (tuned.lag, terms.lag) = (lag, lag);
-                        follow(&found.p, &record, law, &terms, settings, observer)?
-                    }
-                    None => found,
-                }
-            }
+            None => separable(&record, law, &terms, settings, observer)?,
         };
+        // Asked of every round: the ends of a filter with a low cut-off may hide the beginning of a stretch.
+        if wanted.settling <= 0.0 {
+            let settled = Conditioning {
+                settling: found.settling(),
+                ..trial
+            };
+            let later = condition(logs, &settled)?;
+            if depends_on_before(&record, &later, &found) {
+                tuned.counts.add(&found.counts);
+                wanted.settling = settled.settling;
+                tuned.conditioning.settling = settled.settling;
+                trial = settled;
+                record = later;
+                found = follow(&found.p, &record, law, &terms, settings, observer)?;
+            }
+        }
+        if last.is_none() {
+            let near = (&wanted, &record);
+            if let Some((lag, counts)) = lag(logs, near, &terms, &found, settings, observer)? {
+                tuned.counts.add(&counts);
+                tuned.counts.add(&found.counts);
+                (tuned.lag, terms.lag) = (lag, lag);
+                found = follow(&found.p, &record, law, &terms, settings, observer)?;
+            }
+        }
         last = Some(found.p[..law.nonlinear()].to_vec());
         tuned.near = Some((law, found.p.clone()));
         tuned.counts.add(&found.counts);

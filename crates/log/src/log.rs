@@ -265,6 +265,8 @@ impl Log {
             columns.keep(&mut time, |row| row % rows == first);
             chosen.keep(|row| row % rows == first);
         }
+        // The rate is that of the rows as they were recorded: those that are left out leave no other one.
+        let recorded = chosen.leaves_out().then(|| rate(&time));
         let resumed = chosen.cut(&mut time, &mut columns);
         findings.extend(chosen.finding());
         let mended = columns.mend(&mut time)?;
@@ -299,7 +301,7 @@ impl Log {
         time.iter_mut().for_each(|t| *t -= first);
         let mut log = Self {
             motion,
-            rate_hz: rate(&time),
+            rate_hz: recorded.unwrap_or_else(|| rate(&time)),
             segments: std::iter::once(0..time.len()).collect(),
             start: clock.start + first,
             time,

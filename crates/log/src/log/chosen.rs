@@ -148,6 +148,12 @@ impl Chosen {
         }
     }
 
+    /// Whether any row is left out.
+    pub fn leaves_out(&self) -> bool {
+        let rows = self.rows.as_ref();
+        rows.is_some_and(|rows| rows.iter().any(|row| *row != Row::Kept))
+    }
+
     /// Leaves the other rows out; when the record goes on after each stretch of them.
     pub fn cut(&mut self, time: &mut Vec<f64>, columns: &mut Columns) -> Vec<f64> {
         let Some(rows) = self.rows.take() else {

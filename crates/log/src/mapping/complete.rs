@@ -327,16 +327,17 @@ fn bare_counts(
         (by_unit || by_name).then_some(())?;
         let told = kind.or_else(|| likely(table, parts).filter(|_| by_name));
         let lines = counted::lines(table, part.column, part.role, told);
+        let name = &table.columns[part.column].name;
         let of = match part.role {
-            Role::Position => "encoder counts",
-            _ => "counts",
+            Role::Position => "encoder counts, and the size of a count",
+            Role::Force if names::says_torque_object(name) => {
+                "thousandths of the rated torque (6077h), and that torque"
+            }
+            _ => "counts, and the size of a count",
         };
         let error = Error::new(
             Kind::Unit,
-            format!(
-                "{} is in {of}, and the size of a count is not given",
-                part.role
-            ),
+            format!("{} is in {of} is not given", part.role),
             format!("give it in axis.toml under [columns], as in: {lines}"),
         );
         let error = error.in_column(describe::place(table, part.column));

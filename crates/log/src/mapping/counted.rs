@@ -19,8 +19,10 @@ pub(super) fn is_counted(table: &Table, column: usize) -> bool {
         let mut numbers = column.values.iter().filter(|x| x.is_finite()).peekable();
         numbers.peek().is_some() && numbers.all(|x| x.fract() == 0.0)
     };
-    is_bare
-        && (names::speaks_of_counts(&column.name) || names::says_encoder(&column.name) && whole())
+    let name = &column.name;
+    let by_object = names::says_position_object(name) || names::says_torque_object(name);
+    let may_be = names::says_encoder(name) || by_object;
+    is_bare && (names::speaks_of_counts(name) || may_be && whole())
 }
 
 /// What a count of a role is worth, as an example: of a linear and of a rotary axis.
@@ -35,6 +37,16 @@ fn sizes(role: Role, name: &str) -> [&'static str; 2] {
 /// The lines that give a column in counts its size, of a linear and of a rotary axis, and that of a counter that begins again.
 pub(super) fn lines(table: &Table, column: usize, role: Role, motion: Option<Motion>) -> String {
     let own = &table.columns[column];
+    if role == Role::Force && names::says_torque_object(&own.name) {
+        let rated = |torque: &str| {
+            let of = format!("unit = \"0.1%\", scale = \"{torque}\"");
+            describe::line_with(table, column, role, &of)
+        };
+        return match motion {
+            Some(Motion::Linear) => rated("100 N"),
+            _ => rated("1 N m"),
+        };
+    }
     let with = |scale: &str| {
         let unit = if own.unit.is_some() {
             ""

@@ -391,6 +391,16 @@ pub(super) fn speaks_of_counts(name: &str) -> bool {
     words(name).iter().any(|w| COUNTS.contains(&w.as_str()))
 }
 
+/// Whether a name has the number of the actual position of CiA 402 (object 6064h), in counts unless a drive scales it.
+pub(super) fn says_position_object(name: &str) -> bool {
+    name.contains("6064")
+}
+
+/// Whether a name has the number of the actual torque of CiA 402 (object 6077h), in thousandths of the rated one.
+pub(super) fn says_torque_object(name: &str) -> bool {
+    name.contains("6077")
+}
+
 /// Whether a name speaks of an encoder.
 pub(super) fn says_encoder(name: &str) -> bool {
     words(name)

@@ -216,3 +216,18 @@ fn a_column_of_many_numbers_is_no_enable() {
     insta::assert_snapshot!(error.to_string());
     assert_eq!(error.setting(), Some("columns.enable"));
 }
+
+/// Rows that are left out at a regular spacing leave the rate of the others.
+#[test]
+fn rows_that_are_left_out_leave_the_rate() {
+    let whole = Log::from_table(&axis(4000).table(), &Mapping::default()).unwrap();
+    let every_hundredth = with("on", |i| flag(i % 100 != 99));
+    let log = Log::from_table(&every_hundredth, &enable("on", None)).unwrap();
+    assert_eq!(log.rate_hz, whole.rate_hz);
+    assert_eq!(log.segments.len(), 40);
+    assert!(
+        !log.findings.iter().any(|f| f.code.as_str() == "jitter"),
+        "{}",
+        told(&log)
+    );
+}
