@@ -25,13 +25,18 @@ fn clean() -> impl Strategy<Value = Clean> {
         0.1..50.0_f64,
         0..9999_usize,
     )
-        .prop_map(|(rate, samples, decade, turns, mass, seed)| Clean {
-            rate: rate.round(),
-            samples,
-            amplitude: 10.0_f64.powf(decade),
-            frequency: turns * rate.round() / samples as f64,
-            mass,
-            seed: seed * 10_000,
+        .prop_map(|(rate, samples, decade, turns, mass, seed)| {
+            let frequency = turns * rate.round() / samples as f64;
+            // The speed of the two sines, of one for an amplitude of 1; no servo axis is faster than 20 m/s.
+            let speed = 1.81 * 2.0 * std::f64::consts::PI * frequency;
+            Clean {
+                rate: rate.round(),
+                samples,
+                amplitude: 10.0_f64.powf(decade).min(20.0 / speed),
+                frequency,
+                mass,
+                seed: seed * 10_000,
+            }
         })
 }
 
