@@ -168,7 +168,9 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
             ));
         };
         let path = from_there(path);
-        if let Some(before) = seen.insert(path.clone(), row) {
+        // One log may have several paths.
+        let place = path.canonicalize().unwrap_or_else(|_| path.clone());
+        if let Some(before) = seen.insert(place, row) {
             let found = format!("{} is in row {before} already", shell::text(&path));
             return Err(refused(at("path"), found, "each log once"));
         }
