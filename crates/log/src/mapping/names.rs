@@ -352,6 +352,25 @@ pub(super) fn says_enabled(name: &str) -> bool {
     says && !has(&["not", "no", "un", "off", "keine"])
 }
 
+/// Whether a name speaks of a brake that holds, and not of one that is released.
+pub(super) fn says_braked(name: &str) -> bool {
+    const RELEASED: &[&str] = &[
+        "open",
+        "opened",
+        "release",
+        "released",
+        "off",
+        "free",
+        "offen",
+        "frei",
+        "gelöst",
+        "gelüftet",
+    ];
+    let words = words(name);
+    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
+    has(&["brake", "braked", "bremse"]) && !has(RELEASED)
+}
+
 /// Whether a name is that of a status word of CiA 402.
 pub(super) fn says_status_word(name: &str) -> bool {
     let own = name.rsplit_once('.').map_or(name, |(_, own)| own);

@@ -184,6 +184,11 @@ fn a_flag_is_no_force_and_no_position() {
     let why: Vec<_> = log.columns.iter().map(|c| c.reason.as_str()).collect();
     let off = "a flag: 0 and 1 alone; if the axis is enabled where it is 1, leave out the others: enable = \"Torque active\" under [columns]";
     assert_eq!(why[1], off);
+    let mut braked = columns.clone();
+    braked[1].name = "Brake closed".into();
+    let log = Log::from_table(&table(braked), &Mapping::default()).unwrap();
+    let held = "a flag: 0 and 1 alone; if a brake holds the axis where it is 1, leave out those rows: enable = { column = \"Brake closed\", equals = 0 } under [columns]";
+    assert_eq!(log.columns[1].reason, held);
     // With nothing else that could be the force there is none.
     let without = columns.into_iter().filter(|c| c.name != "Torque");
     let log = Log::from_table(&table(without.collect()), &Mapping::default()).unwrap();

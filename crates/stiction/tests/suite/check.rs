@@ -225,7 +225,8 @@ fn a_fit_sees_the_reversals_that_check_sees() {
 
 /// A log whose units stand nowhere, with an encoder of a thousandth of whatever unit.
 fn bare(bench: &Bench) -> std::path::PathBuf {
-    let counts = |t: f64| (both_ways(t)[0] * 1e6).round() / 1e6;
+    // The numbers of its column are metres.
+    let counts = |t: f64| (both_ways(t)[0] * 1e6).round() / 1e9;
     let log = bench.log("bare.csv", 6000, counts, |i, t| {
         friction(both_ways(t)) + 0.5 * noise(4, i)
     });
@@ -289,7 +290,7 @@ fn an_axis_file_is_begun_with_what_was_found() {
     let started = init(&log, None).unwrap();
     let axis = Axis::parse(&started.text).unwrap();
     let step = axis.mapping.resolution.unwrap();
-    assert!((step / 1e-3 - 1.0).abs() < 1e-6, "{step}");
+    assert!((step / 1e-6 - 1.0).abs() < 1e-6, "{step}");
     assert!(
         started.text.contains("# the unit is assumed"),
         "{}",
