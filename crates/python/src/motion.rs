@@ -133,6 +133,7 @@ pub fn plan(
         wants: wants.map_err(|refusal| refusal.raise(py))?,
         carriers: carriers.map_err(|refusal| refusal.raise(py))?,
         start: options.start,
+        asymmetric: false,
     };
     let (found, stopped) = run(py, &how, |observer| {
         let planned = plan_motion(&axis, &options, observer)?;

@@ -98,7 +98,9 @@ impl OfAxis {
 /// SHA-256 of a file, or that it cannot be read.
 fn hash_of(path: &Path) -> String {
     // Opening a pipe would wait for ever.
-    let hash = path.is_file().then(|| sha256(path).ok()).flatten();
+    let hash = stiction_log::is_regular(path)
+        .then(|| sha256(path).ok())
+        .flatten();
     hash.unwrap_or_else(|| "unreadable".into())
 }
 
