@@ -292,10 +292,8 @@ impl Divisions {
         let Some(found) = coupling::sought(self, objective, terms, at, residual, springs) else {
             return misfit;
         };
-        let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
         let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Acceleration, residual));
-        misfit.share = misfit.share.max(found.share);
-        misfit.rms = misfit.rms.max((found.share * square).sqrt());
+        misfit.count(found.share, residual);
         misfit.coupling = Some(found).filter(Coupling::is_sure);
         Some(misfit)
     }
@@ -324,10 +322,8 @@ impl Divisions {
         let Some(found) = found.filter(|found| found.share >= least) else {
             return misfit;
         };
-        let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
         let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::AfterReversals, residual));
-        misfit.share = misfit.share.max(found.share);
-        misfit.rms = misfit.rms.max((found.share * square).sqrt());
+        misfit.count(found.share, residual);
         misfit.clocks = Some(found);
         Some(misfit)
     }
@@ -351,6 +347,13 @@ impl Divisions {
 }
 
 impl Misfit {
+    /// Counts what one more column explains of a residual, as a part of its variance.
+    fn count(&mut self, share: f64, residual: &[f64]) {
+        let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
+        self.share = self.share.max(share);
+        self.rms = self.rms.max((share * square).sqrt());
+    }
+
     /// Variances of the unknowns that a misfit of this size may cause, in a fit of `samples` residuals with the inverse of
     /// `J^T J` that is given.
     pub(crate) fn spread(&self, inverse: &DMatrix<f64>, samples: usize) -> DMatrix<f64> {

@@ -1,6 +1,7 @@
 //! What to do next, as commands to type.
 
 use std::path::{Path, PathBuf};
+use stiction_codes::Code;
 use stiction_files::result::{Cure, Next, ResultFile};
 pub use stiction_files::shell::axis_file;
 use stiction_files::shell::{free_folder, new_axis_file, plain, quoted, quoted_path, text};
@@ -132,7 +133,7 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                 what: format!(
                     "{}; {}: {place}, {write}",
                     cause.text,
-                    aim(table, cause.code.as_str())
+                    aim(table, cause.code)
                 ),
                 line: Some(line.clone()),
                 command: format!("stiction identify {logs} --axis {file}{law} --out {out}"),
@@ -142,9 +143,9 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
 }
 
 /// What a line of a table of the axis file is for.
-fn aim(table: &str, cause: &str) -> &'static str {
+fn aim(table: &str, cause: Code) -> &'static str {
     match (table, cause) {
-        ("log", "clocks-apart") => "fit the part in which they hardly do",
+        ("log", Code::ClocksApart) => "fit the part in which they hardly do",
         ("log", _) => "fit the part where it has settled",
         ("columns", _) => "scale it",
         _ => "take that into the fit",

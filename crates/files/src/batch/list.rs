@@ -226,6 +226,19 @@ mod tests {
         }
     }
 
+    #[cfg(unix)]
+    #[test]
+    fn one_log_by_two_paths_is_refused_with_its_row() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::write(at("a.csv"), "t,x\n").unwrap();
+        std::os::unix::fs::symlink(at("a.csv"), at("b.csv")).unwrap();
+        std::fs::write(at("list.csv"), "path,machine\na.csv,A\nb.csv,B\n").unwrap();
+        let refused = read_list(&at("list.csv")).unwrap_err().to_string();
+        assert!(refused.contains("row 3, column path: "), "{refused}");
+        assert!(refused.contains("is in row 2 already"), "{refused}");
+    }
+
     #[test]
     fn a_list_is_read_with_any_of_its_columns() {
         let folder = tempfile::tempdir().unwrap();

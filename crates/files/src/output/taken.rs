@@ -172,8 +172,10 @@ pub(super) fn is_ours(mark: &Path, kind: &str) -> bool {
 
 /// The schema of a file that stiction wrote, such as `stiction.result/1`; `None` for any other.
 fn schema_of(mark: &Path, kind: &str) -> Option<String> {
-    // Opening a pipe of this name would wait for ever.
-    let file = mark.is_file().then(|| fs::File::open(mark).ok()).flatten();
+    // Opening a pipe of this name, or a link to a file of the kernel, would wait for ever.
+    let file = stiction_log::is_regular(mark)
+        .then(|| fs::File::open(mark).ok())
+        .flatten();
     let mut head = Vec::new();
     file?.take(4096).read_to_end(&mut head).ok()?;
     let head = String::from_utf8_lossy(&head);

@@ -126,10 +126,7 @@ fn no_servo(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Option<Find
         Role::Position => rates(values),
         _ => values.to_vec(),
     };
-    let (speed, acceleration) = (
-        nearly_largest(&velocities)?,
-        nearly_largest(&rates(&velocities))?,
-    );
+    let (speed, acceleration) = (all_but_few(&velocities)?, all_but_few(&rates(&velocities))?);
     let [fastest, hardest] = match log.motion {
         Motion::Linear => SERVO_LINEAR,
         Motion::Rotary => SERVO_ROTARY,
@@ -162,7 +159,7 @@ fn no_servo(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Option<Find
 }
 
 /// The size that all but a few are below.
-fn nearly_largest(values: &[f64]) -> Option<f64> {
+fn all_but_few(values: &[f64]) -> Option<f64> {
     let mut sizes: Vec<f64> = values.iter().map(|x| x.abs()).collect();
     sizes.retain(|x| x.is_finite());
     if sizes.is_empty() {

@@ -223,7 +223,7 @@ fn a_fit_sees_the_reversals_that_check_sees() {
     assert!((stroke / found[0].range - 1.0).abs() < 0.02, "{stroke}");
 }
 
-/// A log whose units stand nowhere, with an encoder of a thousandth of whatever unit.
+/// A log whose units stand nowhere, with an encoder of a millionth of whatever unit.
 fn bare(bench: &Bench) -> std::path::PathBuf {
     // The numbers of its column are metres.
     let counts = |t: f64| (both_ways(t)[0] * 1e6).round() / 1e9;

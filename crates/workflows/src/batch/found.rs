@@ -84,7 +84,7 @@ fn is_outcome(folder: &Path) -> bool {
     };
     ["result.json", "batch.json", "study.json", "drift.json"]
         .into_iter()
-        .any(|name| folder.join(name).is_file() && begins(name).is_some())
+        .any(|name| stiction_log::is_regular(&folder.join(name)) && begins(name).is_some())
 }
 
 /// What is in a folder, and in those below it; hidden ones, links to folders, configuration and what was written by a command of
