@@ -8,6 +8,13 @@ use stiction_number::{counted as count, short};
 
 /// Largest force that counts as none, in parts of what nine of ten samples do not exceed: friction of a moving axis is more.
 const NONE: f64 = 0.03;
+/// How far a stretch is followed on either side of zero, in those parts: a drive that is off leaves no force between this and
+/// [`NONE`], a force that changes its sign does, also where braking takes just what friction does and it stays near zero long.
+const NEAR: f64 = 4.0 * NONE;
+/// Least part of such a stretch that is none.
+const LEAST: f64 = 0.75;
+/// Largest mean of the force over it, in those parts: an offset of the sensor, where friction has the sign of the speed.
+const OFFSET: f64 = 0.01;
 /// Part of the samples that do not exceed that.
 const USUAL: f64 = 0.9;
 /// Shortest stretch, s and samples: a force that changes its sign passes zero sooner.
@@ -26,17 +33,23 @@ pub(super) fn dead(log: &mut Log) {
     let (Some((low, high)), Some(usual)) = (extremes(position), usual(force)) else {
         return;
     };
-    let is_none = |sample: &usize| force[*sample].abs() <= NONE * usual;
+    let is_near = |sample: &usize| force[*sample].abs() <= NEAR * usual;
     let mut runs: Vec<Range<usize>> = Vec::new();
     for segment in &log.segments {
         let mut from = segment.start;
-        while let Some(start) = (from..segment.end).find(is_none) {
-            let end = (start..segment.end).find(|i| !is_none(i));
+        while let Some(start) = (from..segment.end).find(is_near) {
+            let end = (start..segment.end).find(|i| !is_near(i));
             let end = end.unwrap_or(segment.end);
             runs.push(start..end);
             from = end;
         }
     }
+    let is_off = |run: &Range<usize>| {
+        let force = &force[run.clone()];
+        let none = force.iter().filter(|f| f.abs() <= NONE * usual).count();
+        let mean = force.iter().sum::<f64>() / force.len() as f64;
+        none as f64 >= LEAST * force.len() as f64 && mean.abs() <= OFFSET * usual
+    };
     let moves = |run: &Range<usize>| {
         let path = position[run.clone()]
             .windows(2)
@@ -44,7 +57,7 @@ pub(super) fn dead(log: &mut Log) {
         let lasts = log.time[run.end - 1] - log.time[run.start];
         run.len() >= FEWEST && lasts >= SHORTEST && path.sum::<f64>() >= TRAVEL * (high - low)
     };
-    runs.retain(moves);
+    runs.retain(|run| moves(run) && is_off(run));
     let Some(first) = runs.first() else { return };
     let samples: usize = runs.iter().map(Range::len).sum();
     let message = format!(

@@ -971,6 +971,25 @@ fn a_force_that_is_zero_while_the_axis_moves_is_left_out() {
     assert_eq!(warnings(&whole), [""; 0]);
 }
 
+/// Where braking takes just what friction does, the force stays near zero for a while: it passes through, or is the friction
+/// of an axis whose mass takes nearly all.
+#[test]
+fn a_force_that_lingers_near_zero_is_kept() {
+    let with = |change: fn(f64) -> f64| {
+        let mut table = axis(8000).table();
+        let force = table.columns.iter().position(|c| c.name == "force");
+        let force = &mut table.columns[force.unwrap()].values;
+        let top = force.iter().fold(0.0_f64, |top, f| top.max(f.abs()));
+        for (i, f) in force[3000..4000].iter_mut().enumerate() {
+            *f = top * change(i as f64 / 500.0 - 1.0);
+        }
+        warnings(&Log::from_table(&table, &Mapping::default()).unwrap())
+    };
+    assert_eq!(with(|at| 0.3 * at.powi(3)), [""; 0]);
+    assert_eq!(with(|at| 0.02 + 0.001 * at), [""; 0]);
+    assert_eq!(with(|at| 0.005 + 0.001 * at), ["force-dead"]);
+}
+
 /// Rows at one rate, of which a coarser clock stamps some alike, are all kept.
 #[test]
 fn rows_of_one_rate_keep_their_repeated_stamps() {
