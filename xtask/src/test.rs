@@ -6,6 +6,9 @@ use std::thread;
 
 /// Every target that has tests; examples and benchmarks are only checked, with the lints.
 const TESTS: &str = "nextest run --workspace --tests --no-fail-fast";
+/// What property tests draw their cases from: the same on every run, so that a change is judged by what it changed. Other
+/// cases are drawn by `soak`.
+const SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
 /// The one crate with features, without them; its tests are run so by `soak`.
 const BARE: &str =
     "clippy --package stiction-log --no-default-features --all-targets -- -D warnings";
@@ -24,7 +27,9 @@ pub fn run() -> Outcome {
         .unwrap_or_else(|_| Err("set-up panicked".into()))?;
     built?;
     instructions::compare()?;
-    shell::run(tools::command(&tools::NEXTEST, TESTS)?)?;
+    let mut tests = tools::command(&tools::NEXTEST, TESTS)?;
+    tests.env(SEED.0, SEED.1);
+    shell::run(tests)?;
     // nextest runs no doctests.
     shell::run(cargo("test --quiet --workspace --doc"))?;
     web::test()?;
