@@ -69,12 +69,12 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
     if common.json {
         output::json(&file)?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::batch(&file, dir, axis))?;
+        output::print(&stiction::commands::text::batch(&file, dir))?;
         let logs: Vec<&Path> = batch.inputs().collect();
-        let failed = |log: &Path| file.failed.iter().any(|f| Path::new(&f.path) == log);
+        let failed = |log: &Path| file.failed.iter().any(|f| Path::new(&f.log.path) == log);
         let unread = file.failed.iter().filter(|f| f.code == Code::LogFormat);
         let left = unread
-            .map(|f| Path::new(&f.path))
+            .map(|f| Path::new(&f.log.path))
             .find_map(|none| without(none, &typed.inputs, &logs, &failed));
         if let Some(command) = left {
             output::print(&format!(

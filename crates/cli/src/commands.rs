@@ -201,7 +201,7 @@ fn next(error: &Error, command: &Command) -> Option<String> {
     }
     if let Command::Drift(drift) = command {
         return crate::next::table(error, &drift.results)
-            .or_else(|| crate::next::none_identified(error, &drift.results));
+            .or_else(|| crate::next::not_followed(error, &drift.results, !drift.limit.is_empty()));
     }
     if let Command::Check(arguments::Check { logs, .. })
     | Command::Identify(arguments::Identify { logs, .. }) = command

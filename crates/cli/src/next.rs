@@ -8,7 +8,9 @@ use std::path::{Path, PathBuf};
 use stiction::commands::batch::read_results;
 use stiction::commands::recording::Motion;
 use stiction::commands::shell::{free_folder, quoted, quoted_path, text as path_text};
-use stiction::commands::{FileError, Looks, Remedy, check_apart, has_runs, is_regular, looks};
+use stiction::commands::{
+    FileError, Looks, Remedy, check_apart, has_runs, is_regular, looks, sha256,
+};
 use stiction::{Axis, Code, Error, ModelFile};
 
 /// What leads on from an input that is not there: the same command with the file that was probably meant, or a look at the folder.
@@ -293,17 +295,28 @@ pub fn table(error: &Error, folder: &Path) -> Option<String> {
     ))
 }
 
-/// What leads on from a table of which no log was identified: why the first one was not, else which logs there are.
-pub fn none_identified(error: &Error, table: &Path) -> Option<String> {
+/// What leads on from a table of which no log was identified: why the first one was not; and from a limit of another: one that is.
+pub fn not_followed(error: &Error, table: &Path, has_limit: bool) -> Option<String> {
     if error.code() != Code::Usage || !table.is_file() {
         return None;
     }
     let mut first = None;
+    let mut followed = None;
     read_results(table, |row| {
+        let mut known = row.parameters.iter().filter(|p| p.identifiable);
+        followed = followed.take().or_else(|| Some(known.next()?.name.clone()));
         first.get_or_insert(row);
         Ok(())
     })
     .ok()?;
+    if let Some(parameter) = followed.filter(|_| has_limit) {
+        // What is wrong is a limit that was typed.
+        let limit = quoted(&format!("{parameter} > 1.3"));
+        let table = quoted_path(table);
+        return Some(format!(
+            "next, as an example: stiction drift {table} --limit {limit}"
+        ));
+    }
     let row = first?;
     let axis = row
         .axis
@@ -478,11 +491,11 @@ pub fn another_checkpoint(error: &Error, identify: &Identify) -> Option<String> 
     Some(format!("next: {}", with_value("checkpoint", &beside)?))
 }
 
-/// What leads on from a log that is given by two paths: the same command with one of them.
+/// What leads on from a log that is given by two paths, or as two copies: the same command with one of them.
 pub fn once(logs: &[PathBuf]) -> Option<String> {
-    let place = |log: &PathBuf| log.canonicalize().unwrap_or_else(|_| log.clone());
-    let twin =
-        (1..logs.len()).find(|k| logs[..*k].iter().any(|log| place(log) == place(&logs[*k])))?;
+    let bytes = |log: &PathBuf| is_regular(log).then(|| sha256(log).ok()).flatten();
+    let bytes: Vec<Option<String>> = logs.iter().map(bytes).collect();
+    let twin = (1..logs.len()).find(|k| bytes[*k].is_some() && bytes[..*k].contains(&bytes[*k]))?;
     let mut before = logs[..twin]
         .iter()
         .filter(|log| *log == &logs[twin])

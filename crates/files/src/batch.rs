@@ -16,7 +16,7 @@ pub use apart::{Apart, Levels};
 pub use list::{Listed, is_address, is_list, read_list};
 pub use read::{read_results, read_results_while, rows_while};
 pub use row::{LogRow, ParameterRow};
-pub use summary::{BatchFile, Failure, SCHEMA};
+pub use summary::{BatchFile, Failure, Named, SCHEMA};
 pub use table::{COLUMNS, Results};
 pub use time::{date_of, seconds_of};
 

@@ -69,7 +69,7 @@ pub use mapping::{
 pub use open::{ReadOptions, is_binary_recording, read_table, read_table_with, read_wanted};
 #[cfg(feature = "parquet")]
 pub use parquet::{Cells, read_cells};
-pub use regular::{Irregular, is_regular, regular};
+pub use regular::{Irregular, is_of_kernel, is_regular, regular};
 pub use stiction_codes::Code;
 pub use table::{Column, Passed, Scalar, Table};
 pub use unit::{Dimension, Unit, Value};

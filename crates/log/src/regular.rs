@@ -35,13 +35,16 @@ pub fn regular(path: &Path) -> Result<Metadata, Irregular> {
     if !about.is_file() {
         return Err(Irregular::Other(other(&about)));
     }
-    let real = path.canonicalize().ok();
-    let is_of_kernel =
-        |real: &std::path::PathBuf| OF_THE_KERNEL.iter().any(|dir| real.starts_with(dir));
-    match real.as_ref().is_some_and(is_of_kernel) {
+    match is_of_kernel(path) {
         true => Err(Irregular::Other("a file of the kernel, not one on a disk")),
         false => Ok(about),
     }
+}
+
+/// Whether a path leads to where the kernel shows itself as files.
+pub fn is_of_kernel(path: &Path) -> bool {
+    let real = path.canonicalize();
+    real.is_ok_and(|real| OF_THE_KERNEL.iter().any(|dir| real.starts_with(dir)))
 }
 
 /// Whether a path is a regular file.

@@ -36,7 +36,7 @@ pub mod log_table {
 pub use stiction_files::{
     Bundle, Error as FileError, Kept, Looks, Remedy, Runs, axis, check_apart, check_folder,
     check_folder_of, check_inputs, compare_file, has_runs, looks, plan, refuse_as_log,
-    reproduce_file, shell, study, visible, write_atomic,
+    reproduce_file, sha256, shell, study, visible, write_atomic,
 };
 /// What is being done, in the words of the terminal.
 pub fn stage(stage: stiction_identify::Stage) -> &'static str {

@@ -377,3 +377,46 @@ fn a_unit_that_was_assumed_stands_in_the_row() {
         .collect();
     assert_eq!(assumed, [true, false]);
 }
+
+/// Logs of several kinds in one folder: which is not trusted, which is a copy, and how each gets an axis file of its own.
+#[test]
+fn a_folder_of_several_kinds_leads_to_a_list() {
+    let bench = Bench::new(2, false);
+    fs::copy(bench.path("logs/run1.csv"), bench.path("logs/copy.csv")).unwrap();
+    let two = log(20.0, 3000).replacen("Force [N]", "Iq [A]", 1);
+    fs::write(
+        bench.path("logs/drive.csv"),
+        two.replacen("Position [mm]", "Soll", 1),
+    )
+    .unwrap();
+    // A force that has nothing to do with the motion.
+    let mut noise = 1_u32;
+    let mut stirred = String::from("Time [s],Position [mm],Force [N]\n");
+    for line in log(20.0, 3000).lines().skip(1) {
+        noise = noise.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let (motion, _) = line.rsplit_once(',').unwrap();
+        let _ = writeln!(stirred, "{motion},{:.3}", f64::from(noise) / 1e8 - 20.0);
+    }
+    fs::write(bench.path("logs/stirred.csv"), stirred).unwrap();
+    let (code, out, err) = bench.run(&batch("out", &["--threads", "1"]));
+    assert_eq!((code, err.as_str()), (1, ""));
+    insta::assert_snapshot!(out);
+    // The list that is proposed, in the folder from which it is called.
+    fs::write(bench.path("AXIS.toml"), "[columns]\nposition = { column = \"Soll\", unit = \"mm\" }\nforce = { column = \"Iq\", scale = \"2 N/A\" }\n").unwrap();
+    fs::write(
+        bench.path("logs.csv"),
+        "path,axis\nlogs/drive.csv,AXIS.toml\n",
+    )
+    .unwrap();
+    let proposed = out
+        .lines()
+        .find_map(|line| line.trim().strip_prefix("stiction batch logs.csv "));
+    let proposed = format!("batch logs.csv {}", proposed.unwrap());
+    let (_, out, err) = bench.run(&proposed.split(' ').collect::<Vec<_>>());
+    assert_eq!(err, "");
+    assert!(
+        out.starts_with("5 logs, 4 of them taken from an earlier call\n"),
+        "{out}"
+    );
+    assert!(!out.contains("failed     1"), "{out}");
+}

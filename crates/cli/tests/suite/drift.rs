@@ -191,3 +191,22 @@ fn what_cannot_be_followed_is_refused() {
     std::fs::write(at.join("results.parquet"), "path,parameter\n").unwrap();
     assert!(refused(&["drift", "results.parquet"]).contains("[log-format] results.parquet: "));
 }
+
+/// A folder of tables that holds one of them twice has each log once.
+#[test]
+fn a_table_that_lies_there_twice_counts_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir(at("tables")).unwrap();
+    table(&at("tables"), 3, 40, true);
+    let (code, once, _) = run(folder.path(), &["drift", "tables", "--json"]);
+    assert_eq!(code, 1);
+    std::fs::copy(at("tables/results.parquet"), at("tables/more.parquet")).unwrap();
+    let (code, twice, _) = run(folder.path(), &["drift", "tables", "--json"]);
+    assert_eq!(code, 1);
+    let alarms = |text: &str| {
+        let file: serde_json::Value = serde_json::from_str(text).unwrap();
+        (file["alarms"].clone(), file["input"]["logs"].clone())
+    };
+    assert_eq!(alarms(&once), alarms(&twice));
+}

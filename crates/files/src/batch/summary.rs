@@ -30,8 +30,14 @@ pub struct BatchFile {
     pub identified: usize,
     /// Of the identified, trustworthy.
     pub trustworthy: usize,
+    /// First of the identified that is not.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub doubted: Option<Named>,
     /// Of all, taken from an earlier call.
     pub taken: usize,
+    /// Of all, copies of another of them: the same bytes with the same axis file.
+    #[serde(default)]
+    pub copies: usize,
     /// Of the others, how many failed with which code, most first.
     pub failed: Vec<Failure>,
     /// Parameters that logs with one axis file have more than a hundred times apart: a unit of one of them is probably wrong.
@@ -51,14 +57,56 @@ impl BatchFile {
         for input in self.inputs.iter().map(String::as_str).chain(another) {
             command += &format!(" {}", quoted(input));
         }
-        for (name, value) in &self.options {
-            match (name.as_str(), value.as_str()) {
-                ("law", "auto") | ("method", "separable") | ("seed", "0") | (_, "false") => {}
-                (_, "true") => command += &format!(" --{name}"),
-                _ => command += &format!(" --{name} {}", quoted(value)),
+        let settings = self.settings(|_| true);
+        format!("{command}{settings} --out {} --resume", quoted_path(dir))
+    }
+
+    /// The same with a list before the inputs: what it says of a log goes before what a folder has.
+    pub fn command_listed(&self, dir: &Path, list: &str) -> String {
+        let own = std::iter::once(list.to_string());
+        let listed = Self {
+            inputs: own.chain(self.inputs.iter().cloned()).collect(),
+            ..self.clone()
+        };
+        listed.command(dir)
+    }
+
+    /// The command that identifies one of the logs by itself, as it was here.
+    pub fn single(&self, log: &Named) -> String {
+        let settings = self.settings(|name| !["axis", "reports"].contains(&name));
+        format!("stiction identify {}{settings}", log.arguments())
+    }
+
+    /// The options that are not the defaults, as they are typed.
+    fn settings(&self, wanted: impl Fn(&str) -> bool) -> String {
+        let wanted = |(name, _): &(&String, &String)| wanted(name);
+        let typed = |(name, value): (&String, &String)| match (name.as_str(), value.as_str()) {
+            ("law", "auto") | ("method", "separable") | ("seed", "0") | (_, "false") => {
+                String::new()
             }
-        }
-        format!("{command} --out {} --resume", quoted_path(dir))
+            (_, "true") => format!(" --{name}"),
+            _ => format!(" --{name} {}", quoted(value)),
+        };
+        self.options.iter().filter(wanted).map(typed).collect()
+    }
+}
+
+/// One log of a batch.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Named {
+    /// Its path.
+    pub path: String,
+    /// Its axis file.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis: Option<String>,
+}
+
+impl Named {
+    /// Log and axis file as arguments of a command.
+    pub fn arguments(&self) -> String {
+        let axis = self.axis.as_ref();
+        let axis = axis.map_or(String::new(), |axis| format!(" --axis {}", quoted(axis)));
+        format!("{}{axis}", quoted(&self.path))
     }
 }
 
@@ -69,8 +117,9 @@ pub struct Failure {
     pub code: Code,
     /// How many.
     pub logs: usize,
-    /// Path of the first of them.
-    pub path: String,
+    /// The first of them.
+    #[serde(flatten)]
+    pub log: Named,
     /// What was said of it.
     pub first: String,
 }

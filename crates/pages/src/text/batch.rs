@@ -5,20 +5,36 @@ use crate::apart::{apart, look};
 use crate::more_logs::more_logs;
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::batch::{BatchFile, RESULTS};
-use stiction_files::shell::{quoted, quoted_path};
+use stiction_codes::Code;
+use stiction_files::batch::{BatchFile, Failure, RESULTS};
+use stiction_files::shell::{quoted_path, shown};
 use stiction_number::counted;
 use stiction_workflows::drift::least_logs;
 
-/// What became of the logs, and what to do next. `axis` is the axis file of the logs.
-pub fn batch(file: &BatchFile, dir: &Path, axis: Option<&Path>) -> String {
+/// What is wrong where an axis file does not say which columns a log has.
+const COLUMNS: [Code; 3] = [Code::LogAmbiguous, Code::LogMissing, Code::LogUnit];
+/// Name of the list of logs that is proposed.
+const LIST: &str = "logs.csv";
+
+/// What became of the logs, and what to do next.
+pub fn batch(file: &BatchFile, dir: &Path) -> String {
     let mut out = String::new();
     let failed: usize = file.failed.iter().map(|failure| failure.logs).sum();
     let taken = match file.taken {
         0 => String::new(),
         taken => format!(", {taken} of them taken from an earlier call"),
     };
-    let _ = writeln!(out, "{}{taken}", counted(file.logs, "log"));
+    let copies = match file.copies {
+        0 => String::new(),
+        1 => ", 1 of them a copy of another".into(),
+        copies => format!(", {copies} of them copies of others"),
+    };
+    let _ = writeln!(out, "{}{taken}{copies}", counted(file.logs, "log"));
+    let doubted = file.identified - file.trustworthy;
+    let named = |logs: usize, first: &str| match logs > 1 {
+        true => format!("first: {first}"),
+        false => first.to_string(),
+    };
     let left = file.logs - file.identified - failed;
     let mut rows = vec![
         vec![
@@ -28,8 +44,10 @@ pub fn batch(file: &BatchFile, dir: &Path, axis: Option<&Path>) -> String {
         ],
         vec![
             "not trustworthy".into(),
-            (file.identified - file.trustworthy).to_string(),
-            String::new(),
+            doubted.to_string(),
+            file.doubted
+                .as_ref()
+                .map_or(String::new(), |log| named(doubted, &shown(&log.path))),
         ],
         vec!["failed".into(), failed.to_string(), String::new()],
     ];
@@ -38,11 +56,10 @@ pub fn batch(file: &BatchFile, dir: &Path, axis: Option<&Path>) -> String {
     }
     for failure in &file.failed {
         let first = failure.first.lines().next().unwrap_or_default();
-        let which = if failure.logs > 1 { "first: " } else { "" };
         rows.push(vec![
             format!("  {}", failure.code),
             failure.logs.to_string(),
-            format!("{which}{first}"),
+            named(failure.logs, first),
         ]);
     }
     out.push_str(&table(&rows, &[false, true, false]));
@@ -52,13 +69,33 @@ pub fn batch(file: &BatchFile, dir: &Path, axis: Option<&Path>) -> String {
     }
     let table = quoted_path(&dir.join(RESULTS));
     if let Some(failure) = file.failed.first() {
-        let axis = axis.map_or(String::new(), |axis| {
-            format!(" --axis {}", quoted_path(axis))
-        });
         let _ = writeln!(
             out,
-            "next: see what is wrong with the first log that failed\n  stiction check {}{axis}",
-            quoted(&failure.path)
+            "next: see what is wrong with the first log that failed\n  stiction check {}",
+            failure.log.arguments()
+        );
+    }
+    let of_columns = |failure: &&Failure| COLUMNS.contains(&failure.code);
+    if let Some(failure) = file.failed.iter().find(of_columns)
+        && file.logs > 1
+    {
+        let list = format!("path,axis\n  {},AXIS.toml", failure.log.path);
+        let _ = writeln!(
+            out,
+            "next, where logs need axis files of their own: write them into {LIST}, a line for each such log\n  {list}\n  {}",
+            file.command_listed(dir, LIST)
+        );
+    }
+    if let Some(log) = &file.doubted {
+        let which = if doubted > 1 {
+            "the first log"
+        } else {
+            "the log"
+        };
+        let _ = writeln!(
+            out,
+            "next: see why {which} that was identified is not trusted\n  {}",
+            file.single(log)
         );
     }
     if let Some(next) = look(&file.apart) {

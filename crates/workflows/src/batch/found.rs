@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use stiction_files::batch::{Listed, is_list, read_list};
 use stiction_files::shell;
-use stiction_log::Irregular;
+use stiction_log::{Irregular, is_of_kernel};
 
 /// The logs, each once, in the order of the inputs, those of a folder and a pattern in alphabetical order; but for what is in `out`.
 ///
@@ -21,6 +21,10 @@ pub(super) fn found(
     for input in inputs {
         let before = all.len();
         let is_pattern = || shell::text(input).contains(['*', '?', '[']);
+        if input.is_dir() && is_of_kernel(input) {
+            let found = format!("{} is a folder of the kernel", shell::text(input));
+            return Err(Error::usage(found, "a folder of logs"));
+        }
         if input.is_dir() && is_outcome(input) {
             return Err(Error::usage(
                 format!(
@@ -62,6 +66,13 @@ pub(super) fn found(
     let mut seen = HashSet::new();
     // One log may have several paths.
     let place = |path: &Path| path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+    // A list in a folder of logs is no log of it.
+    seen.extend(
+        inputs
+            .iter()
+            .filter(|input| is_list(input))
+            .map(|list| place(list)),
+    );
     all.retain(|listed| seen.insert(place(&listed.path)));
     beside.retain(|log| seen.insert(place(log)));
     Ok(all)
@@ -91,7 +102,7 @@ fn is_outcome(folder: &Path) -> bool {
 /// this program are left out.
 fn walk(folder: &Path, out: &Path, all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf>)) {
     let same = |a: &Path| Some(a.canonicalize().ok()? == out.canonicalize().ok()?);
-    if same(folder) == Some(true) {
+    if same(folder) == Some(true) || is_of_kernel(folder) {
         return;
     }
     if is_outcome(folder) {
@@ -266,6 +277,8 @@ mod tests {
             ("nothing/*.csv", "names no logs"),
             ("none.csv", "cannot be read"),
             ("[", "a pattern with"),
+            #[cfg(target_os = "linux")]
+            ("/proc/self", "is a folder of the kernel"),
         ] {
             let error = found(&[input]).unwrap_err().to_string();
             assert!(error.contains(said), "{error}");

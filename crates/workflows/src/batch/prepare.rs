@@ -282,7 +282,9 @@ impl Batch {
             logs: self.logs.len(),
             identified: 0,
             trustworthy: 0,
+            doubted: None,
             taken: 0,
+            copies: 0,
             failed: Vec::new(),
             apart: Vec::new(),
         }

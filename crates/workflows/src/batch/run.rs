@@ -4,11 +4,11 @@ use super::one::{Became, Memory, Report, begun, one, text};
 use super::prepare::Batch;
 use crate::error::Error;
 use crate::identify::Outcome;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Mutex, OnceLock, PoisonError, RwLock};
-use stiction_files::batch::{BatchFile, Failure, Levels, LogRow, RESULTS, Results};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, RwLock};
+use stiction_files::batch::{BatchFile, Failure, Levels, LogRow, Named, RESULTS, Results};
 use stiction_files::{Error as FileError, Journal};
 use stiction_log::allowed_memory;
 use stiction_search::{Control, Observer, Progress, Shared};
@@ -17,8 +17,10 @@ use stiction_search::{Control, Observer, Progress, Shared};
 pub struct Done {
     /// What each is kept under; none of one that was not begun, or stopped.
     keys: Vec<Option<String>>,
-    /// How many of them were done before.
+    /// How many of them were done before this call.
     taken: usize,
+    /// How many of them are copies of one of this call.
+    copies: usize,
 }
 
 impl Done {
@@ -60,6 +62,8 @@ impl Batch {
             watch: &watch,
             next: AtomicUsize::new(0),
             taken: AtomicUsize::new(0),
+            copies: AtomicUsize::new(0),
+            own: Mutex::default(),
             keys: self.logs.iter().map(|_| OnceLock::new()).collect(),
             fault: Mutex::new(None),
         };
@@ -77,6 +81,7 @@ impl Batch {
             None => Ok(Done {
                 keys: crew.keys.into_iter().map(OnceLock::into_inner).collect(),
                 taken: crew.taken.into_inner(),
+                copies: crew.copies.into_inner(),
             }),
         }
     }
@@ -93,6 +98,7 @@ impl Batch {
             "interrupted"
         });
         file.taken = done.taken;
+        file.copies = done.copies;
         let mut table = done
             .is_whole()
             .then(|| Results::begin(&dir.join(RESULTS)))
@@ -120,19 +126,26 @@ impl Batch {
             row.time = known.time;
             row.temperature = known.temperature.or(row.temperature);
             row.axis = known.axis;
+            let named = || Named {
+                path: row.path.clone(),
+                axis: row.axis.clone(),
+            };
             match (row.error, row.trustworthy) {
                 (Some(code), _) => {
                     let first = || Failure {
                         code,
                         logs: 0,
-                        path: row.path.clone(),
+                        log: named(),
                         first: row.message.clone().unwrap_or_default(),
                     };
                     failed.entry(code.as_str()).or_insert_with(first).logs += 1;
                 }
                 (None, trustworthy) => {
                     file.identified += 1;
-                    file.trustworthy += usize::from(trustworthy == Some(true));
+                    match trustworthy {
+                        Some(true) => file.trustworthy += 1,
+                        _ => file.doubted = file.doubted.or_else(|| Some(named())),
+                    }
                 }
             }
             levels.take(&row);
@@ -161,6 +174,9 @@ struct Crew<'a, 'o> {
     watch: &'a Shared<'o>,
     next: AtomicUsize,
     taken: AtomicUsize,
+    copies: AtomicUsize,
+    /// What this call has identified.
+    own: Mutex<HashSet<String>>,
     keys: Vec<OnceLock<String>>,
     fault: Mutex<Option<Error>>,
 }
@@ -206,10 +222,15 @@ impl Crew<'_, '_> {
                     if let Some(e) = self.journal.fault() {
                         return self.end(e.into());
                     }
+                    self.own().insert(key.clone());
                     key
                 }
                 Ok(Became::Taken(key)) => {
-                    self.taken.fetch_add(1, Ordering::SeqCst);
+                    let count = match self.own().contains(&key) {
+                        true => &self.copies,
+                        false => &self.taken,
+                    };
+                    count.fetch_add(1, Ordering::SeqCst);
                     key
                 }
                 Ok(Became::Stopped) => return,
@@ -220,6 +241,10 @@ impl Crew<'_, '_> {
             self.watch.one_more();
             self.watch.go_on();
         }
+    }
+
+    fn own(&self) -> MutexGuard<'_, HashSet<String>> {
+        self.own.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn is_over(&self) -> bool {

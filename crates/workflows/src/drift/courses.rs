@@ -1,7 +1,7 @@
 //! The courses of a table: of each parameter of each machine over time.
 
 use crate::error::Error;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use stiction_drift::Point;
 use stiction_files::batch::{Levels, LogRow, ParameterRow};
 
@@ -36,6 +36,8 @@ pub(super) struct Courses {
     pub unnamed: usize,
     /// The same that have no time.
     untimed: usize,
+    /// What was taken: key, path, and time of each log. A folder of tables may hold one twice.
+    seen: HashSet<(String, String, Option<u64>)>,
 }
 
 /// Seconds from a log to the next where times are not known.
@@ -46,11 +48,19 @@ const LARGEST: f64 = 1e100;
 const WIDTH: f64 = 2.0 * 1.959_963_984_540_054;
 
 impl Courses {
-    /// Takes a log.
+    /// Takes a log, once.
     ///
     /// # Errors
     /// Where a number of it is larger than any machine has, and would leave nothing of the others.
     pub fn take(&mut self, row: &LogRow) -> Result<(), Error> {
+        let own = (
+            row.key.clone(),
+            row.path.clone(),
+            row.time.map(f64::to_bits),
+        );
+        if !row.key.is_empty() && !self.seen.insert(own) {
+            return Ok(());
+        }
         self.logs += 1;
         let machine = row.machine.clone().unwrap_or_default();
         let count = self.machines.entry(machine.clone()).or_default();
