@@ -72,6 +72,13 @@ fn whole(text: &str) -> Result<u64, String> {
     number.map_err(|_| format!("a whole number from 0 to {} is allowed", u64::MAX))
 }
 
+/// A number, of which more is asked where it is used.
+fn number(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok();
+    let number = number.filter(|number: &f64| number.is_finite());
+    number.ok_or_else(|| "a number is allowed, such as 0.5 or 1e-3".into())
+}
+
 /// A number of samples, which may be written with a power of ten.
 fn samples(text: &str) -> Result<u64, String> {
     let number = text.parse().ok().filter(|x: &f64| *x >= 1.0);
@@ -107,7 +114,7 @@ fn time(text: &str, allowed: &str) -> Result<f64, String> {
     let split = TIMES
         .iter()
         .find_map(|(unit, by)| Some((text.strip_suffix(unit)?, by)));
-    let parsed = split.and_then(|(number, by)| Some(by * number.trim().parse::<f64>().ok()?));
+    let parsed = split.and_then(|(text, by)| Some(by * number(text).ok()?));
     parsed.ok_or_else(|| allowed.into())
 }
 
@@ -175,7 +182,7 @@ pub struct Demo {
     /// Seed of the simulated noise and of the search.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
     pub seed: u64,
-    /// Write into a folder that holds something else.
+    /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
     /// Write logs for every procedure instead (constant speeds, force ramps, force steps), and say
@@ -238,7 +245,7 @@ pub struct Identify {
     pub validate: Vec<PathBuf>,
     /// Fit the first part of the samples and validate on the rest: a share between 0 and 1, such as 0.5 for the first
     /// half [default: all are fitted].
-    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
+    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
     pub split: Option<f64>,
     /// Seed of the search.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
@@ -246,7 +253,7 @@ pub struct Identify {
     /// Folder for result.json, model.toml, report.html and fit.csv.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Write into a folder that holds something else.
+    /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
 }
@@ -271,7 +278,7 @@ pub struct Batch {
     pub method: Method,
     /// Fit the first part of the samples of each log and validate on the rest: a share between 0 and 1 [default: all are
     /// fitted].
-    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
+    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
     pub split: Option<f64>,
     /// Seed of the searches.
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
@@ -286,7 +293,7 @@ pub struct Batch {
     /// Folder for results.parquet and batch.json.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Write into a folder that holds something else.
+    /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
 }
@@ -303,7 +310,7 @@ pub struct Drift {
     /// Folder for drift.json and report.html [default: nothing is written].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Write into a folder that holds something else.
+    /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long, requires = "out")]
     pub force: bool,
 }
@@ -390,7 +397,7 @@ pub struct Searching {
     pub evaluations: Option<u64>,
     /// End a search when its cost is at most J, above 0: the square of the relative error, so 1e-4 is an error of 1 %
     /// [default: none].
-    #[arg(long, value_name = "J", allow_negative_numbers = true)]
+    #[arg(long, value_name = "J", allow_negative_numbers = true, value_parser = number)]
     pub target: Option<f64>,
     /// End a search so long after it began, such as 30s or 2min, above 0; the least squares that follow it are not limited
     /// [default: no limit].
@@ -431,20 +438,20 @@ pub struct Compare {
     #[arg(long, value_name = "N", default_value_t = 20_000, allow_negative_numbers = true, value_parser = whole)]
     pub evaluations: u64,
     /// Noise of a problem: deviation over the largest force [default: 0.01].
-    #[arg(long, value_name = "PART", allow_negative_numbers = true)]
+    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
     pub noise: Option<f64>,
     /// Motion of a problem [default: sine].
     #[arg(long, value_enum)]
     pub excitation: Option<Excitation>,
     /// Sample rate of a problem, for 3 s of motion [default: 1000].
-    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true, value_parser = number)]
     pub rate: Option<f64>,
     /// Make the data of a problem by another law than the one that is fitted.
     #[arg(long)]
     pub other_law: bool,
     /// Decades of the box to each side of a point off the answer [default: 1 for a problem, the box of
     /// identify for a log].
-    #[arg(long = "box", value_name = "DECADES", allow_negative_numbers = true)]
+    #[arg(long = "box", value_name = "DECADES", allow_negative_numbers = true, value_parser = number)]
     pub decades: Option<f64>,
     /// What integrates the candidates.
     #[arg(long, value_enum, default_value_t = Integrator::Explin)]
@@ -462,7 +469,7 @@ pub struct Compare {
     /// Folder for compare.json and report.html.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Write into a folder that holds something else.
+    /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
 }
@@ -540,7 +547,7 @@ pub struct Simulate {
     /// Take the runs that an earlier call for this study has left in the folder, where it was stopped or ended by force.
     #[arg(long, conflicts_with = "init")]
     pub resume: bool,
-    /// Write into a folder that holds something else.
+    /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
 }
@@ -559,7 +566,7 @@ pub struct Reproduce {
     /// Folder for reproduce.json and report.html.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Write into a folder that holds something else.
+    /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
 }
@@ -600,7 +607,7 @@ pub struct Plan {
     /// Folder for plan.toml, setpoints.csv and report.html.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Write into a folder that holds something else.
+    /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
 }
@@ -652,7 +659,7 @@ pub struct Export {
     /// Folder for the files.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Write into a folder that holds something; files of the same names are replaced.
+    /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
     /// Time between two calls of the compensator, s, or with its unit: 500us.
@@ -665,19 +672,19 @@ pub struct Export {
     )]
     pub cycle_time: f64,
     /// Largest force, in the unit of the model's force [default: twice static friction and offset].
-    #[arg(long, value_name = "FORCE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "FORCE", allow_negative_numbers = true, value_parser = number)]
     pub limit: Option<f64>,
     /// Share of the friction that is compensated, 0 to 1 [default: 0.75].
-    #[arg(long, value_name = "SHARE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SHARE", allow_negative_numbers = true, value_parser = number)]
     pub gain: Option<f64>,
     /// Time in which the compensation comes in and goes, s, or with its unit [default: 0.05].
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
     pub ramp: Option<f64>,
     /// Speeds up to this count as standstill, m/s or rad/s [default: from the law].
-    #[arg(long, value_name = "SPEED", allow_negative_numbers = true)]
+    #[arg(long, value_name = "SPEED", allow_negative_numbers = true, value_parser = number)]
     pub dead_zone: Option<f64>,
     /// Fastest change of the force, in the unit of the model's force per second [default: from the law].
-    #[arg(long, value_name = "RATE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "RATE", allow_negative_numbers = true, value_parser = number)]
     pub slew: Option<f64>,
     /// Moving time that the watchdog compares, a cycle of the motion, s, or with its unit; 0: no watchdog [default: 2].
     #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
@@ -694,7 +701,7 @@ pub struct Export {
     )]
     pub feedforward: Vec<String>,
     /// Rated force of the motor, in the unit of the model's force; for tf5200.
-    #[arg(long, value_name = "FORCE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "FORCE", allow_negative_numbers = true, value_parser = number)]
     pub rated_force: Option<f64>,
     /// What the names in the code begin with [default: from the name of the axis].
     #[arg(long, value_name = "NAME")]

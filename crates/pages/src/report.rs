@@ -239,7 +239,10 @@ fn verdicts(outcome: &Outcome) -> [Callout; 2] {
     let seen = seen.unwrap_or_default();
     let (use_it, text) = match trust.trustworthy {
         true => (
-            Severity::Good,
+            match trust.cause {
+                None => Severity::Good,
+                Some(_) => Severity::Info,
+            },
             format!(
                 "May be used to compensate friction on motion like that of the logs{}.{seen}",
                 trust.cause.as_ref().map_or(String::new(), |cause| format!(

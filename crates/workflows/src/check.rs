@@ -157,8 +157,13 @@ pub fn check(
         .iter()
         .any(|log| log.mapping(Use::Fitted).is_some());
     let mut out = Vec::new();
+    let mut seen: HashMap<String, &PathBuf> = HashMap::new();
     for path in logs {
         let source = source::load(path, &read)?;
+        // Two names of one file, or a copy of it.
+        if let Some(twin) = seen.insert(source.sha256.clone(), path) {
+            return Err(given_twice(twin, path));
+        }
         let never_fitted = source.never_fitted;
         let mut found = one(source, &read, observer)?;
         if never_fitted && matches!(found.next, Lead::Identify | Lead::Simulate) {
@@ -178,11 +183,16 @@ fn refuse_twice(logs: &[PathBuf]) -> Result<(), Error> {
     for log in logs {
         let place = log.canonicalize().unwrap_or_else(|_| log.clone());
         if let Some(twin) = seen.insert(place, log) {
-            let found = format!("{} and {} are the same log", twin.display(), log.display());
-            return Err(Error::usage(found, GIVEN_ONCE));
+            return Err(given_twice(twin, log));
         }
     }
     Ok(())
+}
+
+fn given_twice(one: &Path, another: &Path) -> Error {
+    let [one, another] = [one.display(), another.display()];
+    let found = format!("{one} and {another} are the same log");
+    Error::usage(found, GIVEN_ONCE)
 }
 
 /// The same of logs that are in memory already, read with this axis.

@@ -127,6 +127,8 @@ pub struct Reserve {
 
 /// Longest ramp and window, and longest time in which the slew limit lets friction at standstill through, s.
 const LONGEST: f64 = 3600.0;
+/// Shortest ramp that is one, and shortest such time, s: below any cycle time.
+const SHORTEST: (f64, f64) = (1e-6, 1e-9);
 
 /// Parameters that need a feedforward of their own, beside that of friction.
 const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
@@ -241,6 +243,7 @@ pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
         ));
     }
     let window = safety.window.filter(|window| *window != 0.0);
+    let ramp = safety.ramp.filter(|ramp| *ramp != 0.0);
     for (name, value, least, allowed) in [
         (
             "window",
@@ -248,7 +251,7 @@ pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
             options.cycle_time,
             "from the cycle time to 3600 s, or 0 for no watchdog",
         ),
-        ("ramp", safety.ramp, 0.0, "from 0 to 3600 s"),
+        ("ramp", ramp, SHORTEST.0, "0, or from 1e-6 to 3600 s"),
     ] {
         // A block that needs longer to learn, or to come in, never compensates.
         if let Some(value) = value.filter(|value| !(*value >= least && *value <= LONGEST)) {
@@ -379,13 +382,15 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
     let settings = asked(of_all, options);
     if let Some(slew) = options.safety.slew {
         let least = friction.scale() / LONGEST;
-        if slew.is_nan() || slew < least {
+        let most = friction.scale() / SHORTEST.1;
+        if !(least..=most).contains(&slew) {
             let unit = file.force_unit.replace('*', " ");
             return Err(Error::usage(
                 format!("a slew of {} {unit}/s", stiction_number::shortest(slew)),
                 format!(
-                    "at least {} {unit}/s, with which the force reaches friction at standstill within an hour",
-                    stiction_number::four_digits(least)
+                    "from {} {unit}/s, with which the force reaches friction at standstill within an hour, to {} {unit}/s, within a nanosecond",
+                    stiction_number::four_digits(least),
+                    stiction_number::four_digits(most)
                 ),
             ));
         }

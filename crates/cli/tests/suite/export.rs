@@ -189,12 +189,20 @@ fn settings_that_make_no_compensator_are_refused() {
             "--feedforward friction,gravity --limit 40",
             "a limit of 40.00 N below the weight that is fed forward; above 50.00 N",
         ),
-        ("--slew 1e-300", "a slew of 1e-300 N/s; at least "),
+        ("--slew 1e-300", "a slew of 1e-300 N/s; from 0.005000 N/s"),
+        ("--slew 1e300", "a slew of 1e300 N/s; from 0.005000 N/s"),
         (
             "--window 1e-300",
             "a window of 1e-300 s; from the cycle time",
         ),
-        ("--ramp 1e300", "a ramp of 1e300 s; from 0 to 3600 s"),
+        (
+            "--ramp 1e300",
+            "a ramp of 1e300 s; 0, or from 1e-6 to 3600 s",
+        ),
+        (
+            "--ramp 1e-300",
+            "a ramp of 1e-300 s; 0, or from 1e-6 to 3600 s",
+        ),
     ] {
         for target in ["c", "st", "rust", "hal"] {
             let output = Command::new(env!("CARGO_BIN_EXE_stiction"))

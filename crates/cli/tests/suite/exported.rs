@@ -225,7 +225,8 @@ fn what_cannot_be_run_is_refused() {
     std::fs::write(&file, slow).unwrap();
     let err = simulate("c");
     assert!(
-        err.contains("--exported-c c: a ramp of 1e9 s; from 0 to 3600 s") && err.contains(next),
+        err.contains("--exported-c c: a ramp of 1e9 s; 0, or from 1e-6 to 3600 s")
+            && err.contains(next),
         "{err}"
     );
     std::fs::write(&file, whole).unwrap();

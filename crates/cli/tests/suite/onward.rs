@@ -126,6 +126,33 @@ fn one_log_by_two_paths_is_refused_by_check_as_by_identify() {
         assert!(err.contains("are the same log"), "{err}");
         assert_eq!(next(&err), line.replace(" sub/../a.csv", ""), "{err}");
     }
+    // Two names of one file on the disk, or a copy of it.
+    std::fs::hard_link(at.join("a.csv"), at.join("b.csv")).unwrap();
+    std::fs::copy(at.join("a.csv"), at.join("c.csv")).unwrap();
+    for twin in ["b.csv", "c.csv"] {
+        for line in [
+            format!("check a.csv {twin}"),
+            format!("identify a.csv {twin} --out out"),
+        ] {
+            let (code, _, err) = run(at, &line);
+            assert_eq!(code, 2);
+            assert!(
+                err.contains(&format!("a.csv and {twin} are the same log")),
+                "{err}"
+            );
+            assert_eq!(next(&err), line.replace(&format!(" {twin}"), ""), "{err}");
+        }
+        let listed = format!("[[log]]\nfile = \"a.csv\"\n[[log]]\nfile = \"{twin}\"\n");
+        std::fs::write(at.join("axis.toml"), listed).unwrap();
+        for line in [
+            "check --axis axis.toml",
+            "identify --axis axis.toml --out out",
+        ] {
+            let (code, _, err) = run(at, line);
+            assert_eq!(code, 2);
+            assert!(err.contains(&format!("{twin} are the same log")), "{err}");
+        }
+    }
 }
 
 #[test]
@@ -243,8 +270,8 @@ fn a_folder_that_is_taken_and_a_table_of_too_few_logs_lead_on() {
 fn levels_of_one_axis_file_that_are_far_apart_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let at = folder.path();
-    for name in ["m.csv", "mm.csv"] {
-        log(&at.join(name), "mm", 3000);
+    for (name, samples) in [("m.csv", 3000), ("mm.csv", 3001)] {
+        log(&at.join(name), "mm", samples);
     }
     let mut table = Results::begin(&at.join("results.parquet")).unwrap();
     for (day, mass) in [10.0, 10.1, 0.0101].into_iter().enumerate() {

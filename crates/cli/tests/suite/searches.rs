@@ -259,11 +259,12 @@ fn limits_of_a_search_belong_to_a_search() {
             "--target -1; a finite number above 0",
         ),
         (
-            "--method de --time NaN",
-            "--time NaN; a finite number above 0",
+            "--method de --time -1e0",
+            "--time -1; a finite number above 0",
         ),
     ] {
         let options = options.replace("--target -", "--target=-");
+        let options = options.replace("--time -", "--time=-");
         let (code, _, err) = bench.run(&format!("identify log.csv --out x {options}"));
         assert_eq!(code, 2, "{err}");
         assert!(

@@ -121,6 +121,12 @@ pub fn check_folder_of(dir: impl AsRef<Path>, schema: &str, force: bool) -> Resu
         return Ok(());
     }
     clean(dir)?;
+    let is_folder = |path: &PathBuf| path.is_dir();
+    let names = WRITTEN.iter().map(|name| dir.join(name));
+    if let Some(folder) = names.chain([dir.join("study.toml")]).find(is_folder) {
+        let found = "is a folder, and a file of this name may be written";
+        return Err(Error::taken(&folder, found, Remedy::AnotherFolder));
+    }
     let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
     // Runs that were kept until the outcome is there are nothing that would be lost.
     let empty = entries.all(|entry| entry.is_ok_and(|entry| entry.file_name() == runs::NAME));
@@ -220,6 +226,16 @@ mod tests {
         assert!(check_folder(dir.path().join("a/b/c"), false).is_ok());
         // Nothing was made to find out.
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_folder_with_the_name_of_a_file_that_is_written_is_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        fs::create_dir(dir.path().join("model.toml")).unwrap();
+        for force in [false, true] {
+            let said = check_folder(dir.path(), force).unwrap_err().to_string();
+            assert!(said.contains("model.toml: is a folder"), "{said}");
+        }
     }
 
     #[test]

@@ -234,7 +234,11 @@ pub(super) fn refuse_many(table: &Table, column: usize, enable: &Enable) -> Resu
 /// Refuses a column that keeps no row, or that is no flag where no number is given.
 fn refuse(table: &Table, column: usize, enable: &Enable, values: &[f64]) -> Result<(), Error> {
     let there = different(values);
-    let named: Vec<String> = there.iter().take(MOST_NAMED).map(|x| short(*x)).collect();
+    let shown = |x: &f64| match enable.mask {
+        None => short(*x),
+        Some(_) => enable.shown(*x),
+    };
+    let named: Vec<String> = there.iter().take(MOST_NAMED).map(shown).collect();
     let many = there.len() > MOST_NAMED;
     let more = if many { ", ..." } else { "" };
     let holds = match named.as_slice() {
@@ -246,10 +250,10 @@ fn refuse(table: &Table, column: usize, enable: &Enable, values: &[f64]) -> Resu
     let mode = there.iter().find(|x| **x != 0.0).or(there.first());
     let mode = mode.filter(|_| !many).map_or("8".into(), |x| full(*x));
     let line = Enable::line(table, column, &mode);
-    if let Some(mask) = enable.mask.filter(|_| !values.contains(&enable.kept())) {
-        let kept = full(enable.kept());
+    if enable.mask.is_some() && !values.contains(&enable.kept()) {
         let found = format!(
-            "enable, column {place}, is {kept} under mask 0x{mask:x} in no row; there it is {holds}"
+            "enable, column {place}, is {} in no row; there it is {holds}",
+            enable.kept_words()
         );
         let allowed =
             "a number that it holds under the mask, which is then equals, or another mask";

@@ -3,7 +3,7 @@
 use super::channel::{Channel, Motion, Role};
 use super::limits::SCALES;
 use super::select::select;
-use super::{Mapping, describe};
+use super::{Mapping, counted, describe};
 use crate::{Dimension, Error, Kind, Table, Unit};
 
 /// Largest number that can be a measurement, in SI units (for time stamps in the unit of the file). Larger ones mark
@@ -203,12 +203,17 @@ impl Source {
             (Role::Acceleration, Motion::Linear) => ", or g and mg of standard gravity",
             _ => "",
         };
-        let how = match self.unit.dimension() == Dimension::COUNTS && self.scale_text.is_none() {
-            true => format!(
+        let is_counted = self.unit.dimension() == Dimension::COUNTS;
+        let how = match (is_counted, &self.scale_text) {
+            (true, None) => format!(
                 "give the size of a count, as in: {}",
-                super::counted::lines(table, self.column, role, Some(motion))
+                counted::lines(table, self.column, role, Some(motion))
             ),
-            false => format!("give the unit, or a scale such as \"2.5 {text}/{under}\""),
+            (true, Some(_)) => format!(
+                "give the size of a count, such as scale = \"{}\"",
+                counted::size(role, &table.columns[self.column].name, motion)
+            ),
+            (false, _) => format!("give the unit, or a scale such as \"2.5 {text}/{under}\""),
         };
         let allowed = format!("{kind} {} ({text}{also}); {how}", wanted.name());
         // Without a scale the unit is what is wrong; it may stand in the recording.

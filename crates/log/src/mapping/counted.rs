@@ -15,14 +15,26 @@ pub(super) fn is_counted(table: &Table, column: usize) -> bool {
         .unit
         .as_ref()
         .is_none_or(|unit| unit.trim().is_empty());
-    let whole = || {
-        let mut numbers = column.values.iter().filter(|x| x.is_finite()).peekable();
-        numbers.peek().is_some() && numbers.all(|x| x.fract() == 0.0)
-    };
+    let whole = || are_whole(&column.values);
     let name = &column.name;
     let by_object = names::says_position_object(name) || names::says_torque_object(name);
     let may_be = names::says_encoder(name) || by_object;
     is_bare && (names::speaks_of_counts(name) || may_be && whole())
+}
+
+/// Whether all numbers of a column are whole.
+pub(super) fn are_whole(values: &[f64]) -> bool {
+    let mut numbers = values.iter().filter(|x| x.is_finite()).peekable();
+    numbers.peek().is_some() && numbers.all(|x| x.fract() == 0.0)
+}
+
+/// What a count of a role is worth on an axis, as an example.
+pub(super) fn size(role: Role, name: &str, motion: Motion) -> &'static str {
+    let [linear, rotary] = sizes(role, name);
+    match motion {
+        Motion::Linear => linear,
+        Motion::Rotary => rotary,
+    }
 }
 
 /// What a count of a role is worth, as an example: of a linear and of a rotary axis.

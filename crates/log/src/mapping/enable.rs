@@ -47,10 +47,17 @@ impl Enable {
 
     /// The number of the rows that are kept, in words.
     pub(crate) fn kept_words(&self) -> String {
-        let kept = full(self.kept());
         match self.mask {
-            None => kept,
-            Some(mask) => format!("{kept} under mask 0x{mask:x}"),
+            None => full(self.kept()),
+            Some(mask) => format!("{} under mask 0x{mask:x}", self.shown(self.kept())),
+        }
+    }
+
+    /// A number of the column as it is written: under a mask by its bits.
+    pub fn shown(&self, value: f64) -> String {
+        match self.mask.and(bits(value)) {
+            Some(bits) => format!("0x{bits:x}"),
+            None => full(value),
         }
     }
 
@@ -79,11 +86,11 @@ impl Enable {
     }
 }
 
-/// The bits of a whole number, with or without its sign.
+/// The lowest 32 bits of a whole number, with or without its sign.
 fn bits(value: f64) -> Option<u32> {
-    const SIGNED: f64 = -2_147_483_648.0;
-    const LARGEST: f64 = 4_294_967_295.0;
-    let is_whole = value.fract() == 0.0 && (SIGNED..=LARGEST).contains(&value);
+    /// Above it not every whole number is one of its own.
+    const LARGEST: f64 = 9_007_199_254_740_992.0;
+    let is_whole = value.fract() == 0.0 && value.abs() <= LARGEST;
     // Numbers below zero are those of a counter with a sign.
     is_whole.then_some(value as i64 as u32)
 }

@@ -24,7 +24,8 @@ pub(super) fn line(table: &Table, column: usize, role: Role, motion: Option<Moti
         return describe::line_with(table, column, role, &rest);
     }
     let motion = motion.or_else(|| names::motion(&own.name));
-    let unit = match (role, motion.unwrap_or(Motion::Linear)) {
+    let motion = motion.unwrap_or(Motion::Linear);
+    let unit = match (role, motion) {
         (Role::Position | Role::Reference, Motion::Linear) => "mm",
         (Role::Position | Role::Reference, Motion::Rotary) => "deg",
         (Role::Velocity, Motion::Linear) => "mm/s",
@@ -34,7 +35,18 @@ pub(super) fn line(table: &Table, column: usize, role: Role, motion: Option<Moti
         (Role::Force | Role::External, Motion::Rotary) => "N m",
         _ => return describe::line(table, column, role),
     };
-    describe::line_with(table, column, role, &format!("unit = \"{unit}\""))
+    let line = describe::line_with(table, column, role, &format!("unit = \"{unit}\""));
+    // Of other columns no samples may have been read.
+    let hint = endings::hint(table, column);
+    let is_read = own.name.is_empty() || hint.is_some_and(|hint| hint.role == Role::Position);
+    if role != Role::Position || !is_read || !counted::are_whole(&own.values) {
+        return line;
+    }
+    // Whole numbers may be millimetres; most often an encoder counts them.
+    let size = counted::size(role, &own.name, motion);
+    let size = format!("unit = \"counts\", scale = \"{size}\"");
+    let counts = describe::line_with(table, column, role, &size);
+    format!("{line} or, where the whole numbers are counts of an encoder, {counts}")
 }
 
 /// Units in which a time column would be that of a motion log, seconds first.

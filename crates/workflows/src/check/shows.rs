@@ -236,3 +236,27 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_fit_determines_is_doubted_no_more() {
+        let said = |shown: &str, is_determined| {
+            let mut shows = Shows {
+                name: "mass".into(),
+                meaning: "moving mass".into(),
+                shown: shown.into(),
+                because: String::new(),
+                record: "faster reversals".into(),
+            };
+            shows.told_by_fit(is_determined);
+            (shows.shown, shows.record.is_empty())
+        };
+        assert_eq!(said("doubtful", true), ("possible".into(), true));
+        assert_eq!(said("doubtful", false), ("doubtful".into(), false));
+        // What the motion cannot show stays so: a fit of a law is no proof of it.
+        assert_eq!(said("no", true), ("no".into(), false));
+    }
+}

@@ -15,7 +15,7 @@ use crate::export::{ExportOptions, Feedforward, Target, compensator_of};
 use process::{Process, Settled};
 use source::Source;
 use std::path::Path;
-use stiction_files::shell::{quoted, quoted_path};
+use stiction_files::shell::{free_folder, quoted, quoted_path};
 use stiction_files::study::Study;
 use stiction_files::study::result::StudyInput;
 use stiction_friction::compensator::Compensator;
@@ -69,9 +69,17 @@ impl ExportedC {
                 shortest(1.0 / study.machine.rate),
             )
         };
-        let export = into(&format!(" --force --out {}", quoted(&name)));
-        let beside = format!("{}-new", name.trim_end_matches('/'));
-        let again = into(&format!(" --out {}", quoted(&beside)));
+        // What is there and no folder takes no files.
+        let is_other = folder.symlink_metadata().is_ok() && !folder.is_dir();
+        let beside = match is_other {
+            true => quoted_path(&free_folder(Path::new("exported-c"))),
+            false => quoted(&format!("{}-new", name.trim_end_matches('/'))),
+        };
+        let again = into(&format!(" --out {beside}"));
+        let export = match is_other {
+            true => again.clone(),
+            false => into(&format!(" --force --out {}", quoted(&name))),
+        };
         let source = Source::find(folder).map_err(|found| {
             refuse(
                 format!("--exported-c {name}: {found}"),

@@ -200,7 +200,7 @@ fn enable(given: &Given<'_>) -> Result<Enable, Error> {
     {
         let found = format!(
             "{} has bits that mask = 0x{mask:x} leaves out",
-            given.shown()
+            enable.shown(enable.kept())
         );
         return Err(given.refuse(found, "equals with bits of mask alone, else no row is kept"));
     }
