@@ -1,7 +1,11 @@
 //! `stiction export`: a model file to the compensator's code.
 
 mod adapting;
+mod asked;
+mod doubts;
+mod law;
 mod reserve;
+mod settings;
 mod terms;
 mod wrapped;
 
@@ -12,14 +16,17 @@ use stiction_codes::Code;
 use stiction_export::{Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
-use stiction_files::model::{Lowered, ReadModel};
+use stiction_files::model::ReadModel;
 use stiction_files::{write_folder, write_into_folder};
 use stiction_friction::ParamError;
-use stiction_friction::compensator::{
-    Adaptation, Compensator, Friction, Levels, Settings, Terms, Watchdog,
-};
-use stiction_parameters::{FrictionLaw, LawError, Name, ParameterSet, Quantity, Side};
+use stiction_friction::compensator::{Adaptation, Compensator};
 
+use asked::within;
+use doubts::{doubts, less};
+use law::{Unfit, bent, friction, quadratic};
+use settings::{asked, settings_of_law};
+
+pub(crate) use asked::check;
 pub use stiction_export::{Error as ExportError, File, Platform, Target};
 pub use terms::Feedforward;
 
@@ -125,14 +132,6 @@ pub struct Reserve {
     pub known_within_percent: f64,
 }
 
-/// Longest ramp and window, and longest time in which the slew limit lets friction at standstill through, s.
-const LONGEST: f64 = 3600.0;
-/// Shortest ramp that is one, and shortest such time, s: below any cycle time.
-const SHORTEST: (f64, f64) = (1e-6, 1e-9);
-
-/// Parameters that need a feedforward of their own, beside that of friction.
-const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
-
 impl Exported {
     /// Writes the files into `dir`, a folder that is new or empty: whole, or not at all.
     ///
@@ -194,84 +193,6 @@ pub(crate) fn compensator_of(
 ) -> Result<Compensator<f64>, Error> {
     let (model, _) = resolve(read, options)?;
     model.in_rust().map_err(|e| place(e, read, options))
-}
-
-/// Refuses options that the target has no use for.
-pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
-    if options.rated_force.is_some() && options.target != Target::Tf5200 {
-        let found = format!("a rated force for the target {}", options.target.name());
-        return Err(Error::usage(found, "only tf5200 takes one"));
-    }
-    let target = options.target.name();
-    let simulated = options.target.is_simulated();
-    let numbers = options.target == Target::DriveTable;
-    if numbers && (options.limit.is_some() || options.gain.is_some()) {
-        let what = if options.limit.is_some() {
-            "limit"
-        } else {
-            "gain"
-        };
-        return Err(Error::usage(
-            format!("a {what} for the target {target}"),
-            "it has the whole friction; write a share of the numbers into the drive, and let the drive limit its torque",
-        ));
-    }
-    if options.limit.is_some() && simulated {
-        return Err(Error::usage(
-            format!("a limit for the target {target}"),
-            "the friction of a simulated joint is not limited",
-        ));
-    }
-    if options.gain.is_some() && simulated {
-        return Err(Error::usage(
-            format!("a gain for the target {target}"),
-            "the friction of a simulated joint is the whole friction",
-        ));
-    }
-    let safety = &options.safety;
-    let given = [
-        ("ramp", safety.ramp),
-        ("dead zone", safety.dead_zone),
-        ("slew", safety.slew),
-        ("window", safety.window),
-    ];
-    let none = simulated || numbers || options.target == Target::Tf5200;
-    if let Some((name, _)) = given.iter().find(|(_, value)| none && value.is_some()) {
-        return Err(Error::usage(
-            format!("a {name} for the target {target}"),
-            "it has none",
-        ));
-    }
-    let window = safety.window.filter(|window| *window != 0.0);
-    let ramp = safety.ramp.filter(|ramp| *ramp != 0.0);
-    for (name, value, least, allowed) in [
-        (
-            "window",
-            window,
-            options.cycle_time,
-            "from the cycle time to 3600 s, or 0 for no watchdog",
-        ),
-        ("ramp", ramp, SHORTEST.0, "0, or from 1e-6 to 3600 s"),
-    ] {
-        // A block that needs longer to learn, or to come in, never compensates.
-        if let Some(value) = value.filter(|value| !(*value >= least && *value <= LONGEST)) {
-            let found = format!("a {name} of {} s", stiction_number::shortest(value));
-            return Err(Error::usage(found, allowed));
-        }
-    }
-    if none && options.adapt {
-        return Err(Error::usage(
-            format!("levels that follow the machine for the target {target}"),
-            "c, cpp, ros2, st, tcpou, plcopen, rust, hal, fmu and matlab have them",
-        ));
-    }
-    if none && options.feedforward != Feedforward::default() {
-        return Err(Error::usage(
-            format!("a feedforward beside friction for the target {target}"),
-            "c, cpp, ros2, st, tcpou, plcopen, rust, hal, fmu and matlab have one",
-        ));
-    }
-    Ok(())
 }
 
 /// The code of a model; `file` is for messages.
@@ -379,41 +300,8 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         Some(beside) => beside.settings(of_law, &friction),
         None => of_law,
     };
-    let settings = asked(of_all, options);
-    if let Some(slew) = options.safety.slew {
-        let least = friction.scale() / LONGEST;
-        let most = friction.scale() / SHORTEST.1;
-        if !(least..=most).contains(&slew) {
-            let unit = file.force_unit.replace('*', " ");
-            return Err(Error::usage(
-                format!("a slew of {} {unit}/s", stiction_number::shortest(slew)),
-                format!(
-                    "from {} {unit}/s, with which the force reaches friction at standstill within an hour, to {} {unit}/s, within a nanosecond",
-                    stiction_number::four_digits(least),
-                    stiction_number::four_digits(most)
-                ),
-            ));
-        }
-    }
-    if let (Some(zone), Some(top)) = (options.safety.dead_zone, file.top_speed())
-        && zone >= top
-    {
-        let speed = match file.kind.as_str() {
-            "rotary" => "rad/s",
-            _ => "m/s",
-        };
-        return Err(Error::usage(
-            format!("a dead zone of {} {speed}", stiction_number::shortest(zone)),
-            format!(
-                "below {} {speed}, the top speed of the log: at and above it nothing would be compensated",
-                stiction_number::four_digits(top)
-            ),
-        ));
-    }
-    if let Some(limit) = options.limit {
-        holds(limit, &terms, file)?;
-    }
-    let mut settings = settings;
+    let mut settings = asked(of_all, options);
+    within(options, &friction, &terms, file)?;
     let mut taken = beside.as_ref().map_or(Vec::new(), |b| b.taken.clone());
     if table && terms.levels.is_some() {
         taken.extend(quadratic(file));
@@ -498,26 +386,6 @@ fn title(file: &ModelFile) -> String {
     file.name.clone().or(stem).unwrap_or_else(|| "axis".into())
 }
 
-/// Refuses a limit that the weight alone exceeds: an axis that is held by less falls.
-fn holds(limit: f64, terms: &Terms<f64>, file: &ModelFile) -> Result<(), Error> {
-    let Some(weight) = terms.weight else {
-        return Ok(());
-    };
-    let wave = libm::hypot(weight.wave.sine, weight.wave.cosine);
-    let most = weight.constant.abs() + wave;
-    if limit.is_nan() || limit >= most {
-        return Ok(());
-    }
-    let unit = file.force_unit.replace('*', " ");
-    let [limit, most] = [limit, most].map(stiction_number::four_digits);
-    Err(Error::usage(
-        format!("a limit of {limit} {unit} below the weight that is fed forward"),
-        format!(
-            "above {most} {unit}, which hold the axis, with room for friction; or --feedforward without gravity"
-        ),
-    ))
-}
-
 /// An error with its file and the place in it, if it is about something in that file.
 fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptions) -> Error {
     use stiction_export::Error::{ForceUnit, Law, Number, Range};
@@ -568,335 +436,9 @@ fn place(source: stiction_export::Error, read: &ReadModel, options: &ExportOptio
     }
 }
 
-/// What should not be used, what the log leaves open, and what the code leaves out.
-fn doubts(file: &ModelFile, beside: Option<&terms::Beside>, taken: &[String]) -> Vec<Warning> {
-    let is_taken = |name: &String| taken.contains(name);
-    let mut found = Vec::new();
-    if !file.trustworthy {
-        found.push(Warning::new(
-            Code::ExportUntrusted,
-            "the identification flagged this model as not trustworthy; a compensation with it may be too strong",
-        ));
-    }
-    let aside = |name: &str| BESIDE.iter().any(|stem| name.starts_with(stem));
-    let names = |wanted: &dyn Fn(&stiction_files::model::ModelParameter) -> bool| -> Vec<&str> {
-        let chosen = file.parameter.iter().filter(|p| wanted(p));
-        chosen.map(|p| p.name.as_str()).collect()
-    };
-    let loose = names(&|p| !p.identifiable && p.origin != "given" && !aside(&p.name));
-    if !loose.is_empty() {
-        found.push(Warning::new(
-            Code::NotIdentifiable,
-            format!(
-                "the log leaves {} open: the law predicts friction on motion like that of the log, and may be wrong on \
-                 any other",
-                loose.join(", ")
-            ),
-        ));
-    }
-    let left = names(&|p| aside(&p.name) && p.name != "delay" && !is_taken(&p.name));
-    if !left.is_empty() {
-        found.push(Warning::new(
-            Code::ExportTerms,
-            format!(
-                "{} is not friction and not in the compensator; feed it forward separately{}",
-                left.join(", "),
-                with_it(&left, beside.map(|b| b.taken.as_slice()))
-            ),
-        ));
-    }
-    let lacking = beside.map_or(&[][..], |b| &b.lacking);
-    found.extend(at_reference(file, taken, lacking));
-    found
-}
-
-/// Quadratic viscous friction of what holds the steady force and nothing else: tables, and joints with two numbers of it.
-fn bent(file: &ModelFile, friction: &Friction<f64>, target: Target) -> Terms<f64> {
-    let steady = !matches!(target, Target::Mujoco | Target::Modelica);
-    let levels = file.dependences(friction.coulomb()).levels;
-    let levels = levels.filter(|l| steady && l.quadratic != [0.0; 2]);
-    Terms {
-        levels: levels.map(|l| Levels {
-            quadratic: l.quadratic,
-            top_speed: l.top_speed,
-            ..Levels::default()
-        }),
-        ..Terms::default()
-    }
-}
-
-/// The parameters of quadratic viscous friction.
-fn quadratic(file: &ModelFile) -> impl Iterator<Item = String> + '_ {
-    let names = file.parameter.iter().map(|p| &p.name);
-    let is = |name: &Name| name.quantity == Quantity::QuadraticViscous;
-    names
-        .filter(move |name| name.parse().is_ok_and(|name: Name| is(&name)))
-        .cloned()
-}
-
-/// How the compensator would feed forward what it leaves out.
-fn with_it(left: &[&str], taken: Option<&[String]>) -> String {
-    let Some(taken) = taken else {
-        return String::new();
-    };
-    let parts = ["mass", "gravity", "cogging"].into_iter().filter(|part| {
-        let mine = |name: &str| name.starts_with(part);
-        left.iter().any(|name| mine(name)) || taken.iter().any(|name| mine(name))
-    });
-    let parts: Vec<&str> = std::iter::once("friction").chain(parts).collect();
-    format!(", or with it: --feedforward {}", parts.join(","))
-}
-
-/// What changes friction and is no input of the code: the code has friction as it is at the reference.
-fn at_reference(file: &ModelFile, taken: &[String], lacking: &[&str]) -> Option<Warning> {
-    let at = |name: &str| {
-        let found = file.parameter.iter().find(|p| p.name == name);
-        found.map_or("the mean of the log".into(), |p| {
-            format!("{} {}", stiction_number::four_digits(p.value), p.unit)
-        })
-    };
-    let left = file.parameter.iter().filter(|p| !taken.contains(&p.name));
-    let each = left.filter_map(|p| {
-        let quantity = p.name.parse::<Name>().ok()?.quantity;
-        let held = match quantity {
-            Quantity::CoulombLoad => format!("at a load of {}", at("load_reference")),
-            Quantity::CoulombTemperature | Quantity::Sigma2Temperature => {
-                format!("at {}", at("temperature_reference"))
-            }
-            Quantity::CoulombTransmitted => {
-                format!("where {} is transmitted", at("transmitted_reference"))
-            }
-            Quantity::CoulombDriven => "as where the motor drives".into(),
-            Quantity::CoulombPosition => {
-                format!("at the position {}", at("position_reference"))
-            }
-            Quantity::CoulombPitch(..) => "in its mean over the pitch".into(),
-            Quantity::CoulombLog(_) | Quantity::Sigma1Log(_) | Quantity::Sigma2Log(_) => {
-                "of the first log".into()
-            }
-            Quantity::QuadraticViscous => {
-                "without the part that grows with the square of the velocity".into()
-            }
-            _ => return None,
-        };
-        Some(format!(
-            "{} = {} {}: {held}",
-            p.name,
-            stiction_number::four_digits(p.value),
-            p.unit
-        ))
-    });
-    let each = each.collect::<Vec<_>>().join("; ");
-    let cure = match lacking {
-        [] => String::new(),
-        lines => format!(
-            ". With what the log has seen in the model file the code has it: {}",
-            lines.join("; ")
-        ),
-    };
-    (!each.is_empty()).then(|| {
-        Warning::new(
-            Code::ExportTerms,
-            format!(
-                "friction changes with what the code does not see, so it has friction as it is there ({each}). Where the axis \
-                 works elsewhere it is off by that much: identify the axis as it works{cure}"
-            ),
-        )
-    })
-}
-
 /// The mass of the model, unless the log leaves it open.
 fn known_mass(file: &ModelFile) -> Option<f64> {
     let mass = file.parameter.iter().find(|p| p.name == "mass")?;
     let known = mass.value > 0.0 && (mass.identifiable || mass.origin == "given");
     known.then_some(mass.value)
-}
-
-/// Where less is used than was identified; `limited` where the limit follows from it.
-fn less(lowered: &[Lowered], limited: bool) -> Option<Warning> {
-    let each = lowered.iter().map(|l| {
-        let [from, to] = [l.from, l.to].map(stiction_number::four_digits);
-        format!("{} = {to} {} instead of {from}", l.name, l.unit)
-    });
-    let each = each.collect::<Vec<_>>().join(", ");
-    let limit = match limited {
-        true => ", and its limit is the largest friction up to the speeds of the log",
-        false => "",
-    };
-    (!lowered.is_empty()).then(|| {
-        Warning::new(
-            Code::ExportSupported,
-            format!(
-                "the code makes the least force that the log supports: {each}{limit}. A log that determines them gives more: \
-                 stiction check LOG names the motion"
-            ),
-        )
-    })
-}
-
-/// The largest friction up to the speeds of the log; at standstill where those are not known.
-fn seen(friction: &Friction<f64>, top_speed: Option<f64>, levels: Levels<f64>) -> f64 {
-    let top = top_speed.unwrap_or(0.0);
-    let (coulomb, viscous) = (friction.coulomb(), friction.viscous());
-    let statics = friction.curve().map_or(coulomb, |curve| {
-        [curve.positive(), curve.negative()].map(|side| side.static_friction)
-    });
-    let of = |i: usize| {
-        let bent = levels.quadratic_force(viscous, [top, -top][i]).abs();
-        statics[i].max(coulomb[i] + viscous[i] * top + bent)
-    };
-    of(0).max(of(1)) + friction.offset().abs()
-}
-
-/// Dead zone of a law without a Stribeck velocity, of the top speed of the recordings.
-const SLOW: f64 = 1e-3;
-
-/// What follows from the law.
-fn settings_of_law(
-    friction: &Friction<f64>,
-    file: &ModelFile,
-    lowered: &[Lowered],
-) -> Settings<f64> {
-    let top_speed = file.top_speed();
-    // The cycle time is put in later.
-    let mut settings = Settings::for_law(friction, 1e-3);
-    if let (Friction::Coulomb(_), Some(top)) = (friction, top_speed) {
-        settings.dead_zone = SLOW * top;
-    }
-    if !lowered.is_empty() {
-        let levels = file.dependences(friction.coulomb()).levels;
-        settings.limit = seen(friction, top_speed, levels.unwrap_or_default());
-    }
-    settings
-}
-
-/// What was asked for in the place of what follows from the model.
-fn asked(mut settings: Settings<f64>, options: &ExportOptions) -> Settings<f64> {
-    settings.cycle_time = options.cycle_time;
-    let safety = &options.safety;
-    for (setting, asked) in [
-        (&mut settings.limit, options.limit),
-        (&mut settings.gain, options.gain),
-        (&mut settings.ramp, safety.ramp),
-        (&mut settings.dead_zone, safety.dead_zone),
-        (&mut settings.slew, safety.slew),
-    ] {
-        *setting = asked.unwrap_or(*setting);
-    }
-    if let Some(window) = safety.window {
-        settings.watchdog = (window != 0.0).then(|| Watchdog {
-            window,
-            ..Watchdog::default()
-        });
-    }
-    settings
-}
-
-/// Why no law that can be exported follows from the numbers of a model.
-enum Unfit {
-    Law,
-    Missing(Name),
-    Value(ParamError),
-}
-
-impl From<LawError> for Unfit {
-    fn from(e: LawError) -> Self {
-        match e {
-            LawError::Missing { name, .. } => Unfit::Missing(name),
-            LawError::NotLuGre { .. } => Unfit::Law,
-            LawError::Value(e) => Unfit::Value(e),
-        }
-    }
-}
-
-/// The law as it was identified, sigma1 constant: the export caps it, and warns where that counts.
-fn friction(file: &ModelFile, cycle_time: f64) -> Result<(Friction<f64>, Vec<Lowered>), Unfit> {
-    let (mut values, mut lowered) = file.supported().ok_or(Unfit::Law)?;
-    if let Some(stiffness) = resolved(file, &mut values, cycle_time) {
-        // Of one that was lowered before, this is the lower value.
-        lowered.retain(|l| l.name != stiffness.name);
-        lowered.push(stiffness);
-    }
-    let friction = match values.law()? {
-        FrictionLaw::CoulombViscous(law) => Friction::Coulomb(law),
-        FrictionLaw::Stribeck(curve) => Friction::Stribeck(curve),
-        FrictionLaw::LuGre(law) => Friction::LuGre(law),
-        FrictionLaw::ElastoPlastic(law) => Friction::ElastoPlastic(law),
-        FrictionLaw::MaxwellSlip(law) => Friction::Gms(law),
-    };
-    Ok((friction, lowered))
-}
-
-/// A stiffness that the data leave open is no stiffer than a cycle resolves: at the Stribeck velocity the presliding length is
-/// passed in one.
-fn resolved(file: &ModelFile, values: &mut ParameterSet, cycle_time: f64) -> Option<Lowered> {
-    let from = values.get(Quantity::Sigma0)?;
-    let speed = values.on(Quantity::StribeckVelocity, Side::Positive)?;
-    let level = values.on(Quantity::Coulomb, Side::Positive)?;
-    let to = level / (speed * cycle_time);
-    let name = Name::from(Quantity::Sigma0);
-    if !(file.leaves_open(name) && to > 0.0 && to < from) {
-        return None;
-    }
-    values.insert(name, to);
-    let p = file.parameter.iter().find(|p| p.name == name.to_string())?;
-    Some(Lowered {
-        name,
-        from: p.value,
-        to,
-        unit: p.unit.clone(),
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use stiction_friction::{Damping, Shape};
-
-    /// A study and an export use the same law for the same model, whatever its Stribeck exponent; the only difference
-    /// is that sigma1 is capped where the axis is simulated.
-    #[test]
-    fn a_study_and_an_export_have_one_law() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("model.toml");
-        for (exponent, shape) in [
-            (1.0, Shape::Exponential),
-            (1.3, Shape::Power(1.3)),
-            (2.0, Shape::Gaussian),
-        ] {
-            let mut text = String::from(
-                "schema = \"stiction.model/1\"\nkind = \"linear\"\nlaw = \"lugre\"\nasymmetric = true\n\
-                 force_unit = \"N\"\ntrustworthy = true\n[source]\nversion = \"0\"\nmethod = \"separable\"\n\
-                 seed = 0\ninputs = []\n",
-            );
-            for (name, value, unit) in [
-                ("sigma0", 2e6, "N/m"),
-                ("sigma1", 1500.0, "N*s/m"),
-                ("sigma2", 30.0, "N*s/m"),
-                ("coulomb_pos", 12.0, "N"),
-                ("coulomb_neg", 13.0, "N"),
-                ("static", 18.0, "N"),
-                ("stribeck_velocity", 3e-3, "m/s"),
-                ("stribeck_exponent", exponent, "1"),
-                ("offset", -1.0, "N"),
-                ("mass", 4.6, "kg"),
-            ] {
-                text += &format!(
-                    "[[parameter]]\nname = \"{name}\"\nsymbol = \"\"\nvalue = {value:?}\nunit = \"{unit}\"\n\
-                     identifiable = true\norigin = \"identified\"\n"
-                );
-            }
-            text += "[covariance]\nnames = []\nmatrix = []\n";
-            std::fs::write(&path, &text).unwrap();
-            let file = ModelFile::read(&path).unwrap();
-            let Ok((Friction::LuGre(exported), _)) = friction(&file, 1e-3) else {
-                panic!("no law is exported");
-            };
-            assert_eq!(exported.curve().shape(), shape);
-            assert_eq!(exported.curve().negative().coulomb, 13.0);
-            assert_eq!(exported.damping(), Damping::Constant(1500.0));
-            let study = stiction_files::study::Model::read(&path).unwrap();
-            assert_eq!(study.values().lugre().unwrap(), exported);
-        }
-    }
 }

@@ -1,0 +1,155 @@
+//! What may be asked of a compensator, and what is refused: settings beyond their range, and those that a target has no use for.
+
+use super::{ExportOptions, Feedforward};
+use crate::error::Error;
+use stiction_export::Target;
+use stiction_files::ModelFile;
+use stiction_friction::compensator::{Friction, Terms};
+
+/// Longest ramp and window, and longest time in which the slew limit lets friction at standstill through, s.
+const LONGEST: f64 = 3600.0;
+
+/// Shortest ramp that is one, and shortest such time, s: below any cycle time.
+const SHORTEST: (f64, f64) = (1e-6, 1e-9);
+
+/// Refuses options that the target has no use for.
+pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
+    if options.rated_force.is_some() && options.target != Target::Tf5200 {
+        let found = format!("a rated force for the target {}", options.target.name());
+        return Err(Error::usage(found, "only tf5200 takes one"));
+    }
+    let target = options.target.name();
+    let simulated = options.target.is_simulated();
+    let numbers = options.target == Target::DriveTable;
+    if numbers && (options.limit.is_some() || options.gain.is_some()) {
+        let what = if options.limit.is_some() {
+            "limit"
+        } else {
+            "gain"
+        };
+        return Err(Error::usage(
+            format!("a {what} for the target {target}"),
+            "it has the whole friction; write a share of the numbers into the drive, and let the drive limit its torque",
+        ));
+    }
+    if options.limit.is_some() && simulated {
+        return Err(Error::usage(
+            format!("a limit for the target {target}"),
+            "the friction of a simulated joint is not limited",
+        ));
+    }
+    if options.gain.is_some() && simulated {
+        return Err(Error::usage(
+            format!("a gain for the target {target}"),
+            "the friction of a simulated joint is the whole friction",
+        ));
+    }
+    let safety = &options.safety;
+    let given = [
+        ("ramp", safety.ramp),
+        ("dead zone", safety.dead_zone),
+        ("slew", safety.slew),
+        ("window", safety.window),
+    ];
+    let none = simulated || numbers || options.target == Target::Tf5200;
+    if let Some((name, _)) = given.iter().find(|(_, value)| none && value.is_some()) {
+        return Err(Error::usage(
+            format!("a {name} for the target {target}"),
+            "it has none",
+        ));
+    }
+    let window = safety.window.filter(|window| *window != 0.0);
+    let ramp = safety.ramp.filter(|ramp| *ramp != 0.0);
+    for (name, value, least, allowed) in [
+        (
+            "window",
+            window,
+            options.cycle_time,
+            "from the cycle time to 3600 s, or 0 for no watchdog",
+        ),
+        ("ramp", ramp, SHORTEST.0, "0, or from 1e-6 to 3600 s"),
+    ] {
+        // A block that needs longer to learn, or to come in, never compensates.
+        if let Some(value) = value.filter(|value| !(*value >= least && *value <= LONGEST)) {
+            let found = format!("a {name} of {} s", stiction_number::shortest(value));
+            return Err(Error::usage(found, allowed));
+        }
+    }
+    if none && options.adapt {
+        return Err(Error::usage(
+            format!("levels that follow the machine for the target {target}"),
+            "c, cpp, ros2, st, tcpou, plcopen, rust, hal, fmu and matlab have them",
+        ));
+    }
+    if none && options.feedforward != Feedforward::default() {
+        return Err(Error::usage(
+            format!("a feedforward beside friction for the target {target}"),
+            "c, cpp, ros2, st, tcpou, plcopen, rust, hal, fmu and matlab have one",
+        ));
+    }
+    Ok(())
+}
+
+/// Refuses settings that do not go with the law: a slew limit that keeps the force from following friction, a dead zone that takes
+/// all speeds of the log, and a limit below the weight.
+pub(super) fn within(
+    options: &ExportOptions,
+    friction: &Friction<f64>,
+    terms: &Terms<f64>,
+    file: &ModelFile,
+) -> Result<(), Error> {
+    if let Some(slew) = options.safety.slew {
+        let least = friction.scale() / LONGEST;
+        let most = friction.scale() / SHORTEST.1;
+        if !(least..=most).contains(&slew) {
+            let unit = file.force_unit.replace('*', " ");
+            return Err(Error::usage(
+                format!("a slew of {} {unit}/s", stiction_number::shortest(slew)),
+                format!(
+                    "from {} {unit}/s, with which the force reaches friction at standstill within an hour, to {} {unit}/s, within a nanosecond",
+                    stiction_number::four_digits(least),
+                    stiction_number::four_digits(most)
+                ),
+            ));
+        }
+    }
+    if let (Some(zone), Some(top)) = (options.safety.dead_zone, file.top_speed())
+        && zone >= top
+    {
+        let speed = match file.kind.as_str() {
+            "rotary" => "rad/s",
+            _ => "m/s",
+        };
+        return Err(Error::usage(
+            format!("a dead zone of {} {speed}", stiction_number::shortest(zone)),
+            format!(
+                "below {} {speed}, the top speed of the log: at and above it nothing would be compensated",
+                stiction_number::four_digits(top)
+            ),
+        ));
+    }
+    if let Some(limit) = options.limit {
+        holds(limit, terms, file)?;
+    }
+    Ok(())
+}
+
+/// Refuses a limit that the weight alone exceeds: an axis that is held by less falls.
+fn holds(limit: f64, terms: &Terms<f64>, file: &ModelFile) -> Result<(), Error> {
+    let Some(weight) = terms.weight else {
+        return Ok(());
+    };
+    let wave = libm::hypot(weight.wave.sine, weight.wave.cosine);
+    let most = weight.constant.abs() + wave;
+    if limit.is_nan() || limit >= most {
+        return Ok(());
+    }
+    let unit = file.force_unit.replace('*', " ");
+    let [limit, most] = [limit, most].map(stiction_number::four_digits);
+    Err(Error::usage(
+        format!("a limit of {limit} {unit} below the weight that is fed forward"),
+        format!(
+            "above {most} {unit}, which hold the axis, with room for friction; or --feedforward without gravity"
+        ),
+    ))
+}
