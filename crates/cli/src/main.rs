@@ -1,10 +1,8 @@
 //! The `stiction` command line: arguments, progress, exit codes. All work is done by the library of the same name.
 
 mod arguments;
-mod batch;
 mod brought;
 mod commands;
-mod drift;
 mod exit;
 mod interrupt;
 mod large;
@@ -14,8 +12,7 @@ mod next;
 mod output;
 mod panics;
 mod progress;
-#[cfg(feature = "studio")]
-mod studio;
+mod refused;
 mod typed;
 mod wording;
 

@@ -1,7 +1,7 @@
 //! `stiction batch`: many logs, each identified as `stiction identify` does it.
 
+use super::{law, method};
 use crate::arguments::{self, Common};
-use crate::commands::{law, method};
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::large;

@@ -1,7 +1,7 @@
 //! `stiction drift`: what changed on which machine.
 
+use super::{put, written_to};
 use crate::arguments::{self, Common};
-use crate::commands::{put, written_to};
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;

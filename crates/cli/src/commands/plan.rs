@@ -1,0 +1,68 @@
+//! `stiction plan`: the motion to record.
+
+use super::{put, written_to};
+use crate::arguments::{self, Common};
+use crate::exit::Exit;
+use crate::interrupt;
+use crate::output;
+use crate::progress::Bar;
+use std::io::Write;
+use stiction::commands::{
+    Carrier, Known, PlanOptions, Want, check_folder_of, check_inputs, plan_motion,
+};
+use stiction::{Error, bundle};
+
+/// Designs the motion and writes it.
+pub fn run(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
+    let schema = stiction::commands::plan::SCHEMA;
+    check_folder_of(&plan.out, schema, plan.force)?;
+    let files = [Some(&plan.axis), plan.model.as_ref(), plan.log.as_ref()];
+    check_inputs(&plan.out, files.into_iter().flatten())?;
+    let model = plan.model.clone().map(Known::Model);
+    let options = PlanOptions {
+        time: plan.time,
+        probe: plan.stage == arguments::Stage::Probe,
+        asymmetric: plan.asymmetric,
+        known: model.or(plan.log.clone().map(Known::Log)),
+        seed: plan.seed,
+        wants: (plan.wants.iter())
+            .map(|text| Want::parse(text))
+            .collect::<Result<_, _>>()?,
+        carriers: plan.formats.iter().copied().map(carrier).collect(),
+        start: plan.start.clone(),
+    };
+    let mut bar = Bar::new(common.json || common.quiet);
+    let planned = plan_motion(&plan.axis, &options, &mut bar);
+    bar.finish();
+    let Some(planned) = planned? else {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(
+            std::io::stderr(),
+            "stiction: stopped before there was a motion; nothing is written"
+        );
+        return Ok(Exit::Interrupted);
+    };
+    let (dir, written) = put(&bundle::plan(&planned), &plan.out, schema)?;
+    if common.json {
+        output::json(&planned.file)?;
+    } else if !common.quiet {
+        let text = stiction::commands::text::planned(&planned, &plan.axis, &dir);
+        output::print(&format!("{text}\n{}", written_to(&dir, &written)))?;
+    }
+    match interrupt::stopped() {
+        true => Ok(Exit::Interrupted),
+        false => Ok(planned.verdict().into()),
+    }
+}
+
+fn carrier(form: arguments::Form) -> Carrier {
+    match form {
+        arguments::Form::St => Carrier::St,
+        arguments::Form::Cam => Carrier::Cam,
+        arguments::Form::Feed => Carrier::Feed,
+        arguments::Form::Csp => Carrier::Csp,
+        arguments::Form::Ros2 => Carrier::Ros2,
+        arguments::Form::Halstreamer => Carrier::Halstreamer,
+        arguments::Form::Gcode => Carrier::Gcode,
+    }
+}
