@@ -31,7 +31,7 @@ use stiction::{Error, LawKind, Method, bundle};
 /// Runs a command; every error is printed here, once.
 pub fn run(arguments: &Arguments) -> Exit {
     interrupt::listen();
-    if let Some(threads) = arguments.common.threads {
+    if let Some(threads) = arguments.common.threads.or_else(threads_of_too_many) {
         stiction::set_threads(usize::from(threads));
     }
     let common = &arguments.common;
@@ -92,6 +92,15 @@ fn is_new(file: &Path) -> Result<(), FileError> {
         return Err(FileError::output(file, reason));
     }
     Ok(())
+}
+
+/// As many threads as there are cores where the environment asks for more than `--threads` takes.
+fn threads_of_too_many() -> Option<u16> {
+    /// The most that `--threads` takes.
+    const MOST: usize = 1024;
+    let asked: usize = std::env::var("RAYON_NUM_THREADS").ok()?.parse().ok()?;
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    (asked > MOST).then(|| u16::try_from(cores.min(MOST)).unwrap_or(1))
 }
 
 /// Prints a text that is asked for itself.

@@ -34,8 +34,8 @@ const LAGS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 const MEMORIES: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 /// Least differences that say something of a lag.
 const FEWEST: usize = 12;
-/// Least variance at a lag, as a part of the largest.
-const LEAST: f64 = 1e-3;
+/// Variance at a lag, as a part of the largest, up to which it is none but for rounding.
+const NOTHING: f64 = 1e-20;
 /// Most deviations that are kept as their shape.
 const MOST_SHAPES: usize = 8192;
 
@@ -191,8 +191,9 @@ fn variances(courses: &[Vec<(f64, f64, f64)>], spacing: f64) -> Option<(f64, f64
         return Some((0.0, 0.0, spacing));
     }
     seen.iter_mut().for_each(|(_, v)| *v /= largest);
-    // A lag at which nothing differs, as in numbers that repeat, would outweigh all others.
-    seen.retain(|(_, v)| *v > LEAST);
+    // A lag at which nothing differs, as in numbers that repeat, would outweigh all others. One that differs little does so rightly:
+    // where many differ by a step between them, at long lags, it alone shows the scatter.
+    seen.retain(|(_, v)| *v > NOTHING);
     let fits = MEMORIES.map(|memory| fitted(&seen, memory * spacing));
     let best = fits.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some((largest * best.1, largest * best.2, best.3))

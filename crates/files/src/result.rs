@@ -130,6 +130,9 @@ pub struct ResolvedAxis {
     /// The axis file; absent where there is none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
+    /// Whether the logs are all that the axis file lists under `[[log]]`.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub listed: bool,
     /// Whether the axis file has `[limits]`, within which a motion can be planned.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub limits: bool,
@@ -141,8 +144,22 @@ pub struct ResolvedAxis {
     pub columns: Vec<String>,
     /// How the record was conditioned.
     pub conditioning: Vec<String>,
+    /// How long the logs are not fitted at the start and after gaps, where that is much of them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unsettled: Option<Unsettled>,
     /// Linear terms beside the friction law.
     pub terms: Vec<String>,
+}
+
+/// What of the logs is not fitted, since the force depends there on what was before.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Unsettled {
+    /// How long, s.
+    pub seconds: f64,
+    /// What part of them that is, 0 to 1.
+    pub part: f64,
+    /// How far the axis slides until it does not, m or rad.
+    pub travel: f64,
 }
 
 /// One log as it was read.

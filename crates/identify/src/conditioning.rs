@@ -208,7 +208,7 @@ pub(crate) fn condition_as(
     }
     if conditioning.min_speed > 0.0 {
         notes.push(format!(
-            "only samples faster than {} (SI) count",
+            "only samples faster than {} m/s or rad/s count",
             full(conditioning.min_speed)
         ));
     }
@@ -244,9 +244,8 @@ pub(crate) fn condition_as(
     losses.unsettled = settling::settle(&mut segments, decimate, conditioning.settling);
     if losses.unsettled > 0 {
         notes.push(format!(
-            "{} samples not fitted at the start and after gaps: until the axis has slid {} (SI), the force depends on what was \
-             before",
-            losses.unsettled,
+            "{} s not fitted at the start and after gaps: until the axis has slid {} m or rad, the force depends on what was before",
+            cutoff((losses.unsettled * decimate) as f64 * step),
             cutoff(conditioning.settling)
         ));
     }

@@ -1,8 +1,8 @@
 //! What a reader should know of a log before its results: units that were assumed, and what the fit did not see.
 
 use stiction_codes::Code;
-use stiction_files::result::{ExcludedEntry, Input};
-use stiction_number::{counted, four_digits as short, unit};
+use stiction_files::result::{ExcludedEntry, Input, ResolvedAxis};
+use stiction_number::{Percent, counted, four_digits as short, unit};
 
 /// Most stretches that are named one by one.
 const MOST_NAMED: usize = 4;
@@ -44,6 +44,22 @@ pub(crate) fn left_out(input: &Input) -> Option<String> {
         "not fitted: {}{more}, where the axis stands still [{}]; to fit them: rests = \"keep\" under [log] in the axis file",
         stretches.join(", "),
         first.code
+    ))
+}
+
+/// How long logs are not fitted at their start and after gaps; nothing where that is little.
+pub(crate) fn unsettled(axis: &ResolvedAxis) -> Option<String> {
+    let left_out = axis.unsettled.as_ref()?;
+    let length = match axis.kind.as_str() {
+        "rotary" => "rad",
+        _ => "m",
+    };
+    Some(format!(
+        "not fitted: {} s, {} of the logs, at the start and after gaps: until the axis has slid {} {length} the force depends on what was \
+         before; a log that begins with a stroke of that loses little",
+        short(left_out.seconds),
+        Percent::error(100.0 * left_out.part).digits(2),
+        short(left_out.travel)
     ))
 }
 

@@ -74,7 +74,6 @@ fn tried(result: &ResultFile, dir: &Path) -> Option<Cured> {
     };
     let mine = error(&result.law, result.asymmetric)?;
     let least = error(&better.law, better.asymmetric)?;
-    let logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
     let (own, other) = (&result.law, &better.law);
     Some(Cured {
         what: format!(
@@ -84,7 +83,7 @@ fn tried(result: &ResultFile, dir: &Path) -> Option<Cured> {
              See what the log shows of that"
         ),
         line: None,
-        command: format!("stiction check {}{}", logs.join(" "), axis_option(result)),
+        command: format!("stiction check{}{}", logs(result), axis_option(result)),
     })
 }
 
@@ -92,8 +91,7 @@ fn tried(result: &ResultFile, dir: &Path) -> Option<Cured> {
 fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
     let cause = result.trust.cause.as_ref()?;
     let dir: &Path = &dir.components().collect::<PathBuf>();
-    let logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
-    let logs = logs.join(" ");
+    let logs = logs(result);
     let out = |suffix: &str| quoted(&format!("{}-{suffix}", text(dir)));
     Some(match cause.cure.as_ref()? {
         Cure::Law { law } => {
@@ -106,7 +104,7 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
             Cured {
                 what: format!("{}; try the law {law}", cause.text),
                 line: None,
-                command: format!("stiction identify {logs}{axis} --law {law}{sides} --out {out}"),
+                command: format!("stiction identify{logs}{axis} --law {law}{sides} --out {out}"),
             }
         }
         Cure::Line {
@@ -136,7 +134,7 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                     aim(table, cause.code)
                 ),
                 line: Some(line.clone()),
-                command: format!("stiction identify {logs} --axis {file}{law} --out {out}"),
+                command: format!("stiction identify{logs} --axis {file}{law} --out {out}"),
             }
         }
     })
@@ -156,8 +154,7 @@ fn aim(table: &str, cause: Code) -> &'static str {
 fn better(result: &ResultFile, dir: &Path) -> Option<Cured> {
     let better = result.trust.better.as_ref()?;
     let dir: &Path = &dir.components().collect::<PathBuf>();
-    let logs: Vec<String> = result.inputs.iter().map(|i| quoted(&i.path)).collect();
-    let (logs, axis) = (logs.join(" "), axis_option(result));
+    let (logs, axis) = (logs(result), axis_option(result));
     let law = &better.law;
     let (option, suffix) = match better.asymmetric {
         true => (" --asymmetric", "-asymmetric"),
@@ -167,8 +164,19 @@ fn better(result: &ResultFile, dir: &Path) -> Option<Cured> {
     Some(Cured {
         what: format!("the law {law} holds better on held-out samples"),
         line: None,
-        command: format!("stiction identify {logs}{axis} --law {law}{option} --out {out}"),
+        command: format!("stiction identify{logs}{axis} --law {law}{option} --out {out}"),
     })
+}
+
+/// The logs as arguments; none where they are those that the axis file lists, with what it says of their parts.
+fn logs(result: &ResultFile) -> String {
+    match result.axis.listed {
+        true => String::new(),
+        false => {
+            let typed = |path: &str| format!(" {}", quoted(path));
+            result.inputs.iter().map(|i| typed(&i.path)).collect()
+        }
+    }
 }
 
 /// The axis file as an option, where there is one.
@@ -193,19 +201,16 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
     let folder = quoted_path(dir);
     let another = |suffix: &str| quoted(&format!("{}-{suffix}", text(dir)));
     let next = result.trust.next;
-    let logs: Vec<String> = match next {
+    let typed = |path: &String| format!(" {}", quoted(path));
+    let mut log: String = match next {
         Next::IdentifyTheOther | Next::CheckTheOther => {
-            result.trust.other.iter().map(|path| quoted(path)).collect()
+            result.trust.other.iter().map(typed).collect()
         }
-        Next::FirstLog => result
-            .inputs
-            .iter()
-            .take(1)
-            .map(|i| quoted(&i.path))
+        Next::FirstLog => (result.inputs.iter().take(1))
+            .map(|i| typed(&i.path))
             .collect(),
-        _ => result.inputs.iter().map(|i| quoted(&i.path)).collect(),
+        _ => logs(result),
     };
-    let mut log = logs.join(" ");
     log.push_str(&axis_option(result));
     match next {
         Next::Export => {
@@ -215,29 +220,29 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             format!("stiction export {model} --target c{cycle} --out {code}")
         }
         Next::AnotherLaw => better(result, dir).map_or_else(
-            || format!("stiction identify {log} --out {}", another("auto")),
+            || format!("stiction identify{log} --out {}", another("auto")),
             |better| better.command,
         ),
-        Next::LetTheDataChoose => format!("stiction identify {log} --out {}", another("auto")),
-        Next::IdentifyTheOther => format!("stiction identify {log} --out {}", another("other")),
-        Next::FirstLog => format!("stiction identify {log} --out {}", another("first")),
+        Next::LetTheDataChoose => format!("stiction identify{log} --out {}", another("auto")),
+        Next::IdentifyTheOther => format!("stiction identify{log} --out {}", another("other")),
+        Next::FirstLog => format!("stiction identify{log} --out {}", another("first")),
         Next::Simulate => format!(
-            "stiction identify {log} --method output-error --out {}",
+            "stiction identify{log} --method output-error --out {}",
             another("simulated")
         ),
         Next::AxisFile => match &result.axis.file {
-            Some(_) => format!("stiction identify {log} --out {}", another("corrected")),
+            Some(_) => format!("stiction identify{log} --out {}", another("corrected")),
             None => format!(
-                "stiction check {log} --init {}",
+                "stiction check{log} --init {}",
                 new_axis_file(Path::new(&result.inputs[0].path))
             ),
         },
-        Next::Check | Next::CheckTheOther => format!("stiction check {log}"),
+        Next::Check | Next::CheckTheOther => format!("stiction check{log}"),
         Next::Record => {
             if result.method == "presliding-step" {
                 let out = another("again");
                 return format!(
-                    "stiction identify {log} --method presliding-step --static {ANOTHER_LOG} --out {out}"
+                    "stiction identify{log} --method presliding-step --static {ANOTHER_LOG} --out {out}"
                 );
             }
             format!(
@@ -252,7 +257,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
                 "separable" => String::new(),
                 other => format!(" --method {other}"),
             };
-            format!("stiction identify {log}{law}{method} --out {folder}")
+            format!("stiction identify{log}{law}{method} --out {folder}")
         }
     }
 }
@@ -272,7 +277,7 @@ pub(crate) fn planned(result: &ResultFile, dir: &Path) -> Option<String> {
     }
     let known = match result.inputs.as_slice() {
         [log] => format!(" --log {}", quoted(&log.path)),
-        _ => String::new(),
+        _ => format!(" --model {}", quoted_path(&dir.join("model.toml"))),
     };
     let dir: &Path = &dir.components().collect::<PathBuf>();
     let out = quoted(&format!("{}-plan", text(dir)));

@@ -57,6 +57,9 @@ pub fn outcome(outcome: &Outcome) -> String {
             let _ = left_out.map(|text| writeln!(out, "{text}"));
         }
     }
+    if let Some(text) = inputs::unsettled(&result.axis) {
+        let _ = writeln!(out, "{text}");
+    }
     let _ = writeln!(
         out,
         "\n{}{}",
@@ -225,10 +228,14 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
             "1" => "%".to_string(),
             _ => unit(force).to_string(),
         };
+        let how = match force {
+            "V" => ", or for the voltage of a motor with [drive] (docs/axis.md#drive)",
+            _ => "",
+        };
         let _ = writeln!(
             out,
             "no study to simulate, since the force is in {per}: with a scale of its column, such as \"2.5 {wanted}/{per}\" in \
-             the axis file, identify writes one"
+             the axis file{how}, identify writes one"
         );
     }
     let (why, command) = (next::why(result.trust.next), next::command(result, dir));

@@ -82,6 +82,8 @@ pub enum Lead {
     Simulate,
     /// `stiction identify` of all logs that the axis file lists: of this one it fits nothing.
     Listed,
+    /// `stiction identify` of all logs that the axis file lists, this one among them.
+    Together,
     /// The axis file fits nothing of any log that it lists.
     Unfitted,
     /// The axis file needs a line that is named.
@@ -143,6 +145,7 @@ pub fn check(
         None => Axis::default(),
     };
     let listed: Vec<PathBuf> = read.logs.iter().map(|log| log.file.clone()).collect();
+    let all_listed = logs.is_empty() && listed.len() > 1;
     let logs = if logs.is_empty() { &listed } else { logs };
     if logs.is_empty() {
         return Err(Error::usage(
@@ -166,11 +169,14 @@ pub fn check(
         }
         let never_fitted = source.never_fitted;
         let mut found = one(source, &read, observer)?;
-        if never_fitted && matches!(found.next, Lead::Identify | Lead::Simulate) {
+        let goes_on = matches!(found.next, Lead::Identify | Lead::Simulate);
+        if never_fitted && goes_on {
             found.next = match any_fitted {
                 true => Lead::Listed,
                 false => Lead::Unfitted,
             };
+        } else if all_listed && found.next == Lead::Identify {
+            found.next = Lead::Together;
         }
         out.push(found);
     }

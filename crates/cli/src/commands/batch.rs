@@ -40,7 +40,19 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
         let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
     }
     let left = has_runs(dir);
-    let journal = batch.keep(dir, typed.resume)?;
+    let (journal, gone) = batch.keep(dir, typed.resume)?;
+    if gone > 0 {
+        let (count, are) = match gone {
+            1 => ("1 log".to_string(), "is"),
+            many => (format!("{many} logs"), "are"),
+        };
+        let said = format!(
+            "{count} of the table in {} {are} none of this batch, and will not be in its table any more",
+            dir.display()
+        );
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
+    }
     let said = match (typed.resume, left, journal.len()) {
         (true, _, 0) => Some(format!(
             "{} holds nothing of an earlier call: every log is identified",
@@ -93,8 +105,8 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
     Ok(stiction::commands::verdict::of_batch(&file).into())
 }
 
-/// The same batch of the logs of a folder that end otherwise than one that is none, where those have one ending and not all of them
-/// failed.
+/// The same batch of the logs of a folder that end otherwise than one that is none, where it alone ends so, the others have one
+/// ending and not all of them failed.
 fn without(
     none: &Path,
     inputs: &[PathBuf],
@@ -102,10 +114,16 @@ fn without(
     failed: &dyn Fn(&Path) -> bool,
 ) -> Option<String> {
     let [folder] = inputs else { return None };
+    if path_text(folder).contains(['*', '?', '[']) {
+        return None;
+    }
     let others = || {
         logs.iter()
             .filter(|log| log.extension() != none.extension())
     };
+    if others().count() + 1 < logs.len() {
+        return None;
+    }
     let ending = others().next()?.extension()?.to_str()?;
     let is_plain =
         |log: &&Path| log.parent() == Some(folder) && log.extension() == Some(ending.as_ref());

@@ -408,15 +408,114 @@ fn a_folder_of_several_kinds_leads_to_a_list() {
         "path,axis\nlogs/drive.csv,AXIS.toml\n",
     )
     .unwrap();
-    let proposed = out
-        .lines()
-        .find_map(|line| line.trim().strip_prefix("stiction batch logs.csv "));
-    let proposed = format!("batch logs.csv {}", proposed.unwrap());
+    let proposed = out.lines().find(|line| line.contains(" logs.csv "));
+    let proposed = proposed.unwrap().trim().strip_prefix("stiction ").unwrap();
     let (_, out, err) = bench.run(&proposed.split(' ').collect::<Vec<_>>());
     assert_eq!(err, "");
     assert!(
-        out.starts_with("5 logs, 4 of them taken from an earlier call\n"),
+        out.starts_with(
+            "5 logs, 4 of them taken from an earlier call, 1 of them a copy of another\n"
+        ),
         "{out}"
     );
     assert!(!out.contains("failed     1"), "{out}");
+}
+
+/// A list names logs, each of which may be in another list or a folder too: what one leaves open another may say.
+#[test]
+fn lists_say_together_what_is_known_of_a_log() {
+    let bench = Bench::new(2, false);
+    fs::write(bench.path("AXIS.toml"), "name = \"A\"\n").unwrap();
+    let list = "path,machine,time\nlogs/run1.csv,M1,2026-01-02\nlogs/run0.csv,M1,2026-01-01\n";
+    fs::write(bench.path("list.csv"), list).unwrap();
+    fs::write(
+        bench.path("axes.csv"),
+        "path,axis\nlogs/run0.csv,AXIS.toml\n",
+    )
+    .unwrap();
+    let typed = [
+        "batch",
+        "list.csv",
+        "axes.csv",
+        "--law",
+        "coulomb-viscous",
+        "--out",
+        "out",
+    ];
+    let (_, _, err) = bench.run(&typed);
+    assert_eq!(err, "");
+    let rows = bench.rows("out");
+    let said: Vec<_> = rows
+        .iter()
+        .map(|r| {
+            (
+                r.path.as_str(),
+                r.machine.as_deref(),
+                r.time.is_some(),
+                r.axis.is_some(),
+            )
+        })
+        .collect();
+    assert_eq!(
+        said,
+        [
+            ("logs/run1.csv", Some("M1"), true, false),
+            ("logs/run0.csv", Some("M1"), true, true),
+        ]
+    );
+    // A list is no log of a list, and a table that is there stays.
+    fs::write(bench.path("self.csv"), "path,machine\nself.csv,M\n").unwrap();
+    let (code, _, err) = bench.run(&["batch", "self.csv", "--out", "out"]);
+    assert_eq!(code, 2);
+    assert!(
+        err.contains("self.csv lists self.csv, which is a list itself"),
+        "{err}"
+    );
+    assert_eq!(bench.rows("out").len(), 2);
+    // Logs that a later call has not are told.
+    let (_, _, err) = bench.run(&[
+        "batch",
+        "axes.csv",
+        "--law",
+        "coulomb-viscous",
+        "--out",
+        "out",
+        "--resume",
+    ]);
+    assert!(
+        err.contains("1 log of the table in out is none of this batch"),
+        "{err}"
+    );
+}
+
+/// An axis file that changes while logs are identified mixes no two of them.
+#[test]
+fn an_axis_file_that_changes_is_a_row() {
+    let bench = Bench::new(6, false);
+    let axis =
+        |scale: u32| format!("[columns]\nforce = {{ column = \"Force\", scale = \"{scale}\" }}\n");
+    fs::write(bench.path("axis.toml"), axis(1)).unwrap();
+    let mut command = bench.command(&batch("out", &["--axis", "axis.toml", "--threads", "1"]));
+    let mut running = command
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let begun = Instant::now();
+    while !bench.path("out/batch.json").exists() && begun.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    fs::write(bench.path("axis.toml"), axis(2)).unwrap();
+    running.wait().unwrap();
+    for row in bench.rows("out") {
+        match row.error {
+            Some(code) => assert_eq!(code, Code::LogIo, "{:?}", row.message),
+            None => {
+                let coulomb = row.parameters.iter().find(|p| p.name == "coulomb").unwrap();
+                let own: f64 = row.path[8..9].parse().unwrap();
+                let found = coulomb.value.unwrap() / (20.0 + own);
+                assert!((found - 1.0).abs() < 0.1, "{}: {found}", row.path);
+            }
+        }
+    }
 }

@@ -161,3 +161,32 @@ fn a_constant_number_has_not_changed() {
     let limits = Limits::of(&noise, 1, &Settings::default());
     assert!(judge(&course, &noise, &limits).unwrap().changes.is_empty());
 }
+
+/// On one machine alone, whose logs hardly scatter, a step is none of the scatter that it is held against.
+#[test]
+fn a_step_of_a_quiet_machine_is_found_however_large() {
+    for machines in [1, 2, 6] {
+        for size in [0.05, 0.2, 0.5, 1.0] {
+            let mut dice = Dice::new(7);
+            let mut course = |_| {
+                let mut point = |k: u32| {
+                    let level = if k < 30 { 20.0 } else { 20.0 * (1.0 + size) };
+                    Point {
+                        time: DAY * f64::from(k),
+                        value: level * (1.0 + 3e-3 * dice.normal()),
+                        std: 3e-3 * level,
+                        temperature: None,
+                    }
+                };
+                (0..60).map(&mut point).collect()
+            };
+            let courses: Vec<Vec<Point>> = (0..machines).map(&mut course).collect();
+            for changes in found(&courses) {
+                let told = changes
+                    .iter()
+                    .any(|(_, since, kind)| since.abs_diff(30) <= 2 && *kind == Kind::Step);
+                assert!(told, "{machines} machines, {size}: {changes:?}");
+            }
+        }
+    }
+}

@@ -27,6 +27,7 @@ pub fn extend(text: &str, additions: &[Addition]) -> (String, Vec<String>) {
         let line = format!("{} = {}", addition.names[0], addition.value);
         let place = match addition.table {
             "" => String::new(),
+            table if is_list(&out, table) => format!(" under [[{table}]] of the log"),
             table => format!(" under [{table}]"),
         };
         let has = given(&out, addition);
@@ -48,6 +49,12 @@ pub fn extend(text: &str, additions: &[Addition]) -> (String, Vec<String>) {
         }
     }
     (out, changes)
+}
+
+/// Whether the file has a list of such tables.
+fn is_list(text: &str, table: &str) -> bool {
+    let root = text.parse::<toml::Table>();
+    root.is_ok_and(|root| root.get(table).is_some_and(toml::Value::is_array))
 }
 
 /// Whether the file gives a key.

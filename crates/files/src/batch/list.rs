@@ -23,6 +23,16 @@ pub struct Listed {
     pub axis: Option<PathBuf>,
 }
 
+impl Listed {
+    /// Takes what another mention of the same log says and this one leaves open.
+    pub fn take(&mut self, other: Listed) {
+        self.machine = self.machine.take().or(other.machine);
+        self.time = self.time.or(other.time);
+        self.temperature = self.temperature.or(other.temperature);
+        self.axis = self.axis.take().or(other.axis);
+    }
+}
+
 /// The columns that a list may have.
 const COLUMNS: [&str; 5] = ["path", "machine", "time", "temperature", "axis"];
 /// Longest first line that is looked at, bytes.
@@ -30,8 +40,8 @@ const LONGEST_HEADER: u64 = 1 << 16;
 /// Largest list, bytes: some million logs.
 const LARGEST: u64 = 1 << 30;
 
-/// Whether a file is a list of logs, rather than a log: text whose first line has a cell `path`, or nothing but other columns of a
-/// list, which is refused for what is missing.
+/// Whether a file is a list of logs, rather than a log: text whose first line has a cell `path` and mostly columns of a list, or
+/// nothing but other columns of one, which is refused for what is missing.
 pub fn is_list(file: &Path) -> bool {
     if !stiction_log::is_regular(file) {
         return false;
@@ -43,8 +53,10 @@ pub fn is_list(file: &Path) -> bool {
     let read = BufReader::new(opened.take(LONGEST_HEADER)).read_line(&mut line);
     let cells = || line.trim_start_matches('\u{feff}').split([',', ';', '\t']);
     let any = |name: &str| cells().any(|cell| named(cell, name));
-    let only = || cells().all(|cell| COLUMNS.iter().any(|name| named(cell, name)));
-    read.is_ok() && (any("path") || (any("machine") || any("axis")) && only())
+    let known = |cell: &&str| COLUMNS.iter().any(|name| named(cell, name));
+    let only = || cells().all(|cell| known(&cell));
+    let mostly = || 2 * cells().filter(known).count() >= cells().count();
+    read.is_ok() && (any("path") && mostly() || (any("machine") || any("axis")) && only())
 }
 
 fn named(cell: &str, name: &str) -> bool {

@@ -1,7 +1,7 @@
 //! `batch.json`: what a batch was, and how it ended. Schema `stiction.batch/1`, only ever extended.
 
 use super::apart::Apart;
-use crate::shell::{quoted, quoted_path};
+use crate::shell::{free_folder, quoted, quoted_path};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -61,20 +61,14 @@ impl BatchFile {
         format!("{command}{settings} --out {} --resume", quoted_path(dir))
     }
 
-    /// The same with a list before the inputs: what it says of a log goes before what a folder has.
-    pub fn command_listed(&self, dir: &Path, list: &str) -> String {
-        let own = std::iter::once(list.to_string());
-        let listed = Self {
-            inputs: own.chain(self.inputs.iter().cloned()).collect(),
-            ..self.clone()
-        };
-        listed.command(dir)
-    }
-
-    /// The command that identifies one of the logs by itself, as it was here.
+    /// The command that identifies one of the logs by itself, as it was here, into a folder that is free.
     pub fn single(&self, log: &Named) -> String {
         let settings = self.settings(|name| !["axis", "reports"].contains(&name));
-        format!("stiction identify {}{settings}", log.arguments())
+        let out = quoted_path(&free_folder(Path::new("result")));
+        format!(
+            "stiction identify {}{settings} --out {out}",
+            log.arguments()
+        )
     }
 
     /// The options that are not the defaults, as they are typed.

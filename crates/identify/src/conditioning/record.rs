@@ -180,6 +180,14 @@ impl Record {
         self.segments.iter().map(|s| s.keep.len()).sum()
     }
 
+    /// How long the logs are not fitted since the force depends on what was before them, at the start and after gaps, s, and the part
+    /// of them that this is; `None` where they are fitted from the first sample on.
+    pub fn unsettled(&self) -> Option<(f64, f64)> {
+        let (lost, all) = (self.losses.unsettled, self.len());
+        let sample = self.losses.decimate.max(1) as f64 * self.step();
+        (lost > 0).then(|| (lost as f64 * sample, lost as f64 / all as f64))
+    }
+
     /// Why samples do not count, with their numbers.
     pub(crate) fn losses(&self) -> Losses {
         let mut losses = self.losses.clone();

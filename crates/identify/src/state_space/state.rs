@@ -110,8 +110,7 @@ pub(super) fn doubt(estimate: &mut Estimate, found: &Likely) {
         if !(low..=high).contains(&other) {
             parameter.identifiable = false;
             parameter.reason = format!(
-                "the axis rests in much of this log, where counts of the encoder say {}, which is not believed: {}",
-                stiction_number::four_digits(other),
+                "the axis rests in much of this log, where the counts of the encoder contradict this value and are not believed either: {}",
                 found.against
             );
         }

@@ -38,15 +38,23 @@ impl Coarse {
         if steps < FEWEST || !(last - first).is_finite() {
             return None;
         }
-        let step = (last - first) / steps as f64;
+        // The stamps at the ends may have a part of their rows: between the first and the last change none has.
+        let from = time.iter().position(|t| *t != first)?;
+        let to = time.iter().rposition(|t| *t != last)? + 1;
+        let (rows, lasted) = (to.checked_sub(from)?, time[to] - time[from]);
+        let step = lasted / rows as f64;
         let tick = tick(time, step)?;
-        let near =
-            |(k, t): (usize, &f64)| (t - first - k as f64 * step).abs() <= tick * (1.0 + SAME);
+        let at = |k: usize| time[from] + (k as f64 - from as f64) * step;
+        let near = |(k, t): (usize, &f64)| (t - at(k)).abs() <= tick * (1.0 + SAME);
         if !time.iter().enumerate().all(near) || !alike_often(time, tick / step) {
             return None;
         }
-        let of = |seconds: f64| steps as f64 / seconds;
-        let rate_hz = roundest(of(last - first + tick), of(last - first - tick));
+        // Each end is known to a tick, and each change to a row.
+        let of_all = |seconds: f64| steps as f64 / seconds;
+        let of_changes = |rows: f64| rows / lasted;
+        let least = of_all(last - first + tick).max(of_changes(rows as f64 - 1.0));
+        let most = of_all(last - first - tick).min(of_changes(rows as f64 + 1.0));
+        let rate_hz = roundest(least, most);
         Some(Self { tick, rate_hz })
     }
 
@@ -161,6 +169,23 @@ mod tests {
         let found = Coarse::of(&stamps(700.0, 1e-3, 20_000)).unwrap();
         assert_eq!(found.rate_hz, 700.0);
         assert!((found.tick - 1e-3).abs() < 1e-9);
+    }
+
+    #[test]
+    fn whole_seconds_have_their_rate_whatever_part_of_the_last_there_is() {
+        for (rate, count) in [
+            (500.0, 18_602),
+            (1000.0, 24_040),
+            (250.0, 5990),
+            (997.0, 30_100),
+        ] {
+            let mut late = stamps(rate, 1.0, count + 70);
+            late.drain(..70);
+            for stamps in [stamps(rate, 1.0, count), late] {
+                let found = Coarse::of(&stamps).map(|clock| clock.rate_hz);
+                assert_eq!(found, Some(rate), "{count} rows");
+            }
+        }
     }
 
     #[test]

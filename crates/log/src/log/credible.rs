@@ -57,9 +57,9 @@ pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> 
             return;
         }
         let message = format!(
-            "{says}; machines have {:e} to {:e} {unit}: the unit of column {} ({}) is probably wrong; another one is given in axis.toml under [columns], as in: {}",
-            range.start(),
-            range.end(),
+            "{says}; machines have {} to {} {unit}: the unit of column {} ({}) is probably wrong; another one is given in axis.toml under [columns], as in: {}",
+            short(*range.start()),
+            short(*range.end()),
             source.place(table),
             source.unit,
             source.line(table, role, value < *range.start()),

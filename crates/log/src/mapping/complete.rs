@@ -520,6 +520,14 @@ fn judge(
              for the lead or radius is missing, or the kind is wrong"
         );
         Finding::new(Code::ForceUnit, Severity::Warning, message)
+    } else if source.dimension == Dimension::VOLTAGE {
+        let message = format!(
+            "the force is a voltage. As the command of a drive in torque mode it needs a scale in {wanted}/{}; at the terminals of a \
+             motor it is no force: back-EMF and resistance would pass for viscous friction, and the motor belongs under [drive] of the \
+             axis file, with force_constant, resistance and the speed: docs/axis.md#drive",
+            unit.text()
+        );
+        Finding::new(Code::ForceNotCalibrated, Severity::Warning, message)
     } else {
         let message = format!(
             "the force is in {is}; parameters come out in {is} too, unless a scale in {} is given{}",
@@ -528,7 +536,6 @@ fn judge(
                 _ => format!("{wanted}/{}", unit.text()),
             },
             match source.dimension {
-                Dimension::VOLTAGE => ", or the motor under [drive]: docs/axis.md#drive".into(),
                 Dimension::ONE => format!(
                     ": of a part of a rated value the scale is that value, scale = \"RATED {wanted}\" (of CiA 402 object 6076h, or the \
                      nameplate); of a duty it is the motor under [drive]: docs/axis.md#drive"

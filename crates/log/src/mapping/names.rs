@@ -352,8 +352,23 @@ pub(super) fn says_enabled(name: &str) -> bool {
     says && !has(&["not", "no", "un", "off", "keine"])
 }
 
+/// What is so while a column is 1 by its name, and is no motion to fit: a brake that holds, a search for the origin, a fault.
+pub(super) fn says_disturbed(name: &str) -> Option<&'static str> {
+    let words = words(name);
+    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
+    if says_braked(name) {
+        Some("a brake holds the axis")
+    } else if has(&["homing", "referencing", "referenzfahrt"]) {
+        Some("the axis looks for its origin")
+    } else if has(&["fault", "error", "alarm", "estop", "fehler", "störung"]) {
+        Some("the drive has a fault")
+    } else {
+        None
+    }
+}
+
 /// Whether a name speaks of a brake that holds, and not of one that is released.
-pub(super) fn says_braked(name: &str) -> bool {
+fn says_braked(name: &str) -> bool {
     const RELEASED: &[&str] = &[
         "open",
         "opened",
@@ -410,14 +425,21 @@ pub(super) fn speaks_of_counts(name: &str) -> bool {
     words(name).iter().any(|w| COUNTS.contains(&w.as_str()))
 }
 
-/// Whether a name has the number of the actual position of CiA 402 (object 6064h), in counts unless a drive scales it.
+/// Whether a name has the number or the name of the actual position of CiA 402 (object 6064h, "Position actual value"), in counts
+/// unless a drive scales it.
 pub(super) fn says_position_object(name: &str) -> bool {
-    name.contains("6064")
+    name.contains("6064") || is_actual_value(name, "position")
 }
 
-/// Whether a name has the number of the actual torque of CiA 402 (object 6077h), in thousandths of the rated one.
+/// Whether a name has the number or the name of the actual torque of CiA 402 (object 6077h, "Torque actual value"), in thousandths
+/// of the rated one.
 pub(super) fn says_torque_object(name: &str) -> bool {
-    name.contains("6077")
+    name.contains("6077") || is_actual_value(name, "torque")
+}
+
+/// Whether a name ends as those of objects of CiA 402 do: the quantity, then "actual value".
+fn is_actual_value(name: &str, quantity: &str) -> bool {
+    words(name).ends_with(&[quantity, "actual", "value"].map(String::from))
 }
 
 /// Whether a name speaks of an encoder.

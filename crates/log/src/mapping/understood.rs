@@ -89,13 +89,13 @@ fn used(table: &Table, given: &Mapping, part: &Part) -> Understood {
 
 /// A flag, and how rows where it is 0 are left out where there are such.
 fn flag(table: &Table, column: usize) -> String {
-    let is_braked = names::says_braked(&table.columns[column].name);
-    let how = match (has_zeros(table, column), is_braked) {
-        (true, true) => format!(
-            "; if a brake holds the axis where it is 1, leave out those rows: {} under [columns]",
+    let disturbed = names::says_disturbed(&table.columns[column].name);
+    let how = match (has_zeros(table, column), disturbed) {
+        (true, Some(what)) => format!(
+            "; if {what} where it is 1, leave out those rows: {} under [columns]",
             Enable::line(table, column, "0")
         ),
-        (true, false) => format!(
+        (true, None) => format!(
             "; if the axis is enabled where it is 1, leave out the others: {} under [columns]",
             Enable::whole_line(table, column)
         ),

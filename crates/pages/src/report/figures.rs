@@ -1,5 +1,6 @@
 //! The figures of the report.
 
+use std::ops::Range;
 use stiction_files::symbols;
 use stiction_identify::{Between, Coupling, Divided, Series};
 use stiction_parameters::SteadyCurve;
@@ -162,6 +163,7 @@ pub(super) fn low_speed(outcome: &Outcome) -> Option<Figure> {
     if near.iter().filter(|&&n| n).count() < FEWEST_SAMPLES_DRAWN {
         return None;
     }
+    let holes = breaks(series);
     // A gap breaks the line, so that two passes are not joined.
     let pick = |x: &[f64]| -> Vec<f64> {
         x.iter()
@@ -183,13 +185,21 @@ pub(super) fn low_speed(outcome: &Outcome) -> Option<Figure> {
     )
     .layer(
         Layer::line(
-            pick(&series.velocity),
-            pick(&friction(&series.model, series)),
+            broken(&pick(&series.velocity), &holes),
+            broken(&pick(&friction(&series.model, series)), &holes),
         )
         .color(Color::Blue)
         .label("Model"),
     );
     Some(Figure::new("Near zero speed").panel(panel).half())
+}
+
+/// What of a window around a sample goes on without a hole.
+fn within(breaks: &[bool], at: usize, window: Range<usize>) -> Range<usize> {
+    let before = (window.start..=at.min(window.end)).rev();
+    let start = before.into_iter().find(|i| breaks.get(*i) == Some(&true));
+    let end = (at + 1..window.end).find(|i| breaks.get(*i) == Some(&true));
+    start.unwrap_or(window.start)..end.unwrap_or(window.end)
 }
 
 /// Friction over position around the reversal where most is recorded.
@@ -198,6 +208,7 @@ pub(super) fn presliding(outcome: &Outcome) -> Option<Figure> {
     let length = symbols::length_unit(outcome.motion);
     let way = presliding_length(&outcome.law().values()).unwrap_or(0.0);
     let (turn, window) = slowest_turn(&series.velocity, &series.position, way)?;
+    let window = within(&breaks(series), turn, window);
     if window.len() < FEWEST_SAMPLES_DRAWN || !outcome.law().law.kind.has_bristle() {
         return None;
     }

@@ -16,6 +16,23 @@ const COLUMNS: [Code; 3] = [Code::LogAmbiguous, Code::LogMissing, Code::LogUnit]
 /// Name of the list of logs that is proposed.
 const LIST: &str = "logs.csv";
 
+/// A cell of a list.
+fn cell(text: &str) -> String {
+    match text.contains([',', ';', '"', '\t']) {
+        true => format!("\"{}\"", text.replace('"', "\"\"")),
+        false => text.into(),
+    }
+}
+
+/// A name that no file has: this one, else with a number.
+fn free_file(name: &str) -> String {
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
+    let numbered = (2..1000).map(|number| format!("{stem}-{number}.{ending}"));
+    let mut names = std::iter::once(name.to_string()).chain(numbered);
+    let is_free = |name: &String| Path::new(name).symlink_metadata().is_err();
+    names.find(is_free).unwrap_or_else(|| name.into())
+}
+
 /// What became of the logs, and what to do next.
 pub fn batch(file: &BatchFile, dir: &Path) -> String {
     let mut out = String::new();
@@ -78,12 +95,14 @@ pub fn batch(file: &BatchFile, dir: &Path) -> String {
     let of_columns = |failure: &&Failure| COLUMNS.contains(&failure.code);
     if let Some(failure) = file.failed.iter().find(of_columns)
         && file.logs > 1
+        && !failure.log.path.contains(char::is_control)
     {
-        let list = format!("path,axis\n  {},AXIS.toml", failure.log.path);
+        let list = free_file(LIST);
         let _ = writeln!(
             out,
-            "next, where logs need axis files of their own: write them into {LIST}, a line for each such log\n  {list}\n  {}",
-            file.command_listed(dir, LIST)
+            "next, where logs need axis files of their own: write them into {list}, a line for each such log\n  path,axis\n  {},AXIS.toml\n  {}",
+            cell(&failure.log.path),
+            file.command_with(dir, Some(&list))
         );
     }
     if let Some(log) = &file.doubted {

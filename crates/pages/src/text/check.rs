@@ -348,6 +348,9 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
     }
     let last = match log.next {
         Lead::Identify => format!("next: stiction identify {path}{with} --out result"),
+        Lead::Together => {
+            format!("next, with all logs that are listed: stiction identify{with} --out result")
+        }
         Lead::Listed => format!(
             "next, with the logs that are fitted: this one is validated on (validate = \"all\"): stiction identify{with} --out result"
         ),

@@ -73,20 +73,25 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
 fn next(planned: &Planned, axis: &Path, written: &Path) -> String {
     let typed = quoted_path;
     let axis = typed(axis);
+    let first = match &planned.options.known {
+        Some(Known::Log(log)) => format!("{} ", typed(log)),
+        _ => String::new(),
+    };
+    // What the motion is recorded as, another file than the one that is there.
+    let log = match first.trim() {
+        "LOG.csv" => "LOG2.csv",
+        _ => "LOG.csv",
+    };
     let [sides, law] = sides(&planned.file);
     if planned.options.probe {
         let out = quoted(&format!(
             "{}-2",
             text(&written.components().collect::<PathBuf>())
         ));
-        return format!("stiction plan {axis} --log LOG.csv{sides} --out {out}");
+        return format!("stiction plan {axis} --log {log}{sides} --out {out}");
     }
-    let first = match &planned.options.known {
-        Some(Known::Log(log)) => format!("{} ", typed(log)),
-        _ => String::new(),
-    };
     let [plan, out] = ["plan.toml", "identified"].map(|name| typed(&written.join(name)));
-    format!("stiction identify {first}LOG.csv --axis {axis}{law} --plan {plan} --out {out}")
+    format!("stiction identify {first}{log} --axis {axis}{law} --plan {plan} --out {out}")
 }
 
 /// Options by which a plan, and an identification, is for parameters of each direction.

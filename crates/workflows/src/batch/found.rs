@@ -1,7 +1,7 @@
 //! Which logs a batch is made of: those of folders, patterns and lists.
 
 use crate::error::Error;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -50,7 +50,16 @@ pub(super) fn found(
         } else if input.symlink_metadata().is_err() && is_pattern() {
             matching(input, out, &mut (&mut all, beside))?;
         } else if is_list(input) {
-            all.extend(read_list(input)?);
+            let listed = read_list(input)?;
+            if let Some(list) = listed.iter().find(|listed| is_list(&listed.path)) {
+                let [list, input] = [&list.path, input].map(|path| shell::text(path));
+                let found = format!("{input} lists {list}, which is a list itself");
+                return Err(Error::usage(
+                    found,
+                    "logs in a list; several lists are given one after the other",
+                ));
+            }
+            all.extend(listed);
         } else if let Err(e) = stiction_log::regular(input) {
             let kind = stiction_log::Kind::Io;
             let allowed = match e {
@@ -73,7 +82,20 @@ pub(super) fn found(
             .filter(|input| is_list(input))
             .map(|list| place(list)),
     );
-    all.retain(|listed| seen.insert(place(&listed.path)));
+    let mut once: Vec<Listed> = Vec::with_capacity(all.len());
+    let mut at: HashMap<PathBuf, usize> = HashMap::new();
+    for listed in all {
+        let place = place(&listed.path);
+        match at.get(&place) {
+            Some(first) => once[*first].take(listed),
+            None if seen.insert(place.clone()) => {
+                at.insert(place, once.len());
+                once.push(listed);
+            }
+            None => {}
+        }
+    }
+    let all = once;
     beside.retain(|log| seen.insert(place(log)));
     Ok(all)
 }

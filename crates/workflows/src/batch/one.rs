@@ -77,7 +77,11 @@ pub(super) fn one(
     let refused = match outcome {
         Ok(Ok(outcome)) => {
             let read = outcome.sources.first().map(|source| &source.sha256);
-            if read == before.as_ref() {
+            // What was identified belongs to the key only where its files are still those of which it was made.
+            let same = read == before.as_ref()
+                && !batch.axes[entry.axis].has_changed()
+                && batch.key(entry, before.as_deref().unwrap_or("unread")) == key;
+            if same {
                 row.take(&outcome.result);
                 row.temperature = row.temperature.or_else(|| mean_temperature(&outcome));
                 if batch.reports {
@@ -92,7 +96,8 @@ pub(super) fn one(
             (
                 Code::LogIo,
                 format!(
-                    "{}: the file changed while it was read; a recording that is closed, or a copy of it",
+                    "{}: the file, its axis file or one that is joined changed while it was read; files that stay as they are, or copies of \
+                     them",
                     path.display()
                 ),
             )

@@ -75,11 +75,22 @@ impl OfAxis {
             Ok(axis) => (Some(axis), None),
             Err(e) => (None, Some(e.into())),
         };
-        let joined = axis.iter().flat_map(|axis| &axis.joined);
-        for other in joined.filter_map(|column| column.file.as_ref()?.of_one_log()) {
+        for other in of_all(&axis) {
             digest = sha256_of(format!("{digest} {}", hash_of(other)).as_bytes());
         }
         (Self { file, axis, digest }, fault)
+    }
+
+    /// Whether the files are not those any more that were read.
+    pub fn has_changed(&self) -> bool {
+        let Some(path) = &self.file else {
+            return false;
+        };
+        let mut digest = hash_of(path);
+        for other in of_all(&self.axis) {
+            digest = sha256_of(format!("{digest} {}", hash_of(other)).as_bytes());
+        }
+        digest != self.digest
     }
 
     /// The files that belong to a log by its name.
@@ -93,6 +104,12 @@ impl OfAxis {
             .filter(|other| other != log)
             .collect()
     }
+}
+
+/// The files of an axis that do not belong to one log each.
+fn of_all(axis: &Option<Axis>) -> impl Iterator<Item = &Path> {
+    let joined = axis.iter().flat_map(|axis| &axis.joined);
+    joined.filter_map(|column| column.file.as_ref()?.of_one_log())
 }
 
 /// SHA-256 of a file, or that it cannot be read.
@@ -230,25 +247,32 @@ impl Batch {
     }
 
     /// Keeps logs in a folder as they are done; `resume` takes those that an earlier call has left there, done or not to its end.
+    /// With how many logs of an earlier table are none of this batch.
     ///
     /// # Errors
     /// Where the folder cannot be written, another call is at work in it, or what is in it cannot be taken.
-    pub fn keep(&self, dir: &Path, resume: bool) -> Result<Journal, Error> {
+    pub fn keep(&self, dir: &Path, resume: bool) -> Result<(Journal, usize), Error> {
         let journal = match resume {
             true => Journal::resume(dir, KIND)?,
             false => Journal::begin(dir, KIND)?,
         };
         let earlier = dir.join(RESULTS);
+        let mut gone = 0;
         if resume && earlier.is_file() {
+            let own: HashSet<String> = self.logs.iter().map(Entry::name).collect();
             read_results(&earlier, |row| {
+                gone += usize::from(!own.contains(&row.path));
                 if !row.key.is_empty() && !journal.has(&row.key) {
                     journal.add(&row.key, &super::one::text(&row));
                 }
                 Ok(())
             })?;
         }
-        self.write_summary(dir, &self.summary("running"))?;
-        Ok(journal)
+        // What is said of an earlier table stays with it until there is another one.
+        if !earlier.is_file() {
+            self.write_summary(dir, &self.summary("running"))?;
+        }
+        Ok((journal, gone))
     }
 
     /// What the batch is, before anything of it is done.

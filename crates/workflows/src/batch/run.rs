@@ -19,8 +19,6 @@ pub struct Done {
     keys: Vec<Option<String>>,
     /// How many of them were done before this call.
     taken: usize,
-    /// How many of them are copies of one of this call.
-    copies: usize,
 }
 
 impl Done {
@@ -62,7 +60,6 @@ impl Batch {
             watch: &watch,
             next: AtomicUsize::new(0),
             taken: AtomicUsize::new(0),
-            copies: AtomicUsize::new(0),
             own: Mutex::default(),
             keys: self.logs.iter().map(|_| OnceLock::new()).collect(),
             fault: Mutex::new(None),
@@ -81,7 +78,6 @@ impl Batch {
             None => Ok(Done {
                 keys: crew.keys.into_iter().map(OnceLock::into_inner).collect(),
                 taken: crew.taken.into_inner(),
-                copies: crew.copies.into_inner(),
             }),
         }
     }
@@ -98,7 +94,7 @@ impl Batch {
             "interrupted"
         });
         file.taken = done.taken;
-        file.copies = done.copies;
+        let mut recordings = HashSet::new();
         let mut table = done
             .is_whole()
             .then(|| Results::begin(&dir.join(RESULTS)))
@@ -126,6 +122,10 @@ impl Batch {
             row.time = known.time;
             row.temperature = known.temperature.or(row.temperature);
             row.axis = known.axis;
+            if let Some(bytes) = &row.sha256 {
+                let is_new = recordings.insert((bytes.clone(), row.axis.clone()));
+                file.copies += usize::from(!is_new);
+            }
             let named = || Named {
                 path: row.path.clone(),
                 axis: row.axis.clone(),
@@ -157,10 +157,13 @@ impl Batch {
         file.failed = failed.into_values().collect();
         file.failed
             .sort_by_key(|failure| std::cmp::Reverse(failure.logs));
+        let is_whole = table.is_some();
         if let Some(table) = table {
             table.end()?;
         }
-        self.write_summary(dir, &file)?;
+        if is_whole || !dir.join(RESULTS).is_file() {
+            self.write_summary(dir, &file)?;
+        }
         Ok(file)
     }
 }
@@ -174,7 +177,6 @@ struct Crew<'a, 'o> {
     watch: &'a Shared<'o>,
     next: AtomicUsize,
     taken: AtomicUsize,
-    copies: AtomicUsize,
     /// What this call has identified.
     own: Mutex<HashSet<String>>,
     keys: Vec<OnceLock<String>>,
@@ -226,11 +228,9 @@ impl Crew<'_, '_> {
                     key
                 }
                 Ok(Became::Taken(key)) => {
-                    let count = match self.own().contains(&key) {
-                        true => &self.copies,
-                        false => &self.taken,
-                    };
-                    count.fetch_add(1, Ordering::SeqCst);
+                    if !self.own().contains(&key) {
+                        self.taken.fetch_add(1, Ordering::SeqCst);
+                    }
                     key
                 }
                 Ok(Became::Stopped) => return,

@@ -20,6 +20,8 @@ pub struct Followed {
     pub points: Vec<Point>,
     /// The log of each, and its axis file.
     pub logs: Vec<(String, Option<String>)>,
+    /// When each would be with a log a day in the order of the table, s.
+    places: Vec<f64>,
 }
 
 /// The courses of a table, by parameter and machine.
@@ -28,6 +30,8 @@ pub(super) struct Courses {
     pub of: BTreeMap<Number, BTreeMap<String, Followed>>,
     /// Logs of each machine.
     pub machines: BTreeMap<String, usize>,
+    /// The same with those that failed.
+    places: BTreeMap<String, u32>,
     /// Levels of all logs, which may be of several units.
     pub levels: Levels,
     pub logs: usize,
@@ -36,8 +40,8 @@ pub(super) struct Courses {
     pub unnamed: usize,
     /// The same that have no time.
     untimed: usize,
-    /// What was taken: key, path, and time of each log. A folder of tables may hold one twice.
-    seen: HashSet<(String, String, Option<u64>)>,
+    /// What was taken: key, machine and time of each log. A folder of logs may hold one twice, and one of tables a table.
+    seen: HashSet<(String, Option<String>, Option<u64>)>,
 }
 
 /// Seconds from a log to the next where times are not known.
@@ -55,7 +59,7 @@ impl Courses {
     pub fn take(&mut self, row: &LogRow) -> Result<(), Error> {
         let own = (
             row.key.clone(),
-            row.path.clone(),
+            row.machine.clone(),
             row.time.map(f64::to_bits),
         );
         if !row.key.is_empty() && !self.seen.insert(own) {
@@ -64,6 +68,9 @@ impl Courses {
         self.logs += 1;
         let machine = row.machine.clone().unwrap_or_default();
         let count = self.machines.entry(machine.clone()).or_default();
+        let place = self.places.entry(machine.clone()).or_default();
+        *place += 1;
+        let place = DAY * f64::from(*place);
         if row.error.is_some() {
             self.failed += 1;
             return Ok(());
@@ -72,7 +79,6 @@ impl Courses {
         self.unnamed += usize::from(row.machine.is_none());
         *count += 1;
         self.untimed += usize::from(row.time.is_none());
-        let place = DAY * *count as f64;
         allowed(row, "time", row.time)?;
         allowed(row, "temperature", row.temperature)?;
         let asymmetric = if row.asymmetric == Some(true) {
@@ -98,6 +104,7 @@ impl Courses {
                 .or_default()
                 .entry(machine.clone())
                 .or_default();
+            followed.places.push(place);
             followed.points.push(Point {
                 time: row.time.unwrap_or(place),
                 value,
@@ -130,12 +137,8 @@ impl Courses {
             .flat_map(|machines| machines.values_mut())
         {
             if !timed {
-                let places = (1..).map(|k| DAY * f64::from(k));
-                followed
-                    .points
-                    .iter_mut()
-                    .zip(places)
-                    .for_each(|(point, place)| point.time = place);
+                let points = followed.points.iter_mut().zip(&followed.places);
+                points.for_each(|(point, place)| point.time = *place);
                 continue;
             }
             let mut order: Vec<usize> = (0..followed.points.len()).collect();

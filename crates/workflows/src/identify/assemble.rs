@@ -9,12 +9,14 @@ use super::seen;
 use super::trust::Judged;
 use crate::entries;
 use crate::source::Source;
+use stiction_files::Axis;
+use stiction_files::axis::{ListedLog, Use};
 use stiction_files::result::{
     CovarianceEntry, ElementsEntry, LawEntry, LowSpeedEntry, ParameterEntry, PartnerEntry,
-    ResolvedAxis, ResultFile, SCHEMA, Search, ValidationEntry,
+    ResolvedAxis, ResultFile, SCHEMA, Search, Unsettled, ValidationEntry,
 };
 use stiction_files::symbols;
-use stiction_identify::{Delay, Fit, FittedLaw, IntervalKind, Parameter, Series};
+use stiction_identify::{Delay, Fit, FittedLaw, IntervalKind, Parameter, Record, Series};
 use stiction_log::Motion;
 use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity};
@@ -25,6 +27,8 @@ pub(super) struct Parts<'a> {
     pub sources: &'a [Source],
     /// How the logs were treated.
     pub conditioning: Vec<String>,
+    /// What of them is not fitted at the start and after gaps, where that is much.
+    pub unsettled: Option<Unsettled>,
     pub law: &'a FittedLaw,
     pub validation: &'a [(String, Series)],
     /// Laws side by side; empty where they were not compared.
@@ -36,6 +40,27 @@ pub(super) struct Parts<'a> {
     /// Who chose the law.
     pub law_chosen_by: &'static str,
     pub judged: Judged,
+}
+
+/// Whether logs are all that the axis file lists to be fitted.
+fn are_listed(axis: &Axis, sources: &[Source]) -> bool {
+    let fitted = |log: &&ListedLog| log.mapping(Use::Fitted).is_some();
+    let given = |log: &ListedLog| sources.iter().any(|source| log.is(&source.path));
+    let own = |source: &Source| axis.logs.iter().any(|log| log.is(&source.path));
+    !axis.logs.is_empty() && axis.logs.iter().filter(fitted).all(given) && sources.iter().all(own)
+}
+
+/// Part of the logs from which on it is told that the law is not fitted to it.
+const MUCH: f64 = 0.1;
+
+/// What of a record is not fitted at the start and after gaps, where that is much.
+pub(super) fn unsettled(record: &Record, travel: f64) -> Option<Unsettled> {
+    let (seconds, part) = record.unsettled().filter(|(_, part)| *part >= MUCH)?;
+    Some(Unsettled {
+        seconds,
+        part,
+        travel,
+    })
 }
 
 /// The result without the entries that only one method has.
@@ -87,11 +112,13 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         axis: ResolvedAxis {
             name: asked.axis.name.clone(),
             file: asked.axis.file().map(stiction_files::shell::text),
+            listed: are_listed(asked.axis, sources),
             limits: asked.axis.limits.is_some(),
             kind: motion.to_string(),
             force_unit: force_unit.into(),
             columns: first.detected.clone(),
             conditioning: parts.conditioning,
+            unsettled: parts.unsettled,
             terms: term_names(estimate, motion),
         },
         law: estimate.law.kind.name().into(),

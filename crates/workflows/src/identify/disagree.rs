@@ -88,7 +88,7 @@ fn warning(
     let apart = options.map_or(String::new(), |options| {
         let command = |i: usize| {
             let log = shell::quoted(&paths[i]);
-            format!("stiction identify {log}{options} --out RESULT-{}", i + 1)
+            format!("stiction identify {log}{options} --out another-{}", i + 1)
         };
         format!(". Each by itself: {}; {}", command(0), command(1))
     });

@@ -134,7 +134,7 @@ pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &
     if let Some(added) = of_another_clock(asked.axis) {
         warning.message.push_str(&format!(
             ". {row}The force comes from another file, whose clock may be another: to say so, write offset = \"{} s\" beside its file \
-             under [columns] {place}{}, then: stiction identify {}{options} --out RESULT",
+             under [columns] {place}{}, then: stiction identify {}{options} --out another",
             full((1e6 * (added - late)).round() / 1e6),
             match added == 0.0 {
                 true => "",
@@ -146,7 +146,7 @@ pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &
     }
     warning.message.push_str(&format!(
         ". {row}Find out where it comes from; to state it, write {line} under [terms] {place}, \
-         then: stiction identify {}{axis}{options} --out RESULT",
+         then: stiction identify {}{axis}{options} --out another",
         typed.join(" ")
     ));
 }

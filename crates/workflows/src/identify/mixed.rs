@@ -4,12 +4,19 @@ use super::load::Asked;
 use stiction_codes::Code;
 use stiction_files::axis::entry;
 use stiction_files::result::{CauseEntry, Cure};
-use stiction_log::{Log, Motion};
+use stiction_log::{Log, Motion, Offset, Role};
+use stiction_number::full;
 
 /// What the column of the force lacks, as a part of the verdict; `None` where its unit fits the axis.
 pub(super) fn cause(asked: Asked, log: &Log) -> Option<CauseEntry> {
     let mixed = log.findings.iter().any(|f| f.code == Code::ForceUnit);
     let mut channel = log.mapping.force.clone().filter(|_| mixed)?;
+    let mut joined = asked.axis.joined.iter();
+    let joined = joined.find(|column| column.from.role == Role::Force);
+    // A column of another file goes by its place there.
+    if let (Some(_), Some(typed)) = (joined, &asked.axis.mapping.force) {
+        channel.column = typed.column.clone();
+    }
     // What stands there gives the unit that does not fit.
     channel.scale = None;
     let unit = channel.unit.as_ref().map_or("N*m", |unit| unit.text());
@@ -28,13 +35,19 @@ pub(super) fn cause(asked: Asked, log: &Log) -> Option<CauseEntry> {
         ),
     };
     let replaces = asked.axis.mapping.force.is_some();
+    let offset = match joined.map(|column| column.from.offset) {
+        None => String::new(),
+        Some(Offset::Estimated) => ", offset = \"estimate\"".into(),
+        Some(Offset::Given(seconds)) => format!(", offset = \"{} s\"", full(seconds)),
+    };
+    let line = format!("force = {column}{offset}, scale = \"... {wanted}/{unit}\" }}   # {how}");
     Some(CauseEntry {
         code: Code::ForceUnit,
         text: text.into(),
         size: format!("its scale to {wanted} is missing, without which no study can be simulated"),
         cure: Some(Cure::Line {
             table: "columns".into(),
-            line: format!("force = {column}, scale = \"... {wanted}/{unit}\" }}   # {how}"),
+            line: joined.map_or_else(|| line.clone(), |column| column.line(&line)),
             replaces,
         }),
     })

@@ -240,6 +240,7 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
             .chain(assemble::delay_note(&estimate, loaded.late))
             .chain(assemble::acceleration_note(asked, &loaded.sources))
             .collect(),
+        unsettled: assemble::unsettled(&conditioned.record, conditioned.conditioning.settling),
         law: &estimate,
         validation: &validation,
         laws: fitted.choice.laws,

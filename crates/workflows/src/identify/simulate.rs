@@ -163,6 +163,7 @@ pub(super) fn run(
         asked,
         sources,
         conditioning: notes(&found, axis, started),
+        unsettled: None,
         law: &found.fitted,
         validation: &[],
         laws: Vec::new(),

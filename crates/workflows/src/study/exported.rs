@@ -94,6 +94,7 @@ impl ExportedC {
         };
         let place = source.compile().map_err(failed)?;
         let (_, settled) = Process::start(&place, None).map_err(failed)?;
+        let options = settled.options(&source);
         let period = 1.0 / study.machine.rate;
         if (settled.cycle_time - period).abs() > SAME_TIME * period {
             return Err(refuse(
@@ -102,10 +103,9 @@ impl ExportedC {
                     shortest(settled.cycle_time),
                     four_digits(study.machine.rate)
                 ),
-                format!("the same: {}", export),
+                format!("the same: {export}{}", fed(options.feedforward)),
             ));
         }
-        let options = settled.options(&source);
         // A ramp of years would be waited for.
         crate::export::check(&options)
             .map_err(|e| refuse(format!("--exported-c {name}: {e}"), again.clone()))?;
@@ -120,6 +120,21 @@ impl ExportedC {
             rust,
             place,
         })
+    }
+}
+
+/// The option that has these parts fed forward; nothing where that is friction alone.
+fn fed(parts: Feedforward) -> String {
+    let all = [
+        (parts.mass, ",mass"),
+        (parts.gravity, ",gravity"),
+        (parts.cogging, ",cogging"),
+    ];
+    let fed = all.into_iter().filter(|(fed, _)| *fed);
+    let fed: String = fed.map(|(_, name)| name).collect();
+    match fed.is_empty() {
+        true => fed,
+        false => format!(" --feedforward friction{fed}"),
     }
 }
 

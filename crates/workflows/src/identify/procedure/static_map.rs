@@ -42,6 +42,7 @@ pub(in crate::identify) fn run(
         asked,
         sources,
         conditioning: notes(&found, sources, asked.axis),
+        unsettled: None,
         law: &law,
         validation: &[],
         laws: Vec::new(),

@@ -73,6 +73,7 @@ pub(in crate::identify) fn run(
         asked,
         sources,
         conditioning: conditioning(&settings, &sources[0].log.force_unit),
+        unsettled: None,
         law: &law,
         validation: &[],
         laws: Vec::new(),
