@@ -45,6 +45,13 @@ pub fn demo(
     Ok((outcome, kept))
 }
 
+/// Whether a folder holds the log of a demo and nothing else: one that was ended before its result.
+pub fn is_begun(dir: &Path) -> bool {
+    let names = std::fs::read_dir(dir).into_iter().flatten().flatten();
+    let names: Vec<_> = names.map(|entry| entry.file_name()).collect();
+    names.len() == 1 && names[0] == LOG
+}
+
 /// Simulates the axis of the demo, 9 s at 4 kHz in closed loop, and writes its log to a file: time, reference and position
 /// in whole encoder steps, force with noise. The seed is that of the noise.
 ///

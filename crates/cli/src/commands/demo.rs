@@ -12,7 +12,7 @@ use stiction::commands::{Kept, check_folder};
 
 /// Writes the log, identifies it and says what was found beside the truth.
 pub fn run(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
-    check_folder(&demo.out, demo.force)?;
+    check_folder(&demo.out, demo.force || stiction::demo::is_begun(&demo.out))?;
     if demo.procedures {
         return procedure_logs(demo, common);
     }

@@ -322,6 +322,12 @@ fn the_demo_keeps_a_log_of_others() {
         (read("d/demo-1.csv"), read("d/demo.csv")),
         (b"mine".to_vec(), ours)
     );
+    // One that was ended between log and result goes on in its folder, and keeps a log of others there too.
+    std::fs::create_dir(bench.path("cut")).unwrap();
+    std::fs::write(bench.path("cut/demo.csv"), "mine").unwrap();
+    let (code, _, err) = bench.run(&["demo", "--out", "cut"]);
+    assert_eq!(code, 0, "{err}");
+    assert!(err.contains("it is kept as cut/demo-1.csv"), "{err}");
 }
 
 #[test]
