@@ -771,6 +771,11 @@ fn plan(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
         time: plan.time,
         probe: plan.stage == arguments::Stage::Probe,
         asymmetric: plan.asymmetric,
+        law: plan.law.map(|law| match law {
+            arguments::PlannedLaw::Lugre => LawKind::LuGre,
+            arguments::PlannedLaw::MaxwellSlip => LawKind::MaxwellSlip,
+            arguments::PlannedLaw::Gms => LawKind::Gms,
+        }),
         known: model.or(plan.log.clone().map(Known::Log)),
         seed: plan.seed,
         wants: (plan.wants.iter())
