@@ -14,7 +14,7 @@ from . import _native
 from ._axis import AXIS, path_of, text_of
 from ._errors import StictionError, argument
 from ._log import _warn
-from ._options import maybe, some_threads, whole, words
+from ._options import maybe, some_threads, truth, whole, words
 from ._progress import Told, finish, teller
 from ._study import STOPPED
 from ._types import PathLike, PlanOptions, Watcher
@@ -89,6 +89,8 @@ def plan(
     wants: str | Sequence[str] = (),
     formats: str | Sequence[str] = (),
     start: str | None = None,
+    asymmetric: bool = False,
+    law: Literal["lugre", "maxwell-slip", "gms"] | None = None,
     progress: Watcher = None,
     threads: int | None = None,
 ) -> Plan:
@@ -98,7 +100,9 @@ def plan(
     open. stage: `probe` for a first, careful motion. time: longest motion, s; 9 s, and 3 s of a probe, if it is not given.
     wants: how well parameters are to be known, such as `sigma0 < 2 %`: the shortest motion that is enough.
     formats: further forms of the set points, which `save` writes: `st`, `cam`, `csp`, `ros2`, `halstreamer`, `gcode`. start: where
-    the axis stands when the motion starts, with its unit, such as `120 mm`.
+    the axis stands when the motion starts, with its unit, such as `120 mm`. asymmetric: plan for parameters of each direction of motion, as
+    `identify(..., asymmetric=True)` finds them. law: the law that is fitted, `lugre` if neither it, the model nor the axis file says;
+    `maxwell-slip` and `gms` need a first log or model.
     """
     if stage not in ("probe", "whole"):
         raise argument("stage", repr(stage), "one of probe, whole")
@@ -113,6 +117,8 @@ def plan(
         "wants": words(wants, "wants"),
         "formats": words(formats, "formats"),
         "start": None if start is None else str(start),
+        "asymmetric": truth(asymmetric, "asymmetric"),
+        "law": None if law is None else str(law),
     }
     tell, own = teller(progress), some_threads(threads)
     try:

@@ -85,6 +85,8 @@ class PlanOptions(TypedDict):
     wants: list[str]
     formats: list[str]
     start: str | None
+    asymmetric: bool
+    law: str | None
 
 
 class RowLog(TypedDict):

@@ -147,6 +147,18 @@ def test_a_plan_is_that_of_the_command_line(fit: stiction.Fit, command: Any, tmp
     with pytest.raises(stiction.StictionError) as caught:
         quietly(stiction.plan, {"kind": "linear"})
     assert str(caught.value).startswith("[bad-config] axis: limits.stroke: is missing")
+    theirs = tmp_path / "each"
+    command("plan", axis, "--asymmetric", "--time", "2", "--out", theirs)
+    sides = quietly(stiction.plan, axis, asymmetric=True, time=2.0)
+    sides.save(tmp_path / "both")
+    for name in ("plan.toml", "setpoints.csv"):
+        assert (tmp_path / "both" / name).read_bytes() == (theirs / name).read_bytes()
+    assert "coulomb_neg" in {row["name"] for row in sides.result["parameter"]}
+    with pytest.raises(stiction.StictionError, match="law gms"):
+        quietly(stiction.plan, axis, law="gms")
+    with pytest.raises(stiction.StictionError, match="law"):
+        quietly(stiction.plan, axis, law="coulomb")
+
     motion = plan.setpoints
     assert list(motion) == ["t", "x", "v", "a"]
     assert motion["v"][0] == motion["v"][-1] == 0.0

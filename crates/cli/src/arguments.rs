@@ -582,6 +582,10 @@ pub struct Plan {
     /// A first log, such as that of --stage probe: it is identified, and the motion is planned for what it leaves open.
     #[arg(long, value_name = "LOG")]
     pub log: Option<PathBuf>,
+    /// The law that is fitted; Maxwell-slip elements need a first log or model [default: that of the model, else LuGre, or gms where the
+    /// axis file has gms_elements].
+    #[arg(long, value_enum)]
+    pub law: Option<PlannedLaw>,
     /// Plan for parameters of each direction of motion, as identify --asymmetric finds them.
     #[arg(long)]
     pub asymmetric: bool,
@@ -610,6 +614,16 @@ pub struct Plan {
     /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
     pub force: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PlannedLaw {
+    /// Presliding, Stribeck curve, frictional lag.
+    Lugre,
+    /// Maxwell slip: presliding with memory of past reversals.
+    MaxwellSlip,
+    /// Generalised Maxwell slip: the same with a Stribeck curve.
+    Gms,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

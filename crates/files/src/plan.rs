@@ -42,6 +42,12 @@ pub struct PlanFile {
     /// Whether it is planned for parameters of each direction.
     #[serde(skip_serializing_if = "is_false")]
     pub asymmetric: bool,
+    /// The law that it is planned for where that is not LuGre: `maxwell-slip` or `gms`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<String>,
+    /// How many elements that has.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elements: Option<usize>,
     /// What was not given and is assumed: key, value and unit.
     pub assumed: Vec<Assumed>,
     /// Files that were read.

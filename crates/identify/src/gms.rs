@@ -26,4 +26,4 @@ pub(crate) mod physical;
 pub(crate) mod recursion;
 pub(crate) mod score;
 pub(crate) mod search;
-mod settled;
+pub(crate) mod settled;

@@ -91,7 +91,7 @@ mod watch;
 
 pub use agreement::{Disagreement, NOT_CONSTANT};
 pub use alignment::alignment;
-pub use along::{Along, asymmetric_lugre_along, lugre_along};
+pub use along::{Along, Fall, SlipAlong, asymmetric_lugre_along, lugre_along, slip_along};
 pub use choice::{NEVER_EQUAL_RATIO, Standing, choose};
 pub use conditioning::accelerometer::Accelerometer;
 pub use conditioning::channels::Channels;
@@ -107,6 +107,7 @@ pub use estimate::series::Series;
 pub use estimate::{Estimate, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
 pub use gms::score::ElementsScore;
+pub use gms::settled::run_through;
 pub use gms::{FEWEST as GMS_FEWEST, MOST as GMS_MOST};
 pub use gravity::{Swing, explained_by_gravity};
 pub use identify::{delay_of_another, fit_law, fit_law_from, identify};

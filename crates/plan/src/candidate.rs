@@ -1,5 +1,6 @@
 //! An axis that may be the one to be measured.
 
+use crate::slip::Slip;
 use crate::subject::Subject;
 use stiction_friction::{Damping, Direction, LuGre, ParamError, Shape, Stribeck};
 use stiction_parameters::Side;
@@ -17,7 +18,8 @@ pub const NAMES: [&str; PARAMETERS] = [
     "mass",
 ];
 
-/// An axis with its friction; all > 0, Fs above Fc. Where the directions differ these are the parameters of the positive one.
+/// An axis with its friction; all > 0, Fs above Fc. Where the directions differ these are the parameters of the positive one. Of
+/// Maxwell-slip elements sigma0 and Fs are sums over them and sigma1 is 0; without a fall of the level Fs is Fc.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
     /// N/m (N m/rad)
@@ -36,6 +38,8 @@ pub struct Candidate {
     pub mass: f64,
     /// The negative direction where it differs.
     pub back: Option<Back>,
+    /// Maxwell-slip elements in the place of a bristle.
+    pub slip: Option<Slip>,
     /// Sizes of the terms of the subject, SI.
     pub sizes: Vec<f64>,
     /// What an identification of its log will fit.
@@ -76,6 +80,7 @@ impl Candidate {
             stribeck_velocity,
             mass,
             back: None,
+            slip: None,
             sizes: Vec::new(),
             subject: Subject::default(),
         }
@@ -86,6 +91,13 @@ impl Candidate {
         let (law, sizes) = values.split_at_checked(subject.first_term())?;
         if sizes.len() != subject.terms.len() {
             return None;
+        }
+        if let Some(elements) = subject.elements {
+            return Some(Candidate {
+                sizes: sizes.to_vec(),
+                subject: subject.clone(),
+                ..Slip::axis(elements, law)?
+            });
         }
         let (plain, back) = match *law {
             [s0, s1, s2, fc, fs, vs, mass] => ([s0, s1, s2, fc, fs, vs, mass], None),
@@ -122,6 +134,11 @@ impl Candidate {
 
     /// In the order of [`Subject::names`].
     pub fn values(&self) -> Vec<f64> {
+        if let Some(slip) = &self.slip {
+            let mut out = slip.values(self);
+            out.extend(&self.sizes);
+            return out;
+        }
         let mut out = vec![self.sigma0, self.sigma1];
         let [forward, back] = [0, 1].map(|side| self.direction(side));
         let each = |d: &Back| [d.sigma2, d.coulomb, d.static_friction, d.stribeck_velocity];
@@ -166,6 +183,10 @@ impl Candidate {
 
     /// Refuses values that are no such axis.
     pub fn validate(&self) -> Result<(), ParamError> {
+        if let Some(slip) = &self.slip {
+            slip.validate(self)?;
+            return self.has_finite_sizes();
+        }
         for (name, value) in NAMES.into_iter().zip([
             self.sigma0,
             self.sigma1,
@@ -192,13 +213,16 @@ impl Candidate {
                 return Err(ParamError::new("static", static_friction, allowed));
             }
         }
-        for size in &self.sizes {
-            ParamError::finite("term", *size)?;
-        }
+        self.has_finite_sizes()?;
         self.law().map(|_| ())
     }
 
-    /// Its law.
+    fn has_finite_sizes(&self) -> Result<(), ParamError> {
+        let mut sizes = self.sizes.iter();
+        sizes.try_for_each(|size| ParamError::finite("term", *size))
+    }
+
+    /// Its law where that is LuGre; of Maxwell-slip elements see [`Slip::law`].
     pub fn law(&self) -> Result<LuGre<f64>, ParamError> {
         let direction = |side: usize| {
             let of = self.direction(side);

@@ -164,6 +164,55 @@ pub fn places(limits: &Limits, rig: &Rig) -> Vec<Atom> {
     all
 }
 
+/// Frequencies of nested reversals, Hz, as far as the loop follows them, and their durations, s: some reversals of each.
+const NESTED: [(f64, f64); 3] = [(1.0, 3.0), (3.0, 1.5), (10.0, 0.8)];
+/// Depths of nested reversals: from this part of the shortest to this multiple of the longest yield deflection, and between
+/// neighbours. An element has turned over after twice its yield deflection, an amplitude of one; deeper ones are for what friction holds
+/// back of the motion.
+const SHALLOWEST: f64 = 0.7;
+const DEEPEST: f64 = 4.0;
+const DEPTH_RATIO: f64 = 2.0;
+/// Over more the deflections of no axis spread.
+const MOST_DEPTHS: usize = 20;
+
+/// Nested reversals for Maxwell-slip elements that yield at deflections between these two, m (rad): sines that grow from rest to a depth, and
+/// such that shrink from it, at depths that reach across the deflections.
+pub fn nested(limits: &Limits, rig: &Rig, [shortest, longest]: [f64; 2]) -> Vec<Atom> {
+    let limits = &Limits {
+        speed: FAST * limits.speed,
+        ..*limits
+    };
+    let highest = (OF_BANDWIDTH * rig.bandwidth()).min(OF_RATE * rig.rate);
+    let mut depths = vec![DEEPEST * longest];
+    while depths[depths.len() - 1] > SHALLOWEST * shortest && depths.len() < MOST_DEPTHS {
+        depths.push(depths[depths.len() - 1] / DEPTH_RATIO);
+    }
+    let mut all = Vec::new();
+    for (frequency, duration) in NESTED.into_iter().filter(|(f, _)| *f <= highest) {
+        for &amplitude in &depths {
+            for grows in [true, false] {
+                let (long, short) = (GROWTH * duration, (1.0 - GROWTH) * duration);
+                let (fade_in, fade_out) = if grows { (long, short) } else { (short, long) };
+                let atom = Atom::Sine {
+                    amplitude,
+                    frequency,
+                    duration,
+                    fade_in,
+                    fade_out,
+                };
+                let by = fits(&atom, limits);
+                let atom = atom.scaled(by);
+                let size = atom.extremes().position;
+                let seen = size[1] - size[0] >= LEAST_STEPS * rig.encoder_step;
+                if by >= SAME && seen && atom.validate().is_ok() {
+                    all.push(atom);
+                }
+            }
+        }
+    }
+    all
+}
+
 /// A sine of this speed amplitude with fades of half a period.
 pub(crate) fn sine(speed: f64, frequency: f64, duration: f64) -> Atom {
     let fade = (0.5 / frequency).min(0.5 * duration);

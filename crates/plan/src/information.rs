@@ -3,7 +3,7 @@
 use crate::candidate::Candidate;
 use crate::rig::Rig;
 use crate::run::Run;
-use stiction_identify::{Along, asymmetric_lugre_along, lugre_along};
+use stiction_identify::{Along, asymmetric_lugre_along, lugre_along, run_through};
 use stiction_signal::{SignalError, Sos, gradient, gradient_sixth_order};
 
 /// Pairs of cut-offs that an identification is likely to choose among: the rate over each, in common and on the position.
@@ -13,7 +13,7 @@ pub(crate) const PAIR_COUNT: usize = 4;
 const ORDER: usize = 4;
 
 /// Sums over samples for each pair of cut-offs, in N^2 (N^2 m^2). The unknowns are the logarithms of the parameters of the law, the
-/// terms beside it in units of Coulomb friction, the offset over it where one is fitted, and the delay in samples.
+/// terms beside it in units of Coulomb friction, the offset over it where one is fitted, and of LuGre the delay in samples.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Information {
     /// How many of the unknowns, the first ones, are parameters whose deviation counts.
@@ -54,12 +54,24 @@ impl Information {
     pub fn none_of(candidate: &Candidate) -> Self {
         let subject = &candidate.subject;
         let parameters = subject.parameters();
-        Self::none(parameters, parameters + usize::from(subject.offset) + 1)
+        // Maxwell-slip elements are fitted with a delay that is known: they cannot find it.
+        let delay = usize::from(candidate.slip.is_none());
+        Self::none(parameters, parameters + usize::from(subject.offset) + delay)
     }
 
     pub fn add(&mut self, other: &Information, sign: f64) {
         let both = self.sums.iter_mut().zip(&other.sums);
         both.for_each(|(a, b)| *a += sign * b);
+    }
+
+    /// The sums of so many times the motion: each time the encoder stands where it stood, so what it adds is the same again.
+    pub fn repeat(&mut self, times: f64) {
+        for pair in 0..PAIR_COUNT {
+            let (gram, scatter, bias) = self.pair_mut(pair);
+            let once = gram.iter_mut().chain(bias);
+            once.for_each(|sum| *sum *= times);
+            scatter.iter_mut().for_each(|sum| *sum *= times * times);
+        }
     }
 
     /// Takes the sums of another one of as many unknowns.
@@ -97,11 +109,25 @@ struct Products {
     gradient: Vec<f64>,
 }
 
+/// What of a log a motion is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    /// A piece of it.
+    Piece,
+    /// All of it: what an identification leaves out at its start tells nothing.
+    Log,
+}
+
 /// Information of a motion, from runs with the encoder in several places of its step.
-pub(crate) fn information(candidate: &Candidate, rig: &Rig, runs: &[Run]) -> Option<Information> {
+pub(crate) fn information(
+    candidate: &Candidate,
+    rig: &Rig,
+    runs: &[Run],
+    extent: Extent,
+) -> Option<Information> {
     let all: Vec<[Products; PAIR_COUNT]> = runs
         .iter()
-        .map(|run| products(candidate, rig, run).ok())
+        .map(|run| products(candidate, rig, run, extent).ok())
         .collect::<Option<_>>()?;
     let count = all.len() as f64;
     let mut out = Information::none_of(candidate);
@@ -140,8 +166,13 @@ fn products(
     candidate: &Candidate,
     rig: &Rig,
     run: &Run,
+    extent: Extent,
 ) -> Result<[Products; PAIR_COUNT], SignalError> {
     let (rate, step) = (rig.rate, 1.0 / rig.rate);
+    let left_out = match (&candidate.slip, extent) {
+        (Some(_), Extent::Log) => run_through(&run.velocity, step),
+        _ => 0,
+    };
     let columns = jacobian(candidate, step, run)?;
     let unknowns = columns.len();
     let mut out: [Products; PAIR_COUNT] = Default::default();
@@ -165,7 +196,7 @@ fn products(
         filter.zero_phase_columns(&mut views)?;
         let thin = ((common / 2.5) as usize).max(1);
         let product = |a: &[f64], b: &[f64]| {
-            let both = a.iter().zip(b).step_by(thin);
+            let both = a.iter().zip(b).skip(left_out).step_by(thin);
             thin as f64 * both.map(|(x, y)| x * y).sum::<f64>()
         };
         let mut gram = vec![0.0; entries(unknowns)];
@@ -223,6 +254,11 @@ fn jacobian(candidate: &Candidate, step: f64, run: &Run) -> Result<Vec<Vec<f64>>
         mass,
         ..
     } = *candidate;
+    if let Some(slip) = &candidate.slip {
+        let acceleration = gradient(&run.velocity, step)?;
+        let columns = slip.jacobian(candidate, step, (&run.velocity, &acceleration));
+        return Ok(beside(candidate, run, columns));
+    }
     let along = along(candidate, step, &run.velocity, true);
     // The force about an instant is the mean over the periods beside it, and so are these differences.
     let acceleration = gradient(&run.velocity, step)?;
@@ -299,6 +335,21 @@ fn jacobian(candidate: &Candidate, step: f64, run: &Run) -> Result<Vec<Vec<f64>>
     Ok(out)
 }
 
+/// The columns of a law without levels that depend on the position, with those of what stands beside it.
+fn beside(candidate: &Candidate, run: &Run, mut columns: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let coulomb = candidate.coulomb;
+    let n = run.velocity.len();
+    for (k, term) in candidate.subject.terms.iter().enumerate() {
+        let unit = coulomb / term.reach;
+        let at = |i: usize| unit * candidate.column(k, 0.0, run.reading[i], run.velocity[i]);
+        columns.push((0..n).map(at).collect());
+    }
+    if candidate.subject.offset {
+        columns.push(vec![coulomb; n]);
+    }
+    columns
+}
+
 /// What the law leaves of the force at the true parameters, driven by the filtered encoder.
 fn residual(
     candidate: &Candidate,
@@ -311,6 +362,15 @@ fn residual(
     let position = filter.zero_phase(&run.reading)?;
     let velocity = gradient_sixth_order(&position, step)?;
     let acceleration = gradient_sixth_order(&velocity, step)?;
+    if let Some(slip) = &candidate.slip {
+        let asked = slip.force(candidate, step, (&velocity, &acceleration));
+        let left = run.force.iter().zip(asked).enumerate();
+        return Ok(left
+            .map(|(i, (force, asked))| {
+                force - asked - candidate.beside(0.0, position[i], velocity[i])
+            })
+            .collect());
+    }
     let along = along(candidate, step, &velocity, false);
     let has_terms = !candidate.subject.terms.is_empty();
     let left = run.force.iter().enumerate().map(|(i, force)| {

@@ -62,8 +62,14 @@ pub fn run(
     phase: f64,
 ) -> Result<Run, ParamError> {
     let push = Push::of(candidate);
-    let law = candidate.law()?;
     let hold = push.asks(0.0, 0.0);
+    if let Some(slip) = &candidate.slip {
+        let law = slip.law(candidate)?;
+        let settings = settings(law, candidate, rig, (force_limit, phase))?;
+        let pushed = Pushed::new(Mid::new(1)?, push);
+        return follow(Axis::new(settings, pushed)?, motion, rig, hold);
+    }
+    let law = candidate.law()?;
     match (depends(candidate), push.is_none()) {
         (None, true) => {
             let settings = settings(law, candidate, rig, (force_limit, phase))?;

@@ -8,6 +8,8 @@ use stiction_parameters::{Name, Quantity, Side, Wave};
 /// What an identification of the log will fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Subject {
+    /// Maxwell-slip elements in the place of the bristle of LuGre; the same in both directions.
+    pub elements: Option<Elements>,
     /// Whether each direction of motion has Coulomb, static and viscous friction and a Stribeck velocity of its own.
     pub asymmetric: bool,
     /// Whether a constant force is fitted beside them.
@@ -20,10 +22,38 @@ impl Default for Subject {
     /// Symmetric LuGre with a constant force.
     fn default() -> Self {
         Subject {
+            elements: None,
             asymmetric: false,
             offset: true,
             terms: Vec::new(),
         }
+    }
+}
+
+/// Maxwell-slip elements: how many, and which of the two laws they are of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Elements {
+    /// 1 to 10.
+    pub count: usize,
+    /// Whether their level falls with speed (`gms`) or not (`maxwell-slip`).
+    pub falls: bool,
+}
+
+impl Elements {
+    /// Parameters of the law: stiffness and yield deflection of each element, viscous friction, and with a fall Coulomb friction, the
+    /// Stribeck velocity and the attraction.
+    pub(crate) fn parameters(self) -> usize {
+        2 * self.count + 1 + if self.falls { 3 } else { 0 }
+    }
+
+    /// Their names, in the order of [`Candidate::values`].
+    fn names(self) -> impl Iterator<Item = Name> {
+        use Quantity::{Attraction, Coulomb, ElementStiffness, ElementYield, Sigma2};
+        let each = |of: fn(u32) -> Quantity| (1..=self.count as u32).map(of);
+        let fall = [Coulomb, Quantity::StribeckVelocity, Attraction];
+        let fall = fall.into_iter().filter(move |_| self.falls);
+        let law = each(ElementStiffness).chain(each(ElementYield));
+        law.chain([Sigma2]).chain(fall).map(Name::from)
     }
 }
 
@@ -153,6 +183,12 @@ impl Subject {
     /// Names of all parameters, in the order of [`Candidate::values`].
     pub fn names(&self) -> Vec<String> {
         use Quantity::{Coulomb, Mass, Sigma0, Sigma1, Sigma2, Static, StribeckVelocity};
+        let terms = self.terms.iter().map(|term| term.name);
+        let text = |name: Name| name.to_string();
+        if let Some(elements) = self.elements {
+            let all = elements.names().chain([Mass.into()]).chain(terms);
+            return all.map(text).collect();
+        }
         let sides = Side::all(self.asymmetric);
         let directed = [Sigma2, Coulomb, Static, StribeckVelocity];
         let directed = directed
@@ -160,9 +196,7 @@ impl Subject {
             .flat_map(|q| sides.iter().map(|side| Name::new(*q, *side)));
         let law = [Sigma0, Sigma1].map(Name::from).into_iter().chain(directed);
         let all = law.chain([Mass.into()]);
-        all.chain(self.terms.iter().map(|term| term.name))
-            .map(|name| name.to_string())
-            .collect()
+        all.chain(terms).map(text).collect()
     }
 
     /// How many parameters there are.
@@ -172,7 +206,11 @@ impl Subject {
 
     /// Place of the first term among the parameters.
     pub fn first_term(&self) -> usize {
-        if self.asymmetric { 11 } else { 7 }
+        match (self.elements, self.asymmetric) {
+            (Some(elements), _) => elements.parameters() + 1,
+            (None, true) => 11,
+            (None, false) => 7,
+        }
     }
 
     /// Whether the axis has to go to several places of its stroke.

@@ -2,7 +2,7 @@
 
 use crate::atom::Atom;
 use crate::candidate::Candidate;
-use crate::information::{Information, information};
+use crate::information::{Extent, Information, information};
 use crate::limits::Limits;
 use crate::rig::Rig;
 use crate::run::{Peaks, Run, run};
@@ -24,21 +24,51 @@ pub struct Entry {
 }
 
 impl Entry {
-    /// Simulates a motion on a candidate. `number` decides where the encoder stands in its step.
+    /// Simulates a motion that is all of a log on a candidate. `number` decides where the encoder stands in its step.
     ///
     /// # Errors
     /// Where the candidate or the loop cannot be simulated.
     pub fn of(
         motion: &impl Trajectory,
         candidate: &Candidate,
+        with: (&Limits, &Rig),
+        number: u32,
+    ) -> Result<Entry, ParamError> {
+        Entry::of_extent(motion, candidate, with, number, Extent::Log)
+    }
+
+    /// The same of a motion that is a part of one.
+    ///
+    /// # Errors
+    /// Where the candidate or the loop cannot be simulated.
+    pub fn of_piece(
+        motion: &impl Trajectory,
+        candidate: &Candidate,
+        with: (&Limits, &Rig),
+        number: u32,
+    ) -> Result<Entry, ParamError> {
+        Entry::of_extent(motion, candidate, with, number, Extent::Piece)
+    }
+
+    /// That of the same motion so many times, one after the other.
+    #[must_use]
+    pub fn repeated(mut self, times: u32) -> Entry {
+        self.information.repeat(f64::from(times));
+        self
+    }
+
+    fn of_extent(
+        motion: &impl Trajectory,
+        candidate: &Candidate,
         (limits, rig): (&Limits, &Rig),
         number: u32,
+        extent: Extent,
     ) -> Result<Entry, ParamError> {
         let phase = |k: usize| Noise::new(u64::from(number) * PHASES as u64 + k as u64).uniform();
         let runs: Vec<Run> = (0..PHASES)
             .map(|k| run(motion, candidate, rig, limits.peak_force, phase(k)))
             .collect::<Result<_, _>>()?;
-        let found = information(candidate, rig, &runs);
+        let found = information(candidate, rig, &runs, extent);
         Ok(Entry {
             // A piece too short to be filtered tells nothing.
             information: found.unwrap_or_else(|| Information::none_of(candidate)),
@@ -68,6 +98,11 @@ impl Peaks {
             saturated: self.saturated.max(other.saturated),
             followed: self.followed.min(other.followed),
         }
+    }
+
+    /// Root mean square of the force, N (N m).
+    pub fn rms_force(&self) -> f64 {
+        libm::sqrt(self.force_square)
     }
 
     /// Whether the true motion stays within stroke and speed, end zones left out of account: they are there for this.

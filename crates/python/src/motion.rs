@@ -7,6 +7,7 @@ use crate::study::{Parts, bundled, saved, unbundled};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use std::path::PathBuf;
+use stiction::LawKind;
 use stiction::bundle;
 use stiction::commands::plan::SCHEMA;
 use stiction::commands::{Bundle, Carrier, Known, PlanOptions, Want, plan_motion, text};
@@ -98,6 +99,8 @@ pub struct Asked {
     wants: Vec<String>,
     formats: Vec<String>,
     start: Option<String>,
+    asymmetric: bool,
+    law: Option<String>,
 }
 
 /// Plans the motion to record for the axis of a file; none where it was stopped before there was one.
@@ -122,6 +125,7 @@ pub fn plan(
     let wants: Result<Vec<Want>, Refusal> = options.wants.iter().map(|text| want(text)).collect();
     let carriers: Result<Vec<Carrier>, Refusal> =
         options.formats.iter().map(|name| carrier(name)).collect();
+    let law: Result<Option<LawKind>, Refusal> = options.law.as_deref().map(law).transpose();
     let options = PlanOptions {
         time: options.time,
         probe: options.probe,
@@ -133,7 +137,8 @@ pub fn plan(
         wants: wants.map_err(|refusal| refusal.raise(py))?,
         carriers: carriers.map_err(|refusal| refusal.raise(py))?,
         start: options.start,
-        asymmetric: false,
+        asymmetric: options.asymmetric,
+        law: law.map_err(|refusal| refusal.raise(py))?,
     };
     let (found, stopped) = run(py, &how, |observer| {
         let planned = plan_motion(&axis, &options, observer)?;
@@ -154,6 +159,14 @@ fn want(text: &str) -> Result<Want, Refusal> {
         let said = error.to_string();
         let allowed = said.split_once("; ").map_or("", |(_, allowed)| allowed);
         Refusal::argument("wants", format!("{text:?}"), allowed)
+    })
+}
+
+/// A law by its name.
+fn law(name: &str) -> Result<LawKind, Refusal> {
+    LawKind::from_name(name).ok_or_else(|| {
+        let allowed = "lugre, maxwell-slip, gms";
+        Refusal::argument("law", format!("{name:?}"), allowed)
     })
 }
 

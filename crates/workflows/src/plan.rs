@@ -8,6 +8,7 @@ mod carried;
 mod design;
 mod judged;
 mod known;
+mod law;
 mod outcome;
 mod possible;
 mod wanted;
@@ -24,6 +25,7 @@ use crate::error::Error;
 use std::path::Path;
 use stiction_files::Axis;
 use stiction_files::plan::InputEntry;
+use stiction_parameters::LawKind;
 use stiction_search::Observer;
 
 /// What is to be planned.
@@ -35,6 +37,8 @@ pub struct PlanOptions {
     pub probe: bool,
     /// Whether each direction of motion has parameters of its own; those of a model that is so have it anyway.
     pub asymmetric: bool,
+    /// The law that is fitted; `None`: that of the model, of a log Maxwell slip with a curve where the axis file has elements, else LuGre.
+    pub law: Option<LawKind>,
     /// What is known of the axis beside its nameplate.
     pub known: Option<Known>,
     /// What is to be known how well: the shortest motion is taken that is enough. Empty: the best of the longest time.
@@ -82,11 +86,12 @@ pub fn plan(
         return Err(Error::usage(found, format!("{least} s to {most} s")));
     }
     let axis = Axis::read(axis_file)?;
+    let law = law::asked(&axis, axis_file, options)?;
     let kind = axis.limits.as_ref().map(|limits| limits.motion);
     let told = match (&options.known, kind) {
         (Some(known), Some(kind)) => {
-            let law = (kind, options.asymmetric);
-            Some(known::told(known, axis_file, law, observer)?)
+            let asked = (kind, law, options.asymmetric);
+            Some(known::told(known, axis_file, asked, observer)?)
         }
         _ => None,
     };
@@ -101,7 +106,7 @@ pub fn plan(
             sha256,
         });
     }
-    let given = assume::given(&axis, told, options)?;
+    let given = assume::given(&axis, axis_file, told, options)?;
     wanted::are_planned(&options.wants, &given.subject)?;
     let start = given.start;
     carried::tried(&given, options, start)?;
@@ -109,4 +114,70 @@ pub fn plan(
     planned
         .map(|planned| carried::carried(planned, start))
         .transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PlanOptions, plan};
+    use stiction_search::{Control, Progress, Silent, Stage};
+
+    const AXIS: &str = r#"
+kind = "linear"
+rate = "500 Hz"
+[limits]
+stroke = ["-20 mm", "30 mm"]
+speed = "0.1 m/s"
+acceleration = "2 m/s2"
+rated_force = "40 N"
+peak_force = "60 N"
+mass = "4 kg"
+[controller]
+bandwidth = "20 Hz"
+"#;
+
+    /// Whoever stops while pieces are chosen has what was chosen, simulated as any other.
+    #[test]
+    fn a_choice_that_is_stopped_is_simulated_and_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("axis.toml");
+        std::fs::write(&file, AXIS).unwrap();
+        let mut is_stopped = false;
+        let mut stop = |progress: &Progress| {
+            is_stopped |= progress.stage == Stage::Search;
+            match is_stopped {
+                true => Control::Stop,
+                false => Control::Continue,
+            }
+        };
+        let options = PlanOptions {
+            time: Some(4.0),
+            ..PlanOptions::default()
+        };
+        let planned = plan(&file, &options, &mut stop).unwrap().unwrap();
+        assert_eq!(planned.file.status, "interrupted");
+        assert!(planned.motion.duration() > 2.0 && planned.motion.duration() <= 4.0);
+        let limits = &planned.given.nameplate.limits;
+        assert!(planned.motion.holds(limits) && planned.expected.peaks.within(limits));
+    }
+
+    /// A drive that could not give for long what the motion takes gets a slower one.
+    #[test]
+    fn the_drive_can_give_for_long_what_a_motion_takes() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("axis.toml");
+        let weak = AXIS.replace("\"40 N\"", "\"1.5 N\"");
+        std::fs::write(&file, weak).unwrap();
+        let options = PlanOptions {
+            time: Some(4.0),
+            ..PlanOptions::default()
+        };
+        let planned = plan(&file, &options, &mut Silent).unwrap().unwrap();
+        let largest = &planned.file.largest;
+        assert!(
+            largest.force_rms <= 1.5 && largest.force <= 60.0,
+            "{largest:?}"
+        );
+        // The force is what slows it down: with a stronger drive it is faster.
+        assert!(largest.speed < 0.08, "{largest:?}");
+    }
 }

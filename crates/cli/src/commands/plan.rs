@@ -10,7 +10,7 @@ use std::io::Write;
 use stiction::commands::{
     Carrier, Known, PlanOptions, Want, check_folder_of, check_inputs, plan_motion,
 };
-use stiction::{Error, bundle};
+use stiction::{Error, LawKind, bundle};
 
 /// Designs the motion and writes it.
 pub fn run(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
@@ -23,6 +23,11 @@ pub fn run(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
         time: plan.time,
         probe: plan.stage == arguments::Stage::Probe,
         asymmetric: plan.asymmetric,
+        law: plan.law.map(|law| match law {
+            arguments::PlannedLaw::Lugre => LawKind::LuGre,
+            arguments::PlannedLaw::MaxwellSlip => LawKind::MaxwellSlip,
+            arguments::PlannedLaw::Gms => LawKind::Gms,
+        }),
         known: model.or(plan.log.clone().map(Known::Log)),
         seed: plan.seed,
         wants: (plan.wants.iter())

@@ -66,6 +66,10 @@ fn a_plan_is_written_with_set_points_within_the_limits_and_the_same_on_any_threa
     let (code, out, err) = with("one", "1");
     assert_eq!((code, err.as_str()), (0, ""));
     insta::assert_snapshot!("text_of_a_plan", out);
+    // Every digit of what is expected and of the pieces, but for the version.
+    let file = std::fs::read_to_string(at.join("one/plan.toml")).unwrap();
+    let numbers: Vec<&str> = file.lines().filter(|l| !l.starts_with("version")).collect();
+    insta::assert_snapshot!("numbers_of_a_plan", numbers.join("\n"));
     let rows = rows(at, "one/setpoints.csv");
     let [first, last] = [rows[0], rows[rows.len() - 1]];
     assert_eq!(first, [0.0; 4]);
@@ -270,6 +274,90 @@ parameter = [
     { name = "mass", value = 4, unit = "kg", std = 0.01 },
 ]
 "#;
+
+const ELEMENTS: &str = r#"
+law = "gms"
+parameter = [
+    { name = "stiffness_1", value = 2e5, unit = "N/m", std = 2e4 },
+    { name = "stiffness_2", value = 4e4, unit = "N/m", std = 4e3 },
+    { name = "yield_1", value = 2e-5, unit = "m", std = 2e-6 },
+    { name = "yield_2", value = 1e-4, unit = "m", std = 1e-5 },
+    { name = "sigma2", value = 20, unit = "N*s/m", std = 1 },
+    { name = "coulomb", value = 5, unit = "N", std = 0.1 },
+    { name = "static", value = 8, unit = "N", std = 0.3 },
+    { name = "stribeck_velocity", value = 0.01, unit = "m/s", std = 0.002 },
+    { name = "attraction", value = 200, unit = "1/s", std = 20 },
+    { name = "mass", value = 4, unit = "kg", std = 0.01 },
+]
+"#;
+
+/// A model of Maxwell-slip elements is planned for as such: an interval for each parameter of each, and reversals that grow inside each
+/// other; limits alone say too little, and what to type is said.
+#[test]
+fn a_plan_for_elements_expects_an_interval_of_each() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    std::fs::write(at.join("gms.toml"), ELEMENTS).unwrap();
+    let all = ["plan", "axis.toml", "--model", "gms.toml", "--time", "5s"];
+    let (code, out, err) = run(at, &[&all[..], &["--json", "--out", "out"]].concat());
+    assert_eq!((code, err.as_str()), (0, ""));
+    let plan: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(
+        (&plan["law"], &plan["elements"]),
+        (&"gms".into(), &2.into())
+    );
+    let expected = plan["parameter"].as_array().unwrap();
+    let names: Vec<&str> = expected
+        .iter()
+        .map(|p| p["name"].as_str().unwrap())
+        .collect();
+    let all = [
+        "stiffness_1",
+        "stiffness_2",
+        "yield_1",
+        "yield_2",
+        "sigma2",
+        "coulomb",
+        "stribeck_velocity",
+        "attraction",
+        "mass",
+    ];
+    assert_eq!(names, all);
+    let half = |p: &serde_json::Value| p["interval_percent"].as_f64().unwrap();
+    assert!(
+        expected.iter().all(|p| half(p) > 0.0 && half(p) < 40.0),
+        "{out}"
+    );
+    let (code, out, err) = run(at, &["plan", "axis.toml", "--law", "gms", "--out", "other"]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(
+        err.contains("--stage probe") && err.contains("--log probe.csv --law gms"),
+        "{err}"
+    );
+    let sides = [
+        "plan",
+        "axis.toml",
+        "--model",
+        "gms.toml",
+        "--asymmetric",
+        "--out",
+        "other",
+    ];
+    let (code, _, err) = run(at, &sides);
+    assert!(code == 2 && err.contains("--asymmetric"), "{err}");
+    let other = [
+        "plan",
+        "axis.toml",
+        "--model",
+        "gms.toml",
+        "--law",
+        "lugre",
+        "--out",
+        "other",
+    ];
+    let (code, _, err) = run(at, &other);
+    assert!(code == 2 && err.contains("the law gms"), "{err}");
+}
 
 /// A model says more than the nameplate: the axes drawn are nearer to it, and what is expected is less.
 #[test]

@@ -40,6 +40,11 @@ const MOST_REFILLS: usize = 3;
 /// Relative fall of the cost that justifies one more repetition.
 const WORTHWHILE_GAIN: f64 = 1e-3;
 
+/// Parts of the fine stage in which the best starts are followed, and after which the last descent begins; between them elements are
+/// joined.
+const FOLLOWED: f64 = 0.5;
+const JOINED: f64 = 0.9;
+
 /// Times a stalled descent is started again.
 const MOST_RESTARTS: usize = 8;
 
@@ -123,6 +128,8 @@ impl Search<'_> {
         loop {
             rung = self.settle(rung, watch)?;
             let n = rung.law.elements;
+            let joined = most.saturating_sub(n) as f64 / most.saturating_sub(least).max(1) as f64;
+            watch.fraction = FOLLOWED + (JOINED - FOLLOWED) * joined.min(1.0);
             if n <= least || watch.stopped {
                 out.push(rung);
                 return Ok(out);
@@ -151,10 +158,13 @@ impl Search<'_> {
         // Minima with different curves may lie close together: the best are followed further.
         watch.stage = Stage::Fine;
         let mut best: Option<Rung> = None;
-        for rival in rivals.into_iter().take(MOST_RIVALS) {
+        let rivals = rivals.into_iter().take(MOST_RIVALS);
+        let count = rivals.len() as f64;
+        for (i, rival) in rivals.enumerate() {
             if watch.stopped && best.is_some() {
                 break;
             }
+            watch.fraction = FOLLOWED * i as f64 / count;
             let rung = self.refill(rival, most, watch)?;
             if best.as_ref().is_none_or(|b| rung.cost() < b.cost()) {
                 best = Some(rung);
@@ -166,6 +176,7 @@ impl Search<'_> {
     /// Continues a fit until it converges.
     pub fn finish(&mut self, mut rung: Rung, watch: &mut Watch) -> Result<Optimum, Error> {
         watch.stage = Stage::Fine;
+        watch.fraction = JOINED;
         for _ in 0..MOST_RESTARTS {
             if watch.stopped {
                 break;

@@ -37,20 +37,25 @@ impl Record {
 
 /// The first sample at the full rate at which the position has traversed its range.
 fn start(segment: &Segment) -> usize {
+    run_through(&segment.velocity, segment.step)
+}
+
+/// How many samples at the start of a stretch of `velocity` (m/s, rad/s) in steps of `step` s the fit of a Maxwell-slip law leaves
+/// out: until the position has once traversed its range, at most half of them.
+pub fn run_through(velocity: &[f64], step: f64) -> usize {
     let mut at = 0.0_f64;
     let (mut low, mut high) = (0.0_f64, 0.0_f64);
-    let ranges: Vec<f64> = segment
-        .velocity
+    let ranges: Vec<f64> = velocity
         .windows(2)
         .map(|v| {
-            at += 0.5 * (v[0] + v[1]) * segment.step;
+            at += 0.5 * (v[0] + v[1]) * step;
             low = low.min(at);
             high = high.max(at);
             high - low
         })
         .collect();
     let whole = RUN_THROUGH_SHARE * (high - low);
-    let most = (MOST_LOST_SHARE * segment.velocity.len() as f64) as usize;
+    let most = (MOST_LOST_SHARE * velocity.len() as f64) as usize;
     ranges
         .iter()
         .position(|&range| range >= whole)

@@ -4,8 +4,8 @@ use crate::common;
 use crate::common::maxwell::{Maxwell, four, motion};
 use crate::common::{Noise, record};
 use stiction_identify::{
-    Delay, Error, Estimate, Fit, Law, LawKind, Mass, Objective, Optimum, Record, Settings, Silent,
-    Status, Terms, estimate, identify, predict, separable,
+    Control, Delay, Error, Estimate, Fit, Law, LawKind, Mass, Objective, Optimum, Progress, Record,
+    Settings, Silent, Stage, Status, Terms, estimate, identify, predict, separable,
 };
 
 fn friction_only() -> Terms {
@@ -77,6 +77,26 @@ fn recursion_follows_the_equations() {
             "{left:?}"
         );
     }
+}
+
+/// The stage that takes longest says how far it is: it never falls back, and moves in between.
+#[test]
+fn the_longest_stage_says_how_far_it_is() {
+    let (v, u) = four().along(4000, 1e-3, 20, motion);
+    let record = record(1e-3, v, u);
+    let mut fractions: Vec<f64> = Vec::new();
+    let mut watch = |progress: &Progress| {
+        if progress.stage == Stage::Fine {
+            fractions.push(progress.fraction);
+        }
+        Control::Continue
+    };
+    let settings = Settings::default();
+    separable(&record, gms(3), &friction_only(), &settings, &mut watch).unwrap();
+    assert!(fractions.is_sorted(), "{fractions:?}");
+    fractions.dedup();
+    assert!(fractions.len() > 4, "{fractions:?}");
+    assert_eq!((fractions[0], fractions[fractions.len() - 1]), (0.0, 1.0));
 }
 
 /// The reduced gradient equals central differences of the cost.

@@ -94,11 +94,12 @@ fn next(planned: &Planned, axis: &Path, written: &Path) -> String {
     format!("stiction identify {first}{log} --axis {axis}{law} --plan {plan} --out {out}")
 }
 
-/// Options by which a plan, and an identification, is for parameters of each direction.
-fn sides(file: &PlanFile) -> [&'static str; 2] {
-    match file.asymmetric {
-        true => [" --asymmetric", " --law lugre --asymmetric"],
-        false => ["", ""],
+/// Options by which a plan, and an identification, is for parameters of each direction, or for another law.
+fn sides(file: &PlanFile) -> [String; 2] {
+    match (&file.law, file.asymmetric) {
+        (Some(law), _) => [(); 2].map(|()| format!(" --law {law}")),
+        (None, true) => [" --asymmetric", " --law lugre --asymmetric"].map(String::from),
+        (None, false) => ["", ""].map(String::from),
     }
 }
 

@@ -4,8 +4,9 @@ use stiction_identify::{
     Conditioning, Dependence, Law, LawKind, Samples, Settings, Silent, Terms, condition, identify,
 };
 use stiction_plan::{
-    Aim, Alone, Atom, Back, Candidate, Entry, Expected, HandMade, Limits, Loop, Motion, NAMES,
-    Nameplate, Rig, Subject, Table, dictionary, hand_made, places, run, select,
+    Aim, Alone, Atom, Back, Belief, Candidate, Elements, Entry, Expected, HandMade, Limits, Loop,
+    Motion, NAMES, Nameplate, Rig, Subject, Table, dictionary, hand_made, nested, places, run,
+    select,
 };
 use stiction_servo::noise::Noise;
 
@@ -49,10 +50,16 @@ fn realised(motion: &Motion, axis: &Candidate, terms: &Terms, logs: u64) -> Vec<
             ..Samples::default()
         };
         let record = condition(&[samples], &Conditioning::default()).unwrap();
-        let law = Law::new(LawKind::LuGre);
-        let law = match axis.back {
-            None => law,
-            Some(_) => law.asymmetric(),
+        let law = match (&axis.back, axis.subject.elements) {
+            (None, None) => Law::new(LawKind::LuGre),
+            (Some(_), _) => Law::new(LawKind::LuGre).asymmetric(),
+            (None, Some(elements)) => Law {
+                elements: elements.count,
+                ..Law::new(match elements.falls {
+                    true => LawKind::Gms,
+                    false => LawKind::MaxwellSlip,
+                })
+            },
         };
         let settings = Settings::default();
         let about = terms.about(&record);
@@ -73,11 +80,14 @@ fn terms() -> Terms {
     }
 }
 
+/// Logs whose errors are held against what is predicted.
+const LOGS: u64 = 8;
+
 /// Holds predicted deviations against those of fits; pooled, and each within what a few logs leave open.
 fn is_realised(axis: &Candidate, motion: &Motion, terms: &Terms) {
     let entry = Entry::of(motion, axis, (&LIMITS, &RIG), 3).unwrap();
     let expected = Expected::of(&[entry], &Aim::new(RIG.force_noise));
-    let found = realised(motion, axis, terms, 8);
+    let found = realised(motion, axis, terms, LOGS);
     let (mut pooled, count) = (0.0, found.len());
     for ((name, found), predicted) in axis
         .subject
@@ -355,4 +365,112 @@ fn axes_with_terms_are_those_without_and_more() {
             }
         }
     }
+}
+
+fn with_elements(falls: bool) -> Candidate {
+    let subject = Subject {
+        elements: Some(Elements { count: 3, falls }),
+        ..Subject::default()
+    };
+    let mut values = vec![6e5, 1.5e5, 3e4, 1.5e-5, 6e-5, 3e-4, 60.0];
+    if falls {
+        values.extend([20.0, 5e-3, 300.0]);
+    }
+    values.push(10.0);
+    Candidate::of(&subject, &values).unwrap()
+}
+
+/// Strokes that are past the deepest yield, then reversals inside reversals.
+fn nested_motion() -> Motion {
+    let sines = hand_made(HandMade::ThreeSines, &LIMITS, &RIG, 3.0);
+    let mut atoms = sines.unwrap().unwrap().atoms().to_vec();
+    atoms.extend(nested(&LIMITS, &RIG, [1.5e-5, 3e-4]).into_iter().step_by(5));
+    Motion::new(atoms).unwrap()
+}
+
+/// A motion again and again tells what the motion of all of them does.
+#[test]
+fn a_motion_again_and_again_is_judged_by_one() {
+    let axis = machine();
+    let once = hand_made(HandMade::ThreeSines, &LIMITS, &RIG, 3.0)
+        .unwrap()
+        .unwrap();
+    let all = Motion::new(once.atoms().repeat(4)).unwrap();
+    let entry = |motion: &Motion| Entry::of(motion, &axis, (&LIMITS, &RIG), 3).unwrap();
+    let aim = Aim::new(RIG.force_noise);
+    let whole = Expected::of(&[entry(&all)], &aim);
+    let repeated = Expected::of(&[entry(&once).repeated(4)], &aim);
+    for (whole, repeated) in whole.axes[0].iter().zip(&repeated.axes[0]) {
+        let ratio = repeated / whole;
+        assert!((0.6..1.7).contains(&ratio), "{repeated} of {whole}");
+    }
+}
+
+/// Nested reversals are within the limits, go past the longest yield, and reach below the shortest.
+#[test]
+fn nested_reversals_reach_across_the_yields() {
+    let all = nested(&LIMITS, &RIG, [1.5e-5, 3e-4]);
+    let depth = |atom: &Atom| atom.extremes().position[1];
+    assert!(all.iter().all(|atom| atom.extremes().within(&LIMITS)));
+    let deepest = all.iter().map(depth).fold(0.0, f64::max);
+    let least = all.iter().map(depth).fold(f64::INFINITY, f64::min);
+    assert!(deepest > 2.0 * 3e-4 && least < 1.5e-5, "{least} {deepest}");
+    let grows = all.iter().filter(|atom| match atom {
+        Atom::Sine {
+            fade_in, fade_out, ..
+        } => fade_in > fade_out,
+        Atom::Move { .. } => false,
+    });
+    assert_eq!(2 * grows.count(), all.len());
+}
+
+#[test]
+fn elements_of_maxwell_slip_are_known_as_predicted() {
+    are_elements_realised(false);
+}
+
+#[test]
+fn elements_whose_level_falls_are_known_as_predicted() {
+    are_elements_realised(true);
+}
+
+fn are_elements_realised(falls: bool) {
+    let axis = with_elements(falls);
+    axis.validate().unwrap();
+    assert_eq!(axis.values().len(), axis.subject.names().len());
+    is_realised(&axis, &nested_motion(), &terms());
+}
+
+/// What is drawn of elements is an axis, and goes together as the first identification says.
+#[test]
+fn elements_are_drawn_together() {
+    let axis = with_elements(true);
+    let n = axis.values().len();
+    let mut correlations = vec![vec![0.0; n]; n];
+    for (i, row) in correlations.iter_mut().enumerate() {
+        row[i] = 1.0;
+    }
+    // The first two stiffnesses against each other: the sum is known.
+    (correlations[0][1], correlations[1][0]) = (-0.999, -0.999);
+    let belief = Belief {
+        axis: axis.clone(),
+        deviations: vec![Some(0.3); n],
+        correlations,
+    };
+    let [shortest, longest] = belief.yields().unwrap();
+    assert!(shortest < 1.5e-5 && longest > 3e-4);
+    let mut distinct = 0;
+    for drawn in belief.draw(&LIMITS, 40, 3) {
+        drawn.validate().unwrap();
+        let values = drawn.values();
+        assert_eq!(Candidate::of(&axis.subject, &values), Some(drawn.clone()));
+        let by: Vec<f64> = values
+            .iter()
+            .zip(axis.values())
+            .map(|(a, b)| libm::log(a / b))
+            .collect();
+        assert!((by[0] + by[1]).abs() < 0.1, "{by:?}");
+        distinct += usize::from((by[0] - by[2]).abs() > 0.1);
+    }
+    assert!(distinct > 20, "{distinct}");
 }

@@ -1,8 +1,11 @@
 //! What plans are worth: logs of known axes along planned and hand-made motions, identified with defaults. Writes the table of
 //! docs/plan.md: `plan [LOGS]`, LOGS of each motion and axis (10). `plan fresh [AXES]`: the slide's nameplate on AXES axes (32)
 //! that it allows, a log each, by one plan, in two stages, and by the motion of the README. `plan terms [LOGS]`: axes with terms beside
-//! LuGre, and with friction of its own in each direction.
+//! LuGre, and with friction of its own in each direction. `plan time [LOGS]`: how long the plan, six speeds and three sines would
+//! have to be for 1 % of every parameter. `plan elements [LOGS]`: axes with Maxwell-slip elements, by a probe and the plan for
+//! what it says of them.
 
+mod elements;
 mod terms;
 
 use std::path::Path;
@@ -86,6 +89,12 @@ fn main() {
     if arguments.first().is_some_and(|word| word == "terms") {
         return terms::terms(number(1, 10) as u64);
     }
+    if arguments.first().is_some_and(|word| word == "elements") {
+        return elements::elements(number(1, 10) as u64);
+    }
+    if arguments.first().is_some_and(|word| word == "time") {
+        return time(number(1, 10) as u64);
+    }
     let logs = number(0, 10) as u64;
     println!(
         "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted | s to 1 % |\n|---|---|---|---|---|---|---|---|---|---|"
@@ -148,6 +157,37 @@ fn main() {
             }
         }
         say(name, "probe + plan", duration, &mut found);
+        std::fs::remove_dir_all(&folder).expect("the folder that was made");
+    }
+}
+
+/// How long each motion would have to be for 1 % of every parameter: the plan, and the two that are run by hand.
+fn time(logs: u64) {
+    println!(
+        "| axis | motion | s | logs | median | largest | coverage | flagged | rms/predicted | s to 1 % |\n|---|---|---|---|---|---|---|---|---|---|"
+    );
+    for (name, axis, values) in AXES {
+        let folder =
+            std::env::temp_dir().join(format!("stiction-time-{}-{name}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let file = folder.join("axis.toml");
+        std::fs::write(&file, axis).expect("a file");
+        let planned = plan(&file, PlanOptions::default());
+        let plate = &planned.given.nameplate;
+        let truth = Candidate::from_values(values);
+        let axis = Axis::read(&file).expect("an axis");
+        let mut motions = vec![("plan, nameplate", planned.motion.clone())];
+        for kind in [HandMade::SixSpeeds, HandMade::ThreeSines] {
+            let made = hand_made(kind, &plate.limits, &plate.rig, 9.0).expect("limits");
+            motions.extend(made.map(|motion| (kind.name(), motion)));
+        }
+        for (motion_name, motion) in motions {
+            let mut found = Found::default();
+            for seed in 0..logs {
+                one(&motion, &truth, &planned, &axis, (seed, None), &mut found);
+            }
+            say(name, motion_name, motion.duration(), &mut found);
+        }
         std::fs::remove_dir_all(&folder).expect("the folder that was made");
     }
 }
@@ -322,6 +362,12 @@ fn one(
     let mut options = Options::default();
     if planned.given.subject.asymmetric {
         (options.law, options.asymmetric) = (Some(LawKind::LuGre), true);
+    }
+    if let Some(elements) = planned.given.subject.elements {
+        options.law = Some(match elements.falls {
+            true => LawKind::Gms,
+            false => LawKind::MaxwellSlip,
+        });
     }
     let fit = identify(&logs, axis, &options).expect("a fit");
     let entry = Entry::of(motion, truth, (limits, rig), 1 << 25).expect("as before");

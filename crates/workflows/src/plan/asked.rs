@@ -3,9 +3,9 @@
 use crate::error::Error;
 use stiction_codes::Code;
 use stiction_files::{Axis, Warning};
-use stiction_identify::{Dependence, Mass, Terms};
+use stiction_identify::{Delay, Dependence, Mass, Terms};
 use stiction_log::Motion;
-use stiction_plan::{Limits, Subject};
+use stiction_plan::{Elements, Limits, Subject};
 
 /// What is planned for.
 pub(super) struct Asked {
@@ -16,13 +16,24 @@ pub(super) struct Asked {
     pub warnings: Vec<Warning>,
 }
 
+/// The law that the terms stand beside.
+pub(super) struct Law {
+    /// Maxwell-slip elements in the place of LuGre.
+    pub elements: Option<Elements>,
+    /// Whether each direction has parameters of its own.
+    pub is_asymmetric: bool,
+    /// The commands that end in a plan for elements.
+    pub steps: String,
+}
+
 /// What an axis file asks for on an axis that stands at `start`, m (rad).
 pub(super) fn asked(
     axis: &Axis,
-    (motion, is_asymmetric): (Motion, bool),
-    start: f64,
-    limits: &Limits,
+    motion: Motion,
+    law: &Law,
+    (start, limits): (f64, &Limits),
 ) -> Result<Asked, Error> {
+    let is_asymmetric = law.is_asymmetric;
     let terms = axis.terms_of(motion, is_asymmetric)?;
     let mut own = Vec::new();
     let mut pitches = 0;
@@ -35,7 +46,9 @@ pub(super) fn asked(
     if terms.quadratic_viscous {
         own.push(Subject::square(limits));
     }
-    for dependence in &terms.dependences {
+    // Elements have no levels that depend on anything.
+    let levels = terms.dependences.iter().filter(|_| law.elements.is_none());
+    for dependence in levels {
         match dependence {
             Dependence::CoulombPosition(_) => own.push(Subject::level(limits)),
             Dependence::CoulombPitch(pitch) => {
@@ -49,13 +62,14 @@ pub(super) fn asked(
         axis.fits(motion, &motion.force().si_text(), "plan")?;
     }
     let subject = Subject {
+        elements: law.elements,
         asymmetric: false,
         offset: terms.offset,
         terms: own,
     };
     Ok(Asked {
         waves: terms.gravity || !terms.cogging.is_empty() || pitches > 0,
-        warnings: not_planned(axis, &terms).collect(),
+        warnings: not_planned(axis, &terms, law).collect(),
         subject: match is_asymmetric {
             true => subject.directed(),
             false => subject,
@@ -70,7 +84,11 @@ fn warning(what: &str, instead: &str, motion: &str) -> Warning {
 const ABSENT: &str = "planned as if absent, and no interval is expected of it";
 
 /// Each key that is not planned for, and the motion that it needs.
-fn not_planned<'a>(axis: &'a Axis, terms: &'a Terms) -> impl Iterator<Item = Warning> + 'a {
+fn not_planned<'a>(
+    axis: &'a Axis,
+    terms: &'a Terms,
+    law: &'a Law,
+) -> impl Iterator<Item = Warning> + 'a {
     let dependences = terms.dependences.iter().filter_map(|dependence| {
         let motion = match dependence {
             Dependence::CoulombLoad(_) => {
@@ -88,7 +106,10 @@ fn not_planned<'a>(axis: &'a Axis, terms: &'a Terms) -> impl Iterator<Item = War
             Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => {
                 "It differs from log to log: record this motion in each of the states that are to be told apart, twice at least in all"
             }
-            Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => return None,
+            Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => match law.elements {
+                Some(_) => "Maxwell-slip elements have no level that depends on the position: plan and identify with --law lugre for it",
+                None => return None,
+            },
         };
         Some(warning(&format!("terms.{}", dependence.name()), ABSENT, motion))
     });
@@ -106,12 +127,26 @@ fn not_planned<'a>(axis: &'a Axis, terms: &'a Terms) -> impl Iterator<Item = War
         );
         warning(&what, gaussian, curve)
     });
-    let elements = axis.gms_elements.map(|_| {
+    let elements = axis.gms_elements.filter(|_| law.elements.is_none());
+    let elements = elements.map(|_| {
+        let then = format!(
+            "Limits say neither how many elements there are nor where they yield; a first log does: {}",
+            law.steps
+        );
         warning(
             "terms.gms_elements",
             "planned for LuGre, and no interval is expected of the elements",
-            "Add nested reversals of growing depth within presliding, such as sines whose amplitude grows from an encoder step to \
-             the length of presliding and more",
+            &then,
+        )
+    });
+    let delay = law.elements.filter(|_| terms.delay == Delay::Fitted);
+    let delay = delay.map(|_| {
+        warning(
+            "terms.delay = \"fit\"",
+            "Maxwell-slip elements cannot find the delay of the force; what is expected holds where it is known, and every interval is wider \
+             where it is held at what LuGre finds of it",
+            "Give it under [terms] of the axis file: delay = \"none\" where force and motion of a row belong to the same instant, else the \
+             time by which the force is late",
         )
     });
     let mass = (terms.mass == Mass::Absent).then(|| {
@@ -125,6 +160,7 @@ fn not_planned<'a>(axis: &'a Axis, terms: &'a Terms) -> impl Iterator<Item = War
         .chain(fitted)
         .chain(given)
         .chain(elements)
+        .chain(delay)
         .chain(mass)
 }
 

@@ -2,12 +2,14 @@
 
 use super::known::{Known, Told};
 use super::possible::{reachable, samples, thinned};
-use super::{PlanOptions, asked, carried};
+use super::{PlanOptions, asked, carried, law};
 use crate::error::Error;
+use std::path::Path;
 use stiction_files::plan::Assumed;
 use stiction_files::{Axis, Warning};
 use stiction_identify::Mass;
 use stiction_log::Motion;
+use stiction_parameters::LawKind;
 use stiction_plan::{Aim, Belief, Candidate, Limits, Loop, Nameplate, Rig, Subject};
 use stiction_servo::cascade::Cascade;
 
@@ -133,6 +135,7 @@ fn is_rotary(axis: &Axis) -> bool {
 /// What the axis file gives, and what is assumed where it may be.
 pub(super) fn given(
     axis: &Axis,
+    file: &Path,
     told: Option<Told>,
     options: &PlanOptions,
 ) -> Result<Given, Error> {
@@ -267,7 +270,13 @@ pub(super) fn given(
     };
     let is_asymmetric = options.asymmetric || told.as_ref().is_some_and(Told::is_asymmetric);
     let start = carried::start(motion, options)?;
-    let mut asked = asked::asked(axis, (motion, is_asymmetric), start, &whole)?;
+    let law = asked::Law {
+        elements: told.as_ref().and_then(Told::elements),
+        is_asymmetric,
+        // Without a first identification nothing is known of elements.
+        steps: law::steps(file, LawKind::Gms),
+    };
+    let mut asked = asked::asked(axis, motion, &law, (start, &whole))?;
     if let Some(told) = &told {
         asked
             .warnings
@@ -278,6 +287,18 @@ pub(super) fn given(
             key: "position where it starts (--start)".into(),
             value: 0.0,
             unit: motion.position().si_text(),
+        });
+    }
+    let elements = asked
+        .subject
+        .elements
+        .filter(|_| axis.gms_elements.is_none());
+    if let Some(elements) = elements {
+        // What the log of the motion has to be identified with.
+        assumed.push(Assumed {
+            key: "terms.gms_elements".into(),
+            value: elements.count as f64,
+            unit: "1".into(),
         });
     }
     let belief = told.map(|told| told.belief(&asked.subject)).transpose()?;

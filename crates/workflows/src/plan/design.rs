@@ -3,7 +3,7 @@
 use super::PlanOptions;
 use super::assume::Given;
 use super::band::band;
-use super::judged::{Judged, judged, refused};
+use super::judged::{Judged, judged, refused, repeated};
 use super::outcome::Planned;
 use super::possible::{beyond, no_piece, peaks, tells_nothing};
 use super::wanted;
@@ -15,9 +15,10 @@ use stiction_files::plan::{
     PlanFile, RangeEntry, RigEntry, SCHEMA,
 };
 use stiction_friction::ParamError;
+use stiction_parameters::LawKind;
 use stiction_plan::{
-    Aim, Atom, Candidate, Choice, Entry, HandMade, Limits, Motion, Nameplate, Peaks, Spread,
-    Subject, Table, dictionary, hand_made, places, select,
+    Aim, Atom, Belief, Candidate, Choice, Entry, HandMade, Limits, Motion, Nameplate, Peaks,
+    Spread, Subject, Table, dictionary, hand_made, nested, places, select,
 };
 use stiction_search::{Control, Observer, Progress, Shared, Stage};
 
@@ -27,6 +28,8 @@ const FRESH_AXES: [usize; 2] = [8, 16];
 /// Control periods that are simulated in pieces, and in whole motions: they bound the time that a plan takes.
 const PERIODS: f64 = 25e6;
 const FRESH_PERIODS: f64 = 7e6;
+/// Longest motion that needs no design and is simulated whole, s.
+const LONGEST_HAND_MADE: f64 = 60.0;
 /// Simulations of a motion on an axis.
 const PHASES: f64 = 2.0;
 /// Realised root mean square deviations over predicted ones, on simulated logs: predictions are given times this.
@@ -54,6 +57,9 @@ pub(super) fn design(
     let mut pieces = dictionary(limits, rig);
     if given.subject.has_places() {
         pieces.extend(places(limits, rig));
+    }
+    if let Some(yields) = given.belief.as_ref().and_then(Belief::yields) {
+        pieces.extend(nested(limits, rig, yields));
     }
     let atoms: Vec<Atom> = pieces
         .into_iter()
@@ -87,14 +93,21 @@ pub(super) fn design(
         if choice.pieces.is_empty() {
             continue;
         }
-        let designed = Motion::new(ordered(&table, &choice)).map_err(refused)?;
-        let watch = Shared::new(observer, fresh);
-        let Some(designed) = within(designed, &axes_fresh, &given, &watch)? else {
+        let motion = Motion::new(ordered(&table, &choice, &given.subject)).map_err(refused)?;
+        let stopped = choice.interrupted;
+        if stopped && tried.is_some() {
             // What was found for a shorter time stands.
             break;
+        }
+        // What was found is only worth what a simulation says of it, so the first is simulated to its end whoever stops.
+        let mut onward = Onward {
+            observer,
+            stops: tried.is_some(),
         };
+        let watch = Shared::new(&mut onward, fresh);
+        let designed = within(motion, &axes_fresh, &given, &watch)?;
+        let Some(designed) = designed else { break };
         let enough = wanted::are_met(&options.wants, &designed.expected, &names);
-        let stopped = choice.interrupted;
         tried = Some((time, choice, designed));
         if enough || stopped {
             break;
@@ -109,10 +122,12 @@ pub(super) fn design(
     };
     let watch = Shared::new(observer, fresh * HandMade::ALL.len());
     let mut all = vec![("designed", designed)];
+    // A long one is a shorter one again and again.
+    let times = (time / LONGEST_HAND_MADE).ceil().max(1.0);
     for kind in HandMade::ALL {
-        let made = hand_made(kind, limits, rig, time).map_err(refused)?;
+        let made = hand_made(kind, limits, rig, time / times).map_err(refused)?;
         let Some(made) = made else { continue };
-        if let Some(found) = judged(made, &axes_fresh, &given, &watch)? {
+        if let Some(found) = repeated(made, times as u32, &axes_fresh, &given, &watch)? {
             all.push((kind.name(), found));
         }
     }
@@ -155,6 +170,15 @@ pub(super) fn design(
         evaluations,
         trust: TRUST,
         asymmetric: given.subject.asymmetric,
+        law: given.subject.elements.map(|elements| {
+            let kind = if elements.falls {
+                LawKind::Gms
+            } else {
+                LawKind::MaxwellSlip
+            };
+            kind.name().into()
+        }),
+        elements: given.subject.elements.map(|elements| elements.count),
         assumed: given.assumed.clone(),
         inputs,
         limits: LimitsEntry {
@@ -180,7 +204,7 @@ pub(super) fn design(
             position: largest.position,
             speed: largest.speed,
             force: largest.force,
-            force_rms: libm::sqrt(largest.force_square),
+            force_rms: largest.rms_force(),
             following_error: largest.error,
             saturated: largest.saturated,
         },
@@ -233,7 +257,7 @@ fn table(
             if watch.is_stopped() {
                 return None;
             }
-            let entry = Entry::of(&atoms[k / n], &axes[k % n], limits, k as u32);
+            let entry = Entry::of_piece(&atoms[k / n], &axes[k % n], limits, k as u32);
             watch.one_more();
             watch.go_on();
             Some(entry)
@@ -248,6 +272,21 @@ fn table(
         .map_err(refused)?;
     let entries = entries.chunks(n).map(<[Entry]>::to_vec).collect();
     Ok(Some(Table { atoms, entries }))
+}
+
+/// Tells an observer, and stops for it or does not.
+struct Onward<'o> {
+    observer: &'o mut dyn Observer,
+    stops: bool,
+}
+
+impl Observer for Onward<'_> {
+    fn progress(&mut self, progress: &Progress) -> Control {
+        match self.observer.progress(progress) {
+            Control::Stop if self.stops => Control::Stop,
+            _ => Control::Continue,
+        }
+    }
 }
 
 /// Scores on all threads.
@@ -267,11 +306,28 @@ fn chosen(table: &Table, aim: &Aim, time: f64, observer: &mut dyn Observer) -> C
 }
 
 /// The chosen pieces by rising speed, so that the axis shows first what it does slowly.
-fn ordered(table: &Table, choice: &Choice) -> Vec<Atom> {
+///
+/// Before them those that go as far as any, the slowest that do: a fit of Maxwell-slip elements leaves out what was before the axis has
+/// been everywhere.
+fn ordered(table: &Table, choice: &Choice, subject: &Subject) -> Vec<Atom> {
     let mut atoms: Vec<Atom> = choice.pieces.iter().map(|p| table.atoms[*p]).collect();
     atoms.sort_by(|a, b| a.extremes().speed.total_cmp(&b.extremes().speed));
+    if subject.elements.is_none() {
+        return atoms;
+    }
+    for side in [0, 1] {
+        let reach = |atom: &Atom| atom.extremes().position[side].abs();
+        let far = atoms.iter().map(reach).fold(0.0, f64::max);
+        if let Some(at) = atoms.iter().position(|atom| reach(atom) >= AS_FAR * far) {
+            let first = atoms.remove(at);
+            atoms.insert(0, first);
+        }
+    }
     atoms
 }
+
+/// Part of the way of the farthest piece at which another goes as far.
+const AS_FAR: f64 = 0.97;
 
 /// The motion simulated on every axis, slowed down until it keeps within the limits on all of them.
 fn within(
@@ -293,6 +349,7 @@ fn within(
         let part = |limit: f64, found: f64| if found > limit { limit / found } else { 1.0 };
         let by = MORE
             * part(limits.speed, peaks.speed)
+                .min(part(limits.rated_force, peaks.rms_force()))
                 .min(part(limits.stroke[1], peaks.position[1]))
                 .min(part(-limits.stroke[0], -peaks.position[0]));
         let slowed = found.motion.atoms().iter().map(|atom| {
@@ -334,7 +391,15 @@ fn ranges(given: &Given) -> Vec<RangeEntry> {
     let names = given.subject.names();
     let factors = belief.factors();
     let values = names.iter().zip(belief.axis.values()).zip(&factors);
-    let each = values.map(|((name, value), by)| {
+    let of_elements = belief.coulomb_of_elements();
+    let each = values.enumerate().map(|(i, ((name, value), by))| {
+        let excess = belief.axis.excess();
+        if of_elements == Some(i) {
+            return entry(
+                "static over coulomb",
+                [1.0 + excess / by, 1.0 + excess * by],
+            );
+        }
         // Its factor is that of what it has above Coulomb friction.
         match name.strip_prefix("static") {
             Some(side) => {

@@ -22,6 +22,17 @@ pub(super) fn judged(
     given: &Given,
     watch: &Shared,
 ) -> Result<Option<Judged>, Error> {
+    repeated(motion, 1, axes, given, watch)
+}
+
+/// Judges a motion so many times one after the other, of which one is simulated: what it does and tells is the same each time.
+pub(super) fn repeated(
+    motion: Motion,
+    times: u32,
+    axes: &[Candidate],
+    given: &Given,
+    watch: &Shared,
+) -> Result<Option<Judged>, Error> {
     let (limits, rig) = (&given.nameplate.limits, &given.nameplate.rig);
     let entries: Vec<Option<Result<Entry, ParamError>>> = axes
         .par_iter()
@@ -43,9 +54,18 @@ pub(super) fn judged(
         .into_iter()
         .collect::<Result<Vec<_>, _>>()
         .map_err(refused)?;
+    let simulated = entries.iter().map(|e| e.simulated).sum();
+    let (entries, motion) = match times {
+        1 => (entries, motion),
+        _ => {
+            let each = entries.into_iter().map(|entry| entry.repeated(times));
+            let atoms = motion.atoms().repeat(times as usize);
+            (each.collect(), Motion::new(atoms).map_err(refused)?)
+        }
+    };
     Ok(Some(Judged {
         expected: Expected::of(&entries, &given.aim),
-        simulated: entries.iter().map(|e| e.simulated).sum(),
+        simulated,
         motion,
     }))
 }
@@ -60,8 +80,10 @@ pub(super) fn refused(error: ParamError) -> Error {
 }
 
 impl Judged {
-    /// Whether the true motion keeps within stroke and speed on every axis.
+    /// Whether the true motion keeps within stroke and speed on every axis, and the drive within the force that it can give for long. Its
+    /// largest force is that of the simulated drive, which gives no more.
     pub fn keeps(&self, limits: &Limits) -> bool {
-        self.expected.peaks.within(limits)
+        let peaks = &self.expected.peaks;
+        peaks.within(limits) && peaks.rms_force() <= limits.rated_force
     }
 }

@@ -1,5 +1,6 @@
 //! What a first model or a first log says of the axis.
 
+use super::law;
 use crate::error::Error;
 use crate::identify::{Files, Options, identify};
 use std::path::{Path, PathBuf};
@@ -7,7 +8,7 @@ use stiction_files::ModelFile;
 use stiction_files::model::{ModelParameter, ReadModel};
 use stiction_identify::{LawKind, Observer};
 use stiction_parameters::{Name, Quantity};
-use stiction_plan::{Belief, Candidate, Subject};
+use stiction_plan::{Belief, Candidate, Elements, Subject};
 use stiction_signal::noise_deviation;
 
 /// What is known of an axis beside its nameplate.
@@ -44,13 +45,23 @@ pub(super) struct Told {
 pub(super) fn told(
     known: &Known,
     axis_file: &Path,
-    (kind, asymmetric): (stiction_log::Motion, bool),
+    (kind, law, asymmetric): (stiction_log::Motion, Option<LawKind>, bool),
     observer: &mut dyn Observer,
 ) -> Result<Told, Error> {
     match known {
         Known::Model(file) => {
             let model = ReadModel::read(file)?;
             fits(&model.model, file, kind)?;
+            if let Some(law) = law.filter(|law| law.name() != model.model.law) {
+                let found = format!("the law {}", model.model.law);
+                let allowed = format!("a model of --law {law}, or that option left out");
+                return Err(refuse(file, &found, &allowed));
+            }
+            let kind = LawKind::from_name(&model.model.law);
+            if asymmetric && kind.is_some_and(LawKind::has_elements) {
+                let found = format!("the law {} with --asymmetric", model.model.law);
+                return Err(refuse(file, &found, law::BOTH_WAYS));
+            }
             Ok(Told {
                 model: model.model,
                 file: file.clone(),
@@ -67,7 +78,7 @@ pub(super) fn told(
                 ..Files::default()
             };
             let options = Options {
-                law: Some(LawKind::LuGre),
+                law: Some(law.unwrap_or(LawKind::LuGre)),
                 asymmetric,
                 compare_laws: false,
                 ..Options::default()
@@ -109,12 +120,17 @@ fn fits(model: &ModelFile, file: &Path, kind: stiction_log::Motion) -> Result<()
         let allowed = "a model or log of the axis of the axis file";
         return Err(refuse(file, &found, allowed));
     }
-    if model.law != LawKind::LuGre.name() {
+    let law = LawKind::from_name(&model.law).filter(|law| law::PLANNED.contains(law));
+    let Some(law) = law else {
         return Err(refuse(
             file,
             &format!("the law {}", model.law),
-            "LuGre, which alone is planned for: identify with --law lugre, or leave --model out",
+            "a law that is planned for: identify with --law lugre, --law maxwell-slip or --law gms, or leave --model out",
         ));
+    };
+    if law.has_elements() && model.asymmetric {
+        let found = format!("the law {law} with parameters of each direction");
+        return Err(refuse(file, &found, law::BOTH_WAYS));
     }
     if model.force_unit != kind.force().si_text() {
         let found = format!("the force in {}", model.force_unit);
@@ -124,7 +140,11 @@ fn fits(model: &ModelFile, file: &Path, kind: stiction_log::Motion) -> Result<()
         );
         return Err(refuse(file, &found, &allowed));
     }
-    for name in [Quantity::Sigma0, Quantity::Mass] {
+    let stiffness = match law.has_elements() {
+        true => Quantity::ElementStiffness(1),
+        false => Quantity::Sigma0,
+    };
+    for name in [stiffness, Quantity::Mass] {
         if find(model, &Name::from(name).to_string()).is_none() {
             return Err(lacks(file, &Name::from(name).to_string()));
         }
@@ -133,7 +153,7 @@ fn fits(model: &ModelFile, file: &Path, kind: stiction_log::Motion) -> Result<()
 }
 
 fn lacks(file: &Path, name: &str) -> Error {
-    let allowed = "a model with all parameters of LuGre and the mass";
+    let allowed = "a model with all parameters of its law and the mass";
     refuse(file, &format!("no {name}"), allowed)
 }
 
@@ -147,6 +167,14 @@ impl Told {
         self.model.asymmetric
     }
 
+    /// Its Maxwell-slip elements.
+    pub fn elements(&self) -> Option<Elements> {
+        let kind = LawKind::from_name(&self.model.law)?;
+        let names = self.model.parameter.iter().map(|p| p.name.parse::<Name>());
+        let is_one = |name: &Name| matches!(name.quantity, Quantity::ElementStiffness(_));
+        law::elements(kind, names.flatten().filter(is_one).count())
+    }
+
     /// kg (kg m^2)
     pub fn mass(&self) -> Option<f64> {
         find(&self.model, "mass").map(|p| p.value)
@@ -155,6 +183,12 @@ impl Told {
     /// What friction or the force of the model depends on and the subject does not have.
     pub fn beyond(&self, subject: &Subject) -> Vec<String> {
         let names = subject.names();
+        // Of elements the stiffness of all and the level at rest, or the one level, are sums over them.
+        let is_sum = |quantity: Quantity| {
+            let sums = [Quantity::Sigma0, Quantity::Static, Quantity::Coulomb];
+            subject.elements.is_some()
+                && (sums.contains(&quantity) || matches!(quantity, Quantity::ElementForce(_)))
+        };
         let counts = |name: &Name| {
             !matches!(
                 name.quantity,
@@ -165,7 +199,8 @@ impl Told {
                     | Quantity::PositionReference
                     | Quantity::TransmittedReference
                     | Quantity::StribeckExponent
-            ) && !names.contains(&name.to_string())
+            ) && !is_sum(name.quantity)
+                && !names.contains(&name.to_string())
         };
         let parsed = self.model.parameter.iter();
         let parsed = parsed.filter_map(|p| p.name.to_string().parse::<Name>().ok());
@@ -175,6 +210,34 @@ impl Told {
             .map(|name| name.to_string())
             .chain(exponent.map(|_| "stribeck_exponent".to_string()))
             .collect()
+    }
+
+    /// Correlations of parameters by the covariance of the model; those that are not determined go with none.
+    fn correlations(&self, names: &[String], deviations: &[Option<f64>]) -> Vec<Vec<f64>> {
+        let covariance = &self.model.covariance;
+        let places: Vec<Option<usize>> = names
+            .iter()
+            .zip(deviations)
+            .map(|(name, deviation)| {
+                deviation.filter(|d| *d > 0.0)?;
+                covariance.names.iter().position(|own| own == name)
+            })
+            .collect();
+        let between = |i: usize, j: usize| {
+            let (a, b) = (places[i]?, places[j]?);
+            let at = |a: usize, b: usize| covariance.matrix.get(a)?.get(b).copied();
+            let found = at(a, b)? / (at(a, a)? * at(b, b)?).sqrt();
+            found.is_finite().then(|| found.clamp(-1.0, 1.0))
+        };
+        let row = |i: usize| {
+            (0..names.len())
+                .map(|j| match i == j {
+                    true => 1.0,
+                    false => between(i, j).unwrap_or(0.0),
+                })
+                .collect()
+        };
+        (0..names.len()).map(row).collect()
     }
 
     /// The belief that the model gives.
@@ -198,7 +261,7 @@ impl Told {
             found.push(own);
         }
         let Some(axis) = Candidate::of(subject, &values) else {
-            return Err(lacks(&self.file, "parameter of LuGre"));
+            return Err(lacks(&self.file, "parameter of the law"));
         };
         let units = axis.units();
         let deviation = |(p, unit): (&Option<&ModelParameter>, &f64)| {
@@ -210,8 +273,16 @@ impl Told {
                 _ => relative.filter(|_| p.identifiable),
             }
         };
-        let deviations = found.iter().zip(&units).map(deviation).collect();
-        let belief = Belief { axis, deviations };
+        let deviations: Vec<Option<f64>> = found.iter().zip(&units).map(deviation).collect();
+        let correlations = match subject.elements {
+            Some(_) => self.correlations(&subject.names()[..first_term], &deviations),
+            None => Vec::new(),
+        };
+        let belief = Belief {
+            axis,
+            deviations,
+            correlations,
+        };
         belief.validate().map_err(|e| {
             let found = format!("{} = {}", e.name, stiction_number::short(e.value));
             let allowed = format!(

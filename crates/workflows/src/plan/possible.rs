@@ -206,6 +206,9 @@ pub(super) fn beyond(axis: &Axis, given: &Given, all: &[Peaks]) -> Error {
     let Some(&middle) = parts.get(parts.len() / 2) else {
         return no_piece(axis);
     };
+    if weight(&middle) == 0.0 {
+        return too_long(axis, given, all);
+    }
     let (below, above, fast) = middle;
     let motion = given.motion;
     let (length, speed) = (motion.position().si_text(), motion.velocity().si_text());
@@ -234,6 +237,24 @@ pub(super) fn beyond(axis: &Axis, given: &Given, all: &[Peaks]) -> Error {
         short(limits.speed + 2.0 * fast)
     );
     at(axis, "limits.speed", found, allowed)
+}
+
+/// Half of the motions stay within stroke and speed: what they break is the force that the drive can give for long.
+fn too_long(axis: &Axis, given: &Given, all: &[Peaks]) -> Error {
+    let rated = given.nameplate.limits.rated_force;
+    let mut forces: Vec<f64> = all.iter().map(Peaks::rms_force).collect();
+    forces.sort_by(f64::total_cmp);
+    let middle = forces.get(forces.len() / 2).copied().unwrap_or(rated);
+    let newton = given.motion.force().si_text();
+    let found = format!(
+        "{} {newton}: every motion that stays within stroke and speed takes more of the drive for long on an axis that {} allows, half of \
+         them {} {newton} and more as root mean square",
+        short(rated),
+        given.known_by(),
+        short(middle)
+    );
+    let allowed = "a smaller acceleration, which takes less force, or the rated force that the drive really has";
+    at(axis, "limits.rated_force", found, allowed.into())
 }
 
 /// The peaks of each piece on all the axes.

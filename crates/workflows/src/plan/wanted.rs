@@ -87,7 +87,14 @@ fn is_planned(name: Name) -> bool {
     );
     let has_none = matches!(
         name.quantity,
-        Q::Sigma0 | Q::Sigma1 | Q::Mass | Q::Gravity(_) | Q::Cogging(..)
+        Q::Sigma0
+            | Q::Sigma1
+            | Q::Mass
+            | Q::Gravity(_)
+            | Q::Cogging(..)
+            | Q::ElementStiffness(_)
+            | Q::ElementYield(_)
+            | Q::Attraction
     );
     has_sides || (has_none && name.side == Side::Both)
 }
