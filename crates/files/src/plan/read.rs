@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 use stiction_friction::ParamError;
 use stiction_plan::{Atom, Motion};
 
+/// Longest motion of a plan, s: one that is planned has ten minutes at most.
+const LONGEST: f64 = 3600.0;
+
 /// Most pieces: those of a motion of ten minutes.
 const MOST_PIECES: usize = 10_000;
 const MOST_PARAMETERS: usize = 100;
@@ -88,6 +91,10 @@ impl ReadPlan {
             atoms.push(atom);
         }
         let motion = Motion::new(atoms).and_then(|motion| match motion.duration() {
+            seconds if seconds > LONGEST => {
+                let allowed = "pieces of at most an hour in all";
+                Err(ParamError::new("atom", seconds, allowed))
+            }
             seconds if seconds > 0.0 => Ok(motion),
             seconds => Err(ParamError::new("atom", seconds, "at least one piece")),
         });
@@ -125,4 +132,27 @@ fn atom(table: &Table) -> Result<Atom, Error> {
             },
         },
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motion_that_nobody_waits_for_is_refused() {
+        let plan = |duration: &str| {
+            let text = format!(
+                "schema = \"{}\"\nkind = \"linear\"\n[[atom]]\nkind = \"sine\"\namplitude = 0.01\nfrequency = 1.0\n\
+                 duration = {duration}\nfade_in = 0.5\nfade_out = 0.5\n",
+                super::super::SCHEMA
+            );
+            ReadPlan::parse(&text, Path::new("plan.toml")).map(|plan| plan.motion.duration())
+        };
+        assert!(plan("9.0").unwrap() > 0.0);
+        let refused = plan("1e5").unwrap_err().to_string();
+        assert!(
+            refused.contains("plan.toml") && refused.contains("at most an hour"),
+            "{refused}"
+        );
+    }
 }
