@@ -79,7 +79,7 @@ impl Bits {
     ) {
         match self.how {
             How::Whole(number) => {
-                scratch.clear();
+                scratch.resize(records.len() / size * self.bytes, 0);
                 match self.bytes {
                     1 => self.gather::<1>(records, size, scratch),
                     2 => self.gather::<2>(records, size, scratch),
@@ -105,9 +105,13 @@ impl Bits {
     }
 
     /// The bytes of each record, one after the other.
-    fn gather<const N: usize>(&self, records: &[u8], size: usize, out: &mut Vec<u8>) {
-        let own = |record: &[u8]| record[self.at..].first_chunk::<N>().copied();
-        out.extend(records.chunks_exact(size).filter_map(own).flatten());
+    fn gather<const N: usize>(&self, records: &[u8], size: usize, out: &mut [u8]) {
+        let (out, _) = out.as_chunks_mut::<N>();
+        for (to, record) in out.iter_mut().zip(records.chunks_exact(size)) {
+            if let Some(own) = record[self.at..].first_chunk() {
+                *to = *own;
+            }
+        }
     }
 
     /// The bytes as one number; at most nine of them.

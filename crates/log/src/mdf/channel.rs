@@ -61,7 +61,9 @@ impl Channel {
             (_, unit) => (unit, false),
         };
         let content = match content(source, block, conversion.as_ref())? {
-            Ok(content) => {
+            Ok(mut content) => {
+                // Where records have no such bytes, every value is one, whatever is said of its bit.
+                content.invalid = content.invalid.filter(|_| invalid > 0);
                 within(block, &content, data, invalid)?;
                 Ok(content)
             }

@@ -48,6 +48,7 @@ pub(super) fn read(source: &mut Source) -> Result<Vec<Data>, Error> {
     let mut at = source.claim_of(64, b"HD")?.link(0);
     while at != 0 {
         let block = source.claim_of(at, b"DG")?;
+        source.collector.hold(3 * size_of::<Data>() as u64)?;
         let mut data = Data {
             at,
             id_bytes: usize::from(block.byte(0)),
