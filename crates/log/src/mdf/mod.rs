@@ -58,17 +58,15 @@ fn head(source: &mut Source) -> Result<(), Error> {
     source.bytes(0, &mut head)?;
     let half = |at: usize| u16::from_le_bytes([head[at], head[at + 1]]);
     let version = half(28);
-    if !(400..500).contains(&version) {
-        return Err(bad(
-            28,
-            format!("version {version} of MDF, which is none of 4"),
-        ));
+    let (major, minor) = (version / 100, version % 100);
+    if major != 4 {
+        let found = format!("version {major}.{minor:02} in a file that begins as one of 4");
+        return Err(bad(28, found));
     }
     if half(60) != 0 {
         let found = "a recording in ASAM MDF that was never closed";
         return Err(Error::new(Kind::Format, found, MDF_AS_TABLES));
     }
-    let (major, minor) = (version / 100, version % 100);
     source
         .collector
         .detected(format!("version {major}.{minor:02}"));
