@@ -1,6 +1,6 @@
 //! The groups of a file: channels that share their records, as links lead from one to the next.
 
-use super::channel::Channel;
+use super::channel::{Channel, Numbers};
 use super::source::{Source, bad};
 use crate::Error;
 
@@ -41,6 +41,8 @@ pub(super) struct Group {
 
 /// Most bytes of a record of which anything is read.
 const MAX_RECORD: u64 = 1 << 20;
+/// Most channels for each byte of a record: twice as many as it has bits.
+const MAX_FOR_BYTE: u64 = 16;
 
 /// All groups, in the order of the file.
 pub(super) fn read(source: &mut Source) -> Result<Vec<Data>, Error> {
@@ -125,6 +127,15 @@ impl Group {
             })?;
             self.channels.push(channel);
             at = block.link(0);
+        }
+        let stored = |channel: &&Channel| {
+            let numbers = channel.content.as_ref().map(|content| content.numbers);
+            matches!(numbers, Ok(Numbers::Stored(_)))
+        };
+        let stored = self.channels.iter().filter(stored).count() as u64;
+        if stored > self.bytes.0 * MAX_FOR_BYTE {
+            self.why = Some("more channels than its records have bits for");
+            self.channels.clear();
         }
         self.channels.sort_by_key(|channel| !channel.master);
         Ok(())

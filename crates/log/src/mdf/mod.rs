@@ -16,6 +16,7 @@ mod conversion;
 mod data;
 mod group;
 mod names;
+mod pieces;
 mod records;
 mod source;
 mod stream;

@@ -6,14 +6,13 @@ use std::io::{self, BufReader, Read};
 use super::column::{Column, Invalid, Records};
 use super::data::{Packing, Parts, length, parts};
 use super::group::{Data, Group};
+use super::pieces::Pieces;
 use super::source::{Source, bad};
 use super::stream::Stream;
 use crate::{Error, Kind};
 
-/// Bytes of records that are taken at once.
+/// Bytes of records that are read at once.
 const AT_ONCE: usize = 1 << 16;
-/// Records without bytes that are taken at once.
-const COUNTED_AT_ONCE: usize = 1 << 13;
 
 /// The columns of a group.
 type Columns = Vec<Column>;
@@ -23,7 +22,8 @@ pub(super) fn read(source: &mut Source, data: &Data, columns: &mut [Columns]) ->
     if columns.iter().all(Vec::is_empty) {
         return Ok(());
     }
-    let bytes = data.groups.first().map_or((0, 0), |group| group.bytes);
+    let filled = data.groups.iter().find(|group| group.records > 0);
+    let bytes = filled.map_or((0, 0), |group| group.bytes);
     let parts = parts(source, data.first, bytes)?;
     let turned = parts.records.iter().chain(&parts.invalid);
     let turned = turned.filter(|part| matches!(part.packing, Packing::Transposed(_)));
@@ -41,7 +41,7 @@ pub(super) fn read(source: &mut Source, data: &Data, columns: &mut [Columns]) ->
 }
 
 /// What a failure to read data is.
-fn trouble(at: u64, error: &io::Error) -> Error {
+pub(super) fn trouble(at: u64, error: &io::Error) -> Error {
     match error.kind() {
         io::ErrorKind::UnexpectedEof => bad(at, "data that end before their records do"),
         io::ErrorKind::OutOfMemory => Error::new(Kind::Limit, "no memory is left", "").at_byte(at),
@@ -64,52 +64,24 @@ fn sorted(
     let (Some((group, columns)), None) = (filled.next(), filled.next()) else {
         return Err(bad(data.at, "several groups whose records have no numbers"));
     };
-    let invalid = match parts.apart {
-        true => 0,
-        false => group.bytes.1,
+    let own = match parts.apart {
+        true => group.bytes.0,
+        false => group.bytes.0 + group.bytes.1,
     };
-    let size = group.bytes.0 + invalid;
-    enough(source, group, size, length(&parts.records))?;
-    let own = parts.apart && !parts.invalid.is_empty();
-    if own {
+    enough(source, group, own, length(&parts.records))?;
+    if !parts.invalid.is_empty() {
         enough(source, group, group.bytes.1, length(&parts.invalid))?;
     }
-    let mut bits = Stream::new(source.file, parts.invalid);
-    let mut stream = Stream::new(source.file, parts.records);
-    let (size, bits_size) = (size as usize, group.bytes.1 as usize);
-    let at_once = match size {
-        0 => COUNTED_AT_ONCE,
-        size => (AT_ONCE / size).max(1),
-    };
-    let (mut buffer, mut bits_buffer, mut scratch) = (Vec::new(), Vec::new(), Vec::new());
-    let mut before = 0;
+    let mut pieces = Pieces::new(source.file, parts, group.bytes);
+    let (mut before, mut scratch) = (0, Vec::new());
     while before < group.records {
-        let count = (group.records - before).min(at_once as u64) as usize;
-        buffer.resize(count * size, 0);
-        let read = stream.read_exact(&mut buffer);
-        read.map_err(|error| trouble(stream.at, &error))?;
-        if own {
-            bits_buffer.resize(count * bits_size, 0);
-            let read = bits.read_exact(&mut bits_buffer);
-            read.map_err(|error| trouble(bits.at, &error))?;
-        }
-        let invalid = match own {
-            true => Some((&bits_buffer, bits_size, 0)),
-            false if invalid > 0 => Some((&buffer, size, group.bytes.0 as usize)),
-            false => None,
-        };
-        let records = Records {
-            count,
-            before,
-            bytes: &buffer,
-            size,
-            invalid: invalid.map(|(bytes, size, from)| Invalid { bytes, size, from }),
-        };
+        let count = (group.records - before).min(pieces.at_once());
+        let records = pieces.next(count as usize, before)?;
         for column in columns.iter_mut() {
             let taken = column.take(&records, &mut scratch);
-            taken.map_err(|error| trouble(stream.at, &error))?;
+            taken.map_err(|error| trouble(group.at, &error))?;
         }
-        before += count as u64;
+        before += count;
     }
     Ok(())
 }

@@ -18,6 +18,8 @@ pub(super) struct Stream<'a> {
     parts: std::vec::IntoIter<Part>,
     now: Box<dyn Read + 'a>,
     left: u64,
+    /// Whether the part that is read is not in the file.
+    zeros: bool,
     /// Where the part begins that is read.
     pub(super) at: u64,
 }
@@ -30,6 +32,7 @@ impl<'a> Stream<'a> {
             parts: parts.into_iter(),
             now: Box::new(io::empty()),
             left: 0,
+            zeros: false,
         }
     }
 
@@ -55,15 +58,35 @@ impl<'a> Stream<'a> {
     }
 }
 
-impl Read for Stream<'_> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+impl Stream<'_> {
+    /// Goes on to a part that has bytes left; whether there is one.
+    fn go_on(&mut self) -> io::Result<bool> {
         while self.left == 0 {
             let Some(part) = self.parts.next() else {
-                return Ok(0);
+                return Ok(false);
             };
             self.at = part.at;
+            self.zeros = part.packing == Packing::Zeros;
             self.now = self.opened(part)?;
             self.left = part.length;
+        }
+        Ok(true)
+    }
+
+    /// Passes over bytes that all are zeros, and not in the file; whether they are.
+    pub(super) fn pass_zeros(&mut self, bytes: u64) -> io::Result<bool> {
+        let zeros = self.go_on()? && self.zeros && self.left >= bytes;
+        if zeros {
+            self.left -= bytes;
+        }
+        Ok(zeros)
+    }
+}
+
+impl Read for Stream<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if !self.go_on()? {
+            return Ok(0);
         }
         let most = (buffer.len() as u64).min(self.left) as usize;
         let read = self.now.read(&mut buffer[..most])?;

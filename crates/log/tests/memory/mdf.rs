@@ -153,6 +153,8 @@ pub fn hostile(path: &Path) {
 
     claimed(path);
     looped(path);
+    valid(path);
+    refused(Kind::Missing, "more channels than");
 
     // Names of 4 kB that thousands of channels share.
     let mut file = File::new();
@@ -214,6 +216,30 @@ fn claimed(path: &Path) {
         let error = read_wanted(path, &options, |_| {}, &nobody).unwrap_err();
         assert_eq!(error.kind, none, "{error}");
     }
+}
+
+/// Bits for every record that are said and not stored, 64 GB of them; then 1000 channels of one byte.
+fn valid(path: &Path) {
+    let mut file = File::new();
+    let channel = file.channel(0, 0);
+    let group = file.group(channel, 1 << 16, 0);
+    let at = group as usize + 72 + 28;
+    file.bytes[at..at + 4].copy_from_slice(&((1u32 << 20) - 1).to_le_bytes());
+    let data = file.block(b"DV", &[], &[1; 1 << 16]);
+    let mut flags = [0; 16];
+    flags[3..5].copy_from_slice(&[0x80, 1]);
+    let list = file.block(b"LD", &[0, data, 0], &flags);
+    let first = file.data_group(group, list, 0);
+    file.write(path, first);
+    assert_eq!(read(path).unwrap().columns[0].values, [1.0; 1 << 16]);
+
+    let mut file = File::new();
+    let channels: Vec<u64> = (0..1000).map(|_| file.channel(0, 0)).collect();
+    let channel = file.chain(&channels);
+    let group = file.group(channel, 1, 0);
+    let data = file.block(b"DT", &[], &[1]);
+    let first = file.data_group(group, data, 0);
+    file.write(path, first);
 }
 
 /// Blocks that lead to themselves, and one that lies in another.
