@@ -162,7 +162,7 @@ fn finish(source: &mut Source, group: Group, columns: Vec<Column>) {
         let Some(column) = columns.next() else {
             continue;
         };
-        if column.kept && column.values.rounded {
+        if column.values.rounded {
             collector.rounded(name);
         }
         let (place, unit) = (collector.columns(), channel.unit.clone());

@@ -82,6 +82,7 @@ fn only_columns_that_are_wanted_are_kept() {
     let whole = read_table(&path, &ReadOptions::default()).unwrap();
     let q = |heads: &Table| heads.columns.iter().map(|c| c.name == "q").collect();
     let part = read_wanted(&path, &ReadOptions::default(), |_| {}, &q).unwrap();
+    assert_eq!(part.detected, whole.detected);
     for (place, (own, column)) in part.columns.iter().zip(&whole.columns).enumerate() {
         let wanted = column.name == "q";
         assert_eq!((&own.name, &own.unit), (&column.name, &column.unit));
