@@ -24,6 +24,8 @@ import pyarrow.csv
 import pyarrow.feather
 import pyarrow.parquet
 import scipy.io
+from asammdf import MDF, Signal
+from asammdf import MDF, Signal
 from mcap_ros2.reader import read_ros2_messages
 from mcap_ros2.writer import Writer
 from nptdms import ChannelObject, TdmsFile, TdmsWriter
@@ -56,6 +58,21 @@ def hdf5(file, data):
 def tdms(file, data):
     with TdmsWriter(file) as out:
         out.write_segment([ChannelObject("log", name, column) for name, column in data.items()])
+
+
+def mdf(compression):
+    def write(file, data):
+        signals = [Signal(samples=column, timestamps=data["time"], name=name) for name, column in data.items() if name != "time"]
+        with MDF(version="4.10") as out:
+            out.append(signals)
+            out.save(file, overwrite=True, compression=compression)
+
+    return write
+
+
+def from_mdf(file):
+    with MDF(file) as given:
+        return [given.get(name).samples for name in NAMES]
 
 
 def workbook(file, data):
@@ -131,6 +148,8 @@ FORMATS = [
     ("Parquet", "log.parquet", ROWS, lambda f, d: pyarrow.parquet.write_table(pa.table(d), f), pyarrow.parquet.read_table, "pyarrow, threads"),
     ("Arrow, LZ4", "log.feather", ROWS, lambda f, d: pyarrow.feather.write_feather(pa.table(d), f), pyarrow.feather.read_table, "pyarrow, threads"),
     ("TDMS", "log.tdms", ROWS, tdms, lambda f: TdmsFile.read(f).as_dataframe(), "nptdms"),
+    ("MDF 4", "log.mf4", ROWS, mdf(0), from_mdf, "asammdf"),
+    ("MDF 4, transposed", "packed.mf4", ROWS, mdf(2), from_mdf, "asammdf"),
     ("TwinCAT SVB", "log.svb", ROWS, scope, None, "none known"),
     ("JSON lines", "log.jsonl", SLOW_ROWS, lines, from_lines, "json"),
     ("MCAP", "log.mcap", SLOW_ROWS, mcap, from_mcap, "mcap_ros2"),

@@ -38,6 +38,8 @@ mod matlab4;
 mod matlab5;
 #[cfg(feature = "mcap")]
 mod mcap;
+#[cfg(feature = "mdf")]
+mod mdf;
 #[cfg(feature = "numpy")]
 mod numpy;
 mod open;

@@ -44,7 +44,7 @@ pub fn read_table_with(
     opened(path, options, Some(&mut bytes), &everything)
 }
 
-/// As [`read_table_with`], and keeps the samples of those columns of a text alone that `wanted` names: of every column it says
+/// As [`read_table_with`], and keeps the samples of those columns of a text, or of MDF, alone that `wanted` names: of every column it says
 /// whether it is, from a table that has names and units only, such as [`Mapping::wanted`](crate::Mapping::wanted) and
 /// [`Elsewhere::wanted`](crate::Elsewhere::wanted). Cells of the other columns are checked all the same, and
 /// [`Table::passed`] says what they are. A mapping understands such a table as it understands the whole one.
@@ -133,7 +133,7 @@ fn read<'a>(
             };
             text::read_sized(read, Some(bytes), &options.text, options.limits, wanted)
         }
-        format => binary(format, file, path, bytes, options.limits).and_then(|table| {
+        format => binary(format, file, path, bytes, options.limits, wanted).and_then(|table| {
             if let Some(seen) = seen {
                 hand_on(path, &about, seen)?;
             }
@@ -150,7 +150,7 @@ fn read<'a>(
 }
 
 /// A table that was written as it stood in a program has its units where a text has them: `Position [mm]`.
-fn take_units_of_names(table: &mut Table) {
+pub(crate) fn take_units_of_names(table: &mut Table) {
     for column in table.columns.iter_mut().filter(|c| c.unit.is_none()) {
         if let (name, Some(unit)) = unit::split(&column.name)
             && unit::is_known(&unit)
@@ -218,6 +218,7 @@ fn binary(
     path: &Path,
     bytes: u64,
     limits: Limits,
+    wanted: Wanted,
 ) -> Result<Table, Error> {
     let mut table: Table = match format {
         Format::Text => return Err(io(io::ErrorKind::InvalidInput.into())),
@@ -242,6 +243,8 @@ fn binary(
         Format::Mcap => crate::mcap::read(file, limits),
         #[cfg(feature = "tdms")]
         Format::Tdms => crate::tdms::read(file, bytes, limits),
+        #[cfg(feature = "mdf")]
+        Format::Mdf => crate::mdf::read(&file, bytes, limits, wanted),
         #[cfg(feature = "svb")]
         Format::Svb => crate::svb::read(file, bytes, limits),
         #[cfg(feature = "xlsx")]

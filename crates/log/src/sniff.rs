@@ -3,6 +3,10 @@
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
 
+/// What to do with a recording in MDF that is not read.
+pub(crate) const MDF_AS_TABLES: &str = "have it written as one table for each clock in it, after pip install asammdf: python3 -c 'from asammdf import MDF; \
+     MDF(\"log.mf4\").export(\"csv\", \"log.csv\", add_units=True)'";
+
 /// The formats that are recognised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
@@ -16,6 +20,7 @@ pub(crate) enum Format {
     Arrow,
     Mcap,
     Tdms,
+    Mdf,
     /// Told from text by reading its header, which its reader does.
     #[cfg_attr(not(feature = "svb"), allow(dead_code))]
     Svb,
@@ -41,6 +46,7 @@ impl Format {
             Format::Arrow => "Arrow IPC",
             Format::Mcap => "MCAP",
             Format::Tdms => "TDMS",
+            Format::Mdf => "ASAM MDF",
             Format::Svb => "TwinCAT Scope SVB",
             Format::Xlsx => "Excel workbook",
             Format::Foreign(what, _) => what,
@@ -83,6 +89,9 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
     if starts(b"PAR1") || starts(b"PARE") {
         return Ok(Format::Parquet);
     }
+    if starts(b"MDF     4") {
+        return Ok(Format::Mdf);
+    }
     if starts(b"TDSm") {
         return Ok(Format::Tdms);
     }
@@ -116,10 +125,13 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
             "an old Excel workbook",
             "save it as .xlsx or the sheet as CSV",
         ),
-        _ if starts(b"MDF     ") || starts(b"UnFinMF ") => Format::Foreign(
-            "a recording in ASAM MDF (.mf4, .mdf)",
-            "have it written as one table for each clock in it, after pip install asammdf: python3 -c 'from asammdf import MDF; \
-             MDF(\"log.mf4\").export(\"csv\", \"log.csv\", add_units=True)'",
+        _ if starts(b"MDF     ") => Format::Foreign(
+            "a recording in ASAM MDF of a version before 4 (.mdf, .dat)",
+            MDF_AS_TABLES,
+        ),
+        _ if starts(b"UnFinMF ") => Format::Foreign(
+            "a recording in ASAM MDF that was never closed",
+            MDF_AS_TABLES,
         ),
         _ if starts(b"FEA1") => Format::Foreign(
             "a Feather file of version 1",

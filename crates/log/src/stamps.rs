@@ -15,6 +15,14 @@ const PAIRS: [(&str, &str); 4] = [
 /// Nanoseconds of a second.
 const SECOND: i128 = 1_000_000_000;
 
+/// Whether a column may be one of the two, by the end of its name.
+#[cfg(feature = "mdf")]
+pub(crate) fn is_part(name: &str) -> bool {
+    PAIRS
+        .iter()
+        .any(|(whole, part)| name.ends_with(whole) || name.ends_with(part))
+}
+
 /// Makes one column of each such pair, in seconds from its first stamp. It has the number of the seconds and the name that the
 /// two share.
 pub(crate) fn join(table: &mut Table) {

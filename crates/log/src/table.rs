@@ -49,8 +49,18 @@ pub struct Passed {
     pub others: bool,
     /// Whether they are not all the same.
     pub changes: bool,
+    /// Whether one of them is a whole number that 64-bit floats may have rounded.
+    pub(crate) beyond: bool,
     /// The bits of one of them.
     any: Option<u64>,
+}
+
+/// 2^53, above which 64-bit floats do not hold every whole number.
+const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
+
+/// Whether a number is whole and so large that another one may have been written.
+pub(crate) fn is_beyond(value: f64) -> bool {
+    value.is_finite() && value.abs() > LARGEST_WHOLE
 }
 
 impl Passed {
@@ -60,6 +70,7 @@ impl Passed {
         self.zeros |= value == 0.0;
         self.ones |= value == 1.0;
         self.others |= value != 0.0 && value != 1.0 && !value.is_nan();
+        self.beyond |= is_beyond(value);
         if !value.is_nan() {
             // Zero has two signs.
             let bits = (value + 0.0).to_bits();
@@ -72,6 +83,7 @@ impl Passed {
         self.zeros |= other.zeros;
         self.ones |= other.ones;
         self.others |= other.others;
+        self.beyond |= other.beyond;
         self.changes |= other.changes || self.any.zip(other.any).is_some_and(|(a, b)| a != b);
         self.any = self.any.or(other.any);
     }

@@ -20,9 +20,9 @@ const LONGEST: usize = 200;
 pub const UNFINISHED: &str = ".stiction-upload-";
 
 /// Endings of recordings.
-const LOGS: [&str; 23] = [
+const LOGS: [&str; 24] = [
     "csv", "tsv", "txt", "log", "dat", "asc", "mat", "h5", "hdf5", "npy", "npz", "parquet", "json",
-    "arrow", "feather", "ipc", "mcap", "tdms", "svb", "svbx", "svdx", "xlsx", "xml",
+    "arrow", "feather", "ipc", "mcap", "tdms", "mf4", "svb", "svbx", "svdx", "xlsx", "xml",
 ];
 /// Names of devices on Windows, which no folder holds as files.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];

@@ -76,7 +76,7 @@ impl Collector {
 }
 
 /// Makes room for some more of so many numbers: twice as many while little has arrived, then for all of them.
-fn grow(values: &mut Vec<f64>, more: usize, all: usize) -> io::Result<()> {
+pub(crate) fn grow(values: &mut Vec<f64>, more: usize, all: usize) -> io::Result<()> {
     if values.capacity() - values.len() >= more {
         return Ok(());
     }

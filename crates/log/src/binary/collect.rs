@@ -1,6 +1,8 @@
 //! Laying arrays out as the columns and scalars of a [`Table`], within limits.
 
 use super::Values;
+#[cfg(feature = "mdf")]
+use crate::Passed;
 use crate::limits::Budget;
 use crate::{Column, Error, Kind, Scalar, Table};
 
@@ -126,6 +128,21 @@ impl Collector {
         Ok(wanted)
     }
 
+    /// Counts bytes that a reader holds beside the samples: what a file says of its columns, a block that is unpacked.
+    ///
+    /// To be asked for before they are allocated.
+    #[cfg(feature = "mdf")]
+    pub(crate) fn hold(&mut self, bytes: u64) -> Result<(), Error> {
+        let samples = bytes.div_ceil(crate::limits::PER_SAMPLE);
+        let total = self.samples.saturating_add(samples);
+        if total > self.budget.samples() {
+            let bytes = total.checked_mul(crate::limits::PER_SAMPLE);
+            return Err(self.budget.refusal("reading this file", bytes));
+        }
+        self.samples = total;
+        Ok(())
+    }
+
     /// Says how the file was understood.
     pub(crate) fn detected(&mut self, what: impl Into<String>) {
         self.table.detected.push(what.into());
@@ -154,6 +171,13 @@ impl Collector {
             stamps: false,
             values,
         });
+    }
+
+    /// Adds a column whose samples nobody asks for.
+    #[cfg(feature = "mdf")]
+    pub(crate) fn passed(&mut self, name: &str, unit: Option<String>, passed: Passed) {
+        self.table.passed.insert(self.columns(), passed);
+        self.column(name, unit, Vec::new());
     }
 
     /// Adds a column of seconds that were made of time stamps or durations.

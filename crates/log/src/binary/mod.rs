@@ -15,6 +15,7 @@ mod tree;
 #[cfg(any(feature = "arrow", feature = "mcap", feature = "parquet"))]
 mod unpack;
 
+pub(crate) use array::grow;
 pub(crate) use collect::{Collector, Layout, Order};
 pub(crate) use guard::guard;
 pub(crate) use number::{ByteOrder, Class, Number, Values, decimal, half, read_numbers};

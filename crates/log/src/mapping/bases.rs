@@ -84,7 +84,8 @@ fn differ(a: usize, b: usize) -> bool {
     lost > 2 && lost as f64 > MAX_CUT_SHARE * a.max(b) as f64
 }
 
-/// The time column of the length of a column, of several the one whose name begins most like its own.
+/// The time column of the length of a column, of several the one whose name begins most like its own; of those that are alike in
+/// that, the last one before it, else the first.
 fn stamps_of(table: &Table, column: usize) -> Option<usize> {
     let own = &table.columns[column];
     let is_time = |index: &usize| {
@@ -100,7 +101,11 @@ fn stamps_of(table: &Table, column: usize) -> Option<usize> {
             .count()
     };
     let times = (0..table.columns.len()).filter(is_time);
-    times.max_by_key(|index| (alike(index), std::cmp::Reverse(*index)))
+    let near = |index: usize| match index < column {
+        true => (true, index),
+        false => (false, table.columns.len() - index),
+    };
+    times.max_by_key(|index| (alike(index), near(*index)))
 }
 
 /// Whether a column is time by its name, in a unit of time or none.

@@ -85,7 +85,7 @@ pub(super) fn may_run_on(heads: &Table, index: usize) -> bool {
 fn means(heads: &Table, selector: &Selector, index: usize) -> bool {
     let column = &heads.columns[index];
     match selector {
-        Selector::Index(number) => *number == index + 1,
+        Selector::Index(number) => *number == heads.number(index),
         Selector::Name(name) => {
             let (name, own) = (name.trim(), &column.name);
             let with_unit = |unit: &String| format!("{own} [{unit}]") == name;

@@ -4,6 +4,7 @@ use super::body::Body;
 use super::choose::Layout;
 use super::problem::{self, count};
 use super::row::{Role, Seen};
+use crate::table::is_beyond;
 use crate::{Column, Table};
 use std::collections::BTreeMap;
 
@@ -11,9 +12,6 @@ use std::collections::BTreeMap;
 const HALF_DAY: f64 = 43_200.0;
 /// s.
 const DAY: f64 = 86_400.0;
-
-/// 2^53, above which 64-bit floats do not hold every whole number.
-const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// Puts the table together and says what was detected and what was left out.
 pub(super) fn finish(layout: Layout, body: Body) -> Table {
@@ -78,15 +76,16 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
             }
             _ => {}
         }
-        if values
-            .iter()
-            .any(|x| x.fract() == 0.0 && x.abs() > LARGEST_WHOLE)
-        {
+        let is_left_out = left_out.last() == Some(&(c + 1));
+        let beyond = match layout.rule.keep[c] {
+            true => values.iter().any(|x| is_beyond(*x)),
+            false => body.passed[c].beyond && !is_left_out,
+        };
+        if beyond {
             table.detected.push(format!(
                 "{label}: numbers beyond 2^53 are rounded to the nearest 64-bit float"
             ));
         }
-        let is_left_out = left_out.last() == Some(&(c + 1));
         if !layout.rule.keep[c] && !is_left_out {
             passed.insert(c - left_out.len(), body.passed[c]);
         }

@@ -7,6 +7,8 @@
 #[path = "../suite/binary/common.rs"]
 mod binary_common;
 
+mod mdf;
+
 use std::cell::Cell;
 use std::io::Write;
 use std::path::Path;
@@ -30,7 +32,7 @@ const SAMPLES: u64 = 1 << 17;
 const MEMORY_BOUND: usize = 8 << 20;
 
 /// First bytes of the formats; the last of these lead to the text reader.
-const STARTS: [&[u8]; 17] = [
+const STARTS: [&[u8]; 18] = [
     b"\x89HDF\r\n\x1a\n",
     b"\x93NUMPY\x01\x00",
     b"\x93NUMPY\x02\x00",
@@ -42,6 +44,7 @@ const STARTS: [&[u8]; 17] = [
     b"[[",
     b"TDSm\x0e\0\0\0\x69\x12\0\0",
     b"\x89MCAP0\r\n",
+    b"MDF     4.10    by hand \0\0\0\0\x9a\x01\0\0",
     b"ARROW1\0\0",
     b"\xff\xff\xff\xff\x10\0\0\0",
     b"[{\"q\":",
@@ -160,8 +163,12 @@ fn hostile_files() {
     let path = scratch.path().join("hostile");
     odd_files(scratch.path());
     bombs(&path);
+    mdf::hostile(&path);
     arrays(&path);
     wide(&path);
+
+    let (some, all) = mdf::every_byte(folder.path(), &path);
+    eprintln!("{some} of {all} files of MDF refused that have one byte changed");
 
     let mut random = runner(600);
     random
@@ -263,7 +270,7 @@ fn odd_files(folder: &Path) {
     }
     std::fs::write(&empty, b"\x1f\x8b\x08 some more").unwrap();
     refuse(&empty, Kind::Format, "gzip");
-    for start in [b"MDF     4.10    ", b"UnFinMF 4.10    "] {
+    for start in [b"MDF     3.30    ", b"UnFinMF 4.10    "] {
         std::fs::write(&empty, [&start[..], &[0; 600]].concat()).unwrap();
         refuse(&empty, Kind::Format, "asammdf");
     }

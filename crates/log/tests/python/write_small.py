@@ -16,10 +16,13 @@ import pyarrow as pa
 import pyarrow.ipc
 import pyarrow.parquet as pq
 import scipy.io
+from asammdf import MDF, Signal
 from mcap.writer import CompressionType
 from mcap_ros2.writer import Writer
 from nptdms import ChannelObject, RootObject, TdmsWriter
 from openpyxl import Workbook
+
+from mdf import Blocks, linear
 
 folder = pathlib.Path(sys.argv[1])
 t = np.linspace(0.0, 1.0, 40)
@@ -130,6 +133,40 @@ with TdmsWriter(folder / "small.tdms") as writer:
                 ChannelObject("g", "at", np.arange(4).astype("M8[us]")), ChannelObject("g", "words", ["a", "b"])]
     writer.write_segment([RootObject({"kt": 2.0, "name": "axis"}), *channels])
     writer.write_segment([ChannelObject("g", "t", t[:7])])
+
+for version, compression, columns in [("4.00", 0, False), ("4.10", 1, False), ("4.20", 2, True)]:
+    signals = [Signal(samples=q, timestamps=t, name="q", unit="rad"), Signal(samples=count, timestamps=t, name="n", conversion=linear(0.5, 1.0)),
+               Signal(samples=q.astype("f2"), timestamps=t, name="h")]
+    with MDF(version=version, column_storage=columns) as mdf:
+        mdf.append(signals, acq_name="Motion")
+        mdf.append([Signal(samples=q[:9], timestamps=t[:9], name="force", unit="N")], acq_name="Drive")
+        mdf.save(folder / f"small_{version.replace('.', '')}.mf4", overwrite=True, compression=compression)
+
+
+def mdf_mixed():
+    """Two groups among each other, in a list of plain and packed blocks; bits, and what is marked as invalid."""
+    file = Blocks()
+    groups = []
+    for number in [1, 2]:
+        channels = [file.channel("time", 4, 0, 64, kind=2, sync=1), file.channel("bits", 3, 8, 12, 3, flags=2, invalid=0)]
+        groups.append(file.group(channels, 20, 10, invalid_bytes=1, number=number, name=f"g{number}"))
+    records = [bytes([1 + i % 2]) + struct.pack("<dHB", i / 10, 37 * i, i % 5 == 0) for i in range(40)]
+    content = b"".join(records)
+    blocks = [file.data(content[:100]), file.packed(content[100:300], 12), file.packed(content[300:])]
+    file.write(folder / "mixed.mf4", [file.data_group(groups, file.head_of_list(file.list(blocks)), 1)])
+
+
+def mdf_apart():
+    """Values and what says which are none in blocks of their own."""
+    file = Blocks(420)
+    group = file.group([file.channel("x", 4, 0, 64, flags=2, invalid=3)], 40, 8, invalid_bytes=1)
+    lists = file.column_list([file.data(q[:30].tobytes(), b"DV"), file.packed(q[30:].tobytes(), 8, b"DV")], [0, file.data(bytes(10), b"DI")])
+    counted = file.group([file.channel("time", 0, 0, 0, kind=3, sync=1, conversion=file.conversion(1, [0.0, 0.1]))], 40, 0)
+    file.write(folder / "apart.mf4", [file.data_group([counted], 0), file.data_group([group], lists)])
+
+
+mdf_mixed()
+mdf_apart()
 
 book = Workbook()
 book.active.append(["t [s]", "q", "name"])

@@ -247,6 +247,20 @@ fn of_another_file_its_column_and_its_stamps_are_kept() {
 }
 
 #[test]
+fn numbers_beyond_the_whole_ones_are_said_of_columns_that_are_not_kept_too() {
+    let row = |n: u32| format!("{n};{}.5;{}\n", n % 7, n % 2);
+    let rows: String = (0..40).map(row).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("log.txt");
+    std::fs::write(&path, format!("t [s];F [N];spare\n{rows}40;1.5;-1e308\n")).unwrap();
+    let force = |heads: &Table| heads.columns.iter().map(|c| c.name != "spare").collect();
+    let part = read_wanted(&path, &ReadOptions::default(), |_| {}, &force).unwrap();
+    let whole = read_table(&path, &ReadOptions::default()).unwrap();
+    assert_eq!(part.detected, whole.detected);
+    assert!(part.detected.iter().any(|said| said.contains("2^53")));
+}
+
+#[test]
 fn lost_samples_of_halsampler_are_counted_where_nothing_but_a_force_is_kept() {
     let file = tempfile::NamedTempFile::new().unwrap();
     let rows: Vec<String> = (0..100)

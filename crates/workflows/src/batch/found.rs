@@ -155,9 +155,9 @@ fn walk(folder: &Path, out: &Path, all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf
 
 /// The recordings in a folder of results, by their names: none of those that commands of this program write.
 fn logs_beside(folder: &Path) -> Vec<PathBuf> {
-    const ENDINGS: [&str; 17] = [
+    const ENDINGS: [&str; 18] = [
         "csv", "tsv", "txt", "dat", "log", "mat", "npz", "npy", "parquet", "arrow", "feather",
-        "h5", "hdf5", "tdms", "mcap", "xlsx", "svb",
+        "h5", "hdf5", "tdms", "mf4", "mcap", "xlsx", "svb",
     ];
     const WRITTEN: [&str; 5] = [
         "fit.csv",

@@ -4,6 +4,7 @@ mod bytes;
 mod common;
 mod json;
 mod mapping_recordings;
+mod mdf;
 mod recordings;
 mod roundtrip;
 mod svb;

@@ -218,3 +218,26 @@ fn a_codec_that_is_not_built_in_is_named() {
 fn a_member_of_an_hdf5_file_that_cannot_be_read_costs_that_member_alone() {
     assert_eq!(come_back("write_odd_hdf5.py").len(), 38);
 }
+
+#[test]
+fn mdf_comes_back_bit_for_bit() {
+    let tables = come_back("write_mdf.py");
+    assert_eq!(tables.len(), 21);
+    for (name, table) in &tables {
+        assert!(detects(table, "version 4."), "{name}");
+        let wide = name.starts_with("version") || name.starts_with("odd");
+        assert_eq!(detects(table, "beyond 2^53"), wide, "{name}");
+        let unit = |name: &str| {
+            let column = table.columns.iter().find(|c| c.name == name);
+            column.and_then(|c| c.unit.as_deref())
+        };
+        if name.starts_with("version") {
+            assert_eq!(unit("torque"), Some("N m"), "{name}");
+            assert_eq!(unit("Motion.time"), Some("s"), "{name}");
+        }
+        if name.starts_with("odd") {
+            assert_eq!((unit("t"), unit("angle")), (Some("s"), Some("deg")));
+            assert!(table.columns[0].stamps);
+        }
+    }
+}
