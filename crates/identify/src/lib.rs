@@ -117,7 +117,9 @@ pub use law::Law;
 pub use law::dependence::Dependence;
 pub use law::terms::{Delay, FirstDelay, Lag, Mass, Terms};
 pub use law::transmitted::Transmitted;
-pub use misfit::{Between, Cause, Clocks, Coupling, Divided, Encoder, Misfit, Repeats, Ripple};
+pub use misfit::{
+    Between, Cause, Clocks, Coupling, Divided, Encoder, Held, Limit, Misfit, Repeats, Ripple,
+};
 pub use output_error::controller::Controller;
 pub use output_error::outcome::{Short, SimulationFit};
 pub use output_error::run::{Hold, Recording};

@@ -199,6 +199,9 @@ fn conditioned(
     let misfit = divisions.waved(misfit, objective, &estimate.terms, at, left);
     let misfit = divisions.coupled(misfit, objective, &estimate.terms, fit, left);
     let misfit = divisions.clocked(misfit, objective, at, left);
+    let misfit = divisions.limited(misfit, (objective, &estimate.terms), at, left);
+    let misfit = divisions.held(misfit, (objective, &estimate.terms), at, &optimum.p);
+    let misfit = divisions.swung(misfit, objective, at, left);
     let spread = misfit.as_ref().map(|misfit| {
         let unknowns = misfit.spread(&estimate.unknowns.bread, left.len());
         propagate(raw, &unknowns)

@@ -659,6 +659,38 @@ fn no_low_pass_is_seen_where_there_is_none() {
     }
 }
 
+/// A weight on a joint that swings by a turn or less: what it leaves is no friction of another shape.
+#[test]
+fn a_weight_is_told_from_another_shape() {
+    for motion in [Motion::Commissioning, Motion::Sine] {
+        let found = of("joint", motion, World::Weight);
+        assert!(found.codes.contains(&"gravity"), "{motion:?}: {found}");
+        assert!(!found.codes.contains(&"law-shape"), "{motion:?}: {found}");
+    }
+    let without = of("joint", Motion::Sine, World::MaxwellSlip);
+    assert!(!without.codes.contains(&"gravity"), "{without}");
+}
+
+/// A log of what was asked for, of a drive that gave less: nothing is claimed from it.
+#[test]
+fn a_drive_that_gave_less_is_named_and_not_trusted() {
+    let found = of("joint", Motion::Sine, World::Limited);
+    assert!(found.codes.contains(&"force-not-given"), "{found}");
+    assert!(!found.trusted, "{found}");
+}
+
+/// What a brake does at short rests is no friction of another shape, and another shape is no brake.
+#[test]
+fn a_brake_is_told_from_another_shape() {
+    for axis in ["stage", "joint"] {
+        let braked = of(axis, Motion::Trapezoid, World::Brake);
+        assert!(!braked.codes.contains(&"law-shape"), "{axis}: {braked}");
+        assert!(!braked.is_silent(), "{axis}: {braked}");
+        let other = of(axis, Motion::Trapezoid, World::MaxwellSlip);
+        assert!(!other.codes.contains(&"held-at-rest"), "{axis}: {other}");
+    }
+}
+
 /// A second in which the logged force is zero while the axis moves leaves the values where they are.
 #[test]
 fn a_stretch_of_dead_force_moves_nothing() {
