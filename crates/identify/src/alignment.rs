@@ -122,7 +122,7 @@ pub fn alignment(
 }
 
 /// A log whose force is taken so many rows later, within each stretch.
-fn moved(log: &Samples, rows: isize) -> Samples {
+pub(crate) fn moved(log: &Samples, rows: isize) -> Samples {
     let mut out = log.clone();
     out.valid.resize(log.force.len(), true);
     for stretch in stretches(log, median_step(&log.time)) {

@@ -94,8 +94,14 @@ impl Estimate {
     pub fn doubt_beside(&mut self, before: &FittedLaw, freer: &FittedLaw) {
         let (own, other) = (&before.law, &freer.law);
         let freed: Vec<&str> = [
-            (own.flat && !other.flat, "the Stribeck curve"),
-            (own.undamped && !other.undamped, "micro-damping"),
+            (
+                !own.has_stribeck() && other.has_stribeck(),
+                "the Stribeck curve",
+            ),
+            (
+                !own.has_micro_damping() && other.has_micro_damping(),
+                "micro-damping",
+            ),
             (
                 other.exponent_fitted && !own.exponent_fitted,
                 "the Stribeck exponent",

@@ -49,14 +49,7 @@ pub(crate) fn lag(
     if longest(&near.law, terms, near).is_none() {
         return Ok(None);
     }
-    let rate = 1.0 / record.step();
-    let [source, common] = CUTOFFS.map(|part| Cutoff::Hz(part * rate));
-    let conditioning = Conditioning {
-        source_cutoff: source,
-        common_cutoff: common,
-        min_speed: SLOWEST * record.top_speed(),
-        ..*wanted
-    };
+    let conditioning = asked(wanted, record);
     // A short log may not bear these cut-offs.
     let Ok(record) = condition_as(logs, &conditioning, 0.0) else {
         return Ok(None);
@@ -85,6 +78,18 @@ pub(crate) fn lag(
     Ok(found)
 }
 
+/// The conditioning with the cut-offs at which logs are asked, `record` being one of them.
+pub(crate) fn asked(wanted: &Conditioning, record: &Record) -> Conditioning {
+    let rate = 1.0 / record.step();
+    let [source, common] = CUTOFFS.map(|part| Cutoff::Hz(part * rate));
+    Conditioning {
+        source_cutoff: source,
+        common_cutoff: common,
+        min_speed: SLOWEST * record.top_speed(),
+        ..*wanted
+    }
+}
+
 /// The longest lag that the delay of a fit leaves room for, samples; `None` where nothing is asked.
 fn longest(law: &Law, terms: &Terms, optimum: &Optimum) -> Option<f64> {
     let asked = terms.delay == Delay::Fitted && law.layout().kappa.is_some();
@@ -96,19 +101,31 @@ fn longest(law: &Law, terms: &Terms, optimum: &Optimum) -> Option<f64> {
 /// What a fit says of the lag.
 fn at(record: &Record, terms: &Terms, optimum: &Optimum) -> Option<Lag> {
     let most = longest(&optimum.law, terms, optimum)?;
+    let unit = record.step() * record.step();
+    let (further, variance) = further(record, terms, optimum)?;
+    let found = terms.lag.square / unit + further;
+    let (square, variance) = between(found, variance, most * most);
+    Some(Lag {
+        square: square * unit,
+        variance: variance * unit * unit,
+    })
+}
+
+/// By how much the square of the lag is more than that of a fit, and its variance, in samples; negative where a force was logged
+/// behind a low-pass.
+pub(crate) fn further(record: &Record, terms: &Terms, optimum: &Optimum) -> Option<(f64, f64)> {
     let objective = Objective::new(record, optimum.law, terms);
     let at = &optimum.evaluation;
     let bend = objective.bend(&optimum.p, &at.solution.coefficients);
     let known = beside(&objective, at, &bend);
     let own = known.bread.nrows() - 1;
     let score: f64 = bend.iter().zip(at.residual()).map(|(x, r)| x * r).sum();
-    let unit = record.step() * record.step();
-    let found = terms.lag.square / unit + known.bread[(own, own)] * score - HELD_SQUARE;
-    let (square, variance) = between(found, known.covariance[(own, own)], most * most);
-    Some(Lag {
-        square: square * unit,
-        variance: variance * unit * unit,
-    })
+    let (square, variance) = (
+        known.bread[(own, own)] * score,
+        known.covariance[(own, own)],
+    );
+    let finite = square.is_finite() && variance.is_finite();
+    finite.then_some((square - HELD_SQUARE, variance))
 }
 
 /// Uncertainty of the unknowns that are not held at zero, and of the square of the lag, the last of them.

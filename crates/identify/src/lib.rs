@@ -66,6 +66,7 @@ mod error;
 mod estimate;
 mod exponential;
 mod fit;
+mod force_filter;
 mod gms;
 mod gravity;
 mod held_delay;
@@ -106,6 +107,7 @@ pub use estimate::searched::NO_INTERVAL;
 pub use estimate::series::Series;
 pub use estimate::{Estimate, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
+pub use force_filter::{ForceFilter, force_filter};
 pub use gms::score::ElementsScore;
 pub use gms::settled::run_through;
 pub use gms::{FEWEST as GMS_FEWEST, MOST as GMS_MOST};
@@ -116,7 +118,9 @@ pub use law::Law;
 pub use law::dependence::Dependence;
 pub use law::terms::{Delay, FirstDelay, Lag, Mass, Terms};
 pub use law::transmitted::Transmitted;
-pub use misfit::{Between, Cause, Clocks, Coupling, Divided, Encoder, Misfit, Repeats, Ripple};
+pub use misfit::{
+    Between, Cause, Clocks, Coupling, Divided, Encoder, Held, Limit, Misfit, Repeats, Ripple,
+};
 pub use output_error::controller::Controller;
 pub use output_error::outcome::{Short, SimulationFit};
 pub use output_error::run::{Hold, Recording};

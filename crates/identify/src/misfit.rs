@@ -12,6 +12,8 @@
 mod cause;
 mod clocks;
 mod coupling;
+mod held;
+mod limit;
 mod parts;
 mod reversals;
 mod ripple;
@@ -21,13 +23,17 @@ mod waves;
 pub use cause::Cause;
 pub use clocks::Clocks;
 pub use coupling::{Between, Coupling, Encoder};
+pub use held::Held;
+pub use limit::Limit;
 pub use parts::Divided;
 use parts::Measures;
 pub use ripple::{Repeats, Ripple};
 
+use self::coupling::beside::Beside;
 use self::reversals::Reversals;
 use self::visits::{BLOCKS, Visits};
-use crate::law::terms::{ColumnKind, Terms};
+use crate::conditioning::shift::Shift;
+use crate::law::terms::{ColumnKind, Delay, Terms};
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::DMatrix;
 
@@ -75,6 +81,13 @@ pub struct Misfit {
     pub coupling: Option<Coupling>,
     /// Clocks of force and motion that run apart.
     pub clocks: Option<Clocks>,
+    /// The most that the drive gave, where more was logged.
+    pub limit: Option<Limit>,
+    /// Rests in which something else than friction holds the axis.
+    pub held: Option<Held>,
+    /// Part of the variance of the residual that sine and cosine of the position explain, as those of the angle of a joint do where
+    /// a weight hangs on it, beyond what the parameters take up, 0 to 1.
+    pub swings: f64,
     /// By what its course is shown: `by`, or the one of a pair that shows more of it.
     pub shown_by: Divided,
     /// Its course: in each part that `shown_by` makes, the mean of what the motion is divided by (s, m, m/s, m/s^2, or with
@@ -209,6 +222,9 @@ impl Divisions {
             ripple: None,
             coupling: None,
             clocks: None,
+            limit: None,
+            held: None,
+            swings: 0.0,
             shown_by: by,
             course: Vec::new(),
         };
@@ -328,6 +344,78 @@ impl Divisions {
         Some(misfit)
     }
 
+    /// The misfit with the most that a drive gave, where more was logged; that explains what is left whatever else seems to.
+    pub fn limited(
+        &self,
+        misfit: Option<Misfit>,
+        (objective, terms): (&Objective, &Terms),
+        at: &Evaluation,
+        residual: &[f64],
+    ) -> Option<Misfit> {
+        // A force whose delay is beyond all that fits look for is logged beside its motion, which explains nearly as much.
+        if terms.delay == Delay::NONE {
+            return misfit;
+        }
+        let Some(found) = limit::sought(objective.record(), at, residual) else {
+            return misfit;
+        };
+        let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Acceleration, residual));
+        misfit.count(found.share, residual);
+        misfit.limit = Some(found);
+        Some(misfit)
+    }
+
+    /// The misfit with the rests in which something else than friction holds the axis.
+    pub fn held(
+        &self,
+        mut misfit: Option<Misfit>,
+        (objective, terms): (&Objective, &Terms),
+        at: &Evaluation,
+        p: &[f64],
+    ) -> Option<Misfit> {
+        // Beside a delay that no fit reaches the stiffness is none of the bristles.
+        if let Some(misfit) = &mut misfit
+            && terms.delay != Delay::NONE
+            && let Some(kappa) = objective.law().layout().kappa
+        {
+            let linear = objective.linear().iter().zip(&at.solution.coefficients);
+            let mut level = linear.filter(|(term, _)| term.column == ColumnKind::Level);
+            if let Some((_, coulomb)) = level.next() {
+                misfit.held = held::sought(objective.record(), coulomb * libm::exp(p[kappa]));
+            }
+        }
+        misfit
+    }
+
+    /// The misfit with what sine and cosine of the position explain of it.
+    pub fn swung(
+        &self,
+        mut misfit: Option<Misfit>,
+        objective: &Objective,
+        at: &Evaluation,
+        residual: &[f64],
+    ) -> Option<Misfit> {
+        if let Some(misfit) = &mut misfit {
+            let record = objective.record();
+            let wave = |of: fn(f64) -> f64| {
+                let mut full: Vec<Vec<f64>> = record
+                    .segments
+                    .iter()
+                    .map(|s| s.position.iter().map(|x| of(*x)).collect())
+                    .collect();
+                record.filter(&mut full);
+                let mut column = Vec::with_capacity(residual.len());
+                for (segment, full) in record.segments.iter().zip(&full) {
+                    record.thin(segment, full, Shift::NONE, &mut column);
+                }
+                column
+            };
+            let beside = Beside::new(&at.jacobian(), residual);
+            (misfit.swings, _) = beside.pair(&[wave(libm::sin), wave(libm::cos)]);
+        }
+        misfit
+    }
+
     /// A misfit that no division shows; its course is shown by one of them.
     fn unseen(&self, by: Divided, residual: &[f64]) -> Misfit {
         let shown = Divided::ALL.iter().position(|own| *own == by);
@@ -340,6 +428,9 @@ impl Divisions {
             ripple: None,
             coupling: None,
             clocks: None,
+            limit: None,
+            held: None,
+            swings: 0.0,
             shown_by: by,
             course: shown.map_or_else(Vec::new, |i| self.course(i, residual)),
         }

@@ -49,6 +49,7 @@ pub use chosen::NotEnabled;
 use std::borrow::Cow;
 use std::ops::Range;
 use stiction_codes::Code;
+use stiction_signal::undo_low_pass;
 
 /// Samples missing between two time stamps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -508,8 +509,11 @@ impl Log {
                 ),
             ),
         };
+        // A row or two more than the low-pass itself are how a drive counts its filter.
+        let filtered = self.findings.iter().any(|f| f.code == Code::ForceFiltered);
+        let least = if filtered { 3 } else { 1 };
         self.findings.retain(|f| !CODES.contains(&f.code));
-        if whole != 0 {
+        if whole.unsigned_abs() >= least {
             self.findings
                 .push(Finding::new(code, Severity::Warning, message));
         }
@@ -543,6 +547,28 @@ impl Log {
         }
         self.excluded
             .sort_by_key(|e| (e.samples.start, e.samples.end));
+    }
+
+    /// Undoes a low-pass of first order of that time constant, s, behind which the force was logged, within each segment; the
+    /// first row of each, whose force from before is not known, is excluded.
+    pub fn undo_force_filter(&mut self, time: f64) {
+        let ms = stiction_number::short(1e3 * time);
+        let message = format!(
+            "the force was logged behind a low-pass of first order with a time constant of about {ms} ms, which smears it at every \
+             reversal; the force before it is computed and used"
+        );
+        self.findings.push(Finding::new(
+            Code::ForceFiltered,
+            Severity::Warning,
+            message,
+        ));
+        let samples = time * self.rate_hz;
+        for segment in self.segments.clone() {
+            if let Some(force) = &mut self.force {
+                undo_low_pass(&mut force[segment.clone()], samples);
+            }
+            self.exclude(segment.start..segment.start + 1, Code::ForceFiltered);
+        }
     }
 
     /// Marks samples as not to be fitted to.

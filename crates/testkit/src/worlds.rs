@@ -63,6 +63,14 @@ pub enum World {
     Dropped,
     /// The axis feels the force behind the drive.
     Driven(Drive),
+    /// The force is logged behind a low-pass of first order of that time constant, s; the axis feels the one before it.
+    Filtered(f64),
+    /// A weight on a lever, of eight tenths of the Coulomb level where it is level, not declared; on a linear axis a constant force.
+    Weight,
+    /// The log holds the force that the controller asks for, and the drive gives eight tenths of the largest at most.
+    Limited,
+    /// A brake holds the axis where it rests, and the controller lets go meanwhile.
+    Brake,
 }
 
 /// What lies between the force that a controller asks for, which is logged, and the force that the axis feels.
@@ -77,7 +85,7 @@ pub struct Drive {
 }
 
 impl World {
-    /// All of the tables but the drives, one of each kind but for the delay.
+    /// All of the tables but the drives, the filters and some others, one of each kind but for the delay.
     pub const ALL: [World; 18] = [
         World::Faithful,
         World::Cogging,
@@ -109,6 +117,17 @@ impl World {
         Drive::behind(0, 3e-4, 4),
     ];
 
+    /// Further ones, each named after what an identification should name.
+    pub const OTHERS: [World; 3] = [World::Weight, World::Limited, World::Brake];
+
+    /// Logged forces behind low-passes of 0.5 to 5 ms.
+    pub const FILTERS: [World; 4] = [
+        World::Filtered(5e-4),
+        World::Filtered(1.7e-3),
+        World::Filtered(3e-3),
+        World::Filtered(5e-3),
+    ];
+
     /// Its name in tables.
     pub fn name(self) -> String {
         match self {
@@ -130,6 +149,10 @@ impl World {
             World::CoarseForce => "coarse force".into(),
             World::Dropped => "dropped, jitter".into(),
             World::Driven(drive) => drive.name(),
+            World::Weight => "weight".into(),
+            World::Limited => "limited drive".into(),
+            World::Brake => "brake".into(),
+            World::Filtered(time) => format!("force filtered {:.1} ms", 1e3 * time),
         }
     }
 }

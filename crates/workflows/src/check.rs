@@ -24,6 +24,14 @@ use stiction_identify::Observer;
 use stiction_log::{Log, Severity, Understood};
 use stiction_number::four_digits as short;
 
+/// What only the fit shows of the log itself.
+const OF_THE_FIT: [Code; 4] = [
+    Code::Jitter,
+    Code::ForceLate,
+    Code::MotionLate,
+    Code::ForceFiltered,
+];
+
 /// What a check found, log by log.
 #[derive(Clone, Debug, Serialize)]
 pub struct Check {
@@ -330,10 +338,8 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
                 shown.told_by_fit(out.parameters.iter().any(told));
             });
             out.conditioning = outcome.result.axis.conditioning;
-            // What only the fit shows of the log itself.
             let shown = outcome.result.warnings.into_iter();
-            let of_the_log = shown
-                .filter(|w| [Code::Jitter, Code::ForceLate, Code::MotionLate].contains(&w.code));
+            let of_the_log = shown.filter(|w| OF_THE_FIT.contains(&w.code));
             for warning in of_the_log {
                 let known = |f: &Finding| warning.message.ends_with(&f.message);
                 if !out.findings.iter().any(known) {

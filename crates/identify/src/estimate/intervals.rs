@@ -108,9 +108,12 @@ fn of_the_counts(
     };
     let counts = state_space::ask(record, &mut before, &known, &mut watch);
     estimate.fitted.counts.add(&watch.counts);
-    let lags = estimate.lag_samples() > 0.0;
+    let lags = estimate.lag_samples() > 0.0 || estimate.terms.low_pass_undone;
     let unexplained = |estimate: &mut Estimate| {
-        let why = "are those of a force that lags behind the logged one";
+        let why = match estimate.terms.low_pass_undone {
+            true => "are those of a force whose low-pass was undone",
+            false => "are those of a force that lags behind the logged one",
+        };
         state_space::flag_what_rests_spoil(estimate, why);
     };
     let misfit = estimate.fitted.misfit.as_ref();
@@ -196,6 +199,9 @@ fn conditioned(
     let misfit = divisions.waved(misfit, objective, &estimate.terms, at, left);
     let misfit = divisions.coupled(misfit, objective, &estimate.terms, fit, left);
     let misfit = divisions.clocked(misfit, objective, at, left);
+    let misfit = divisions.limited(misfit, (objective, &estimate.terms), at, left);
+    let misfit = divisions.held(misfit, (objective, &estimate.terms), at, &optimum.p);
+    let misfit = divisions.swung(misfit, objective, at, left);
     let spread = misfit.as_ref().map(|misfit| {
         let unknowns = misfit.spread(&estimate.unknowns.bread, left.len());
         propagate(raw, &unknowns)

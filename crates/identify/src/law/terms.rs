@@ -32,6 +32,8 @@ pub struct Terms {
     /// A lag between the force that was logged and that which the axis feels, as a current loop has one. Its time is a part of a
     /// delay that is fitted; beside one that is given there is none.
     pub lag: Lag,
+    /// Whether a low-pass behind which the force was logged was undone, which makes its noise another one and larger.
+    pub low_pass_undone: bool,
     /// The delay that the first fit of the choice of cut-offs found, whose common cut-off is low; `None` without a choice.
     pub first_delay: Option<FirstDelay>,
 }
@@ -117,6 +119,7 @@ impl Default for Terms {
             delay: Delay::NONE,
             delay_deviation: 0.0,
             lag: Lag::NONE,
+            low_pass_undone: false,
             first_delay: None,
             quadratic_viscous: false,
             dependences: Vec::new(),

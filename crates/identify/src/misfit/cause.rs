@@ -33,6 +33,10 @@ pub enum Cause {
     Backlash,
     /// Force and motion stamped by two clocks that run apart.
     Clocks,
+    /// A drive that gave less than was logged.
+    Limit,
+    /// Something else than friction that holds the axis where it rests.
+    Held,
     /// Friction or inertia of another shape than that of the law.
     Shape,
 }
@@ -40,12 +44,18 @@ pub enum Cause {
 impl Misfit {
     /// The most likely cause; `None` where the misfit is too small a part of the residual to be named.
     pub fn cause(&self) -> Option<Cause> {
+        if self.limit.is_some() {
+            return Some(Cause::Limit);
+        }
         // What two clocks leave is told by how the delay grows, however small it is beside the noise.
         if self.clocks.is_some() {
             return Some(Cause::Clocks);
         }
         if self.share < NAMED_SHARE {
             return None;
+        }
+        if self.held.is_some() {
+            return Some(Cause::Held);
         }
         if let Some(coupling) = &self.coupling {
             return Some(match coupling.between {
@@ -103,9 +113,13 @@ impl Cause {
             Cause::Position => Some(Divided::LevelOverPosition),
             Cause::Load => Some(Divided::LevelOverLoad),
             Cause::Temperature => Some(Divided::LevelOverTemperature),
-            Cause::Ripple | Cause::Resonance | Cause::Backlash | Cause::Clocks | Cause::Shape => {
-                None
-            }
+            Cause::Ripple
+            | Cause::Resonance
+            | Cause::Backlash
+            | Cause::Clocks
+            | Cause::Limit
+            | Cause::Held
+            | Cause::Shape => None,
         }
     }
 
@@ -114,6 +128,9 @@ impl Cause {
         let reason = match self {
             Cause::Shape => {
                 "depends on the shape of the law, which the residual shows to be another one at reversals or low speed"
+            }
+            Cause::Held => {
+                "takes up part of what holds the axis where it rests, which is no friction"
             }
             Cause::Resonance => {
                 "takes up part of what a resonance between motor and load does at reversals"
@@ -126,6 +143,11 @@ impl Cause {
                     || quantity.is_of_the_shape();
                 return moved
                     .then_some("takes up part of a delay of the force that changes along the log");
+            }
+            Cause::Limit => {
+                return Some(
+                    "makes up in part for force that was logged and that the drive did not give",
+                );
             }
             Cause::Drift | Cause::Position | Cause::Load | Cause::Temperature | Cause::Ripple => {
                 return None;

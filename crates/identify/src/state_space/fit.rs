@@ -186,6 +186,8 @@ pub(super) fn most_likely(
         MORE_ACTS
     } else if fitted.terms.lag.square > 0.0 {
         "the axis is simulated under a force without the lag that this one has"
+    } else if fitted.terms.low_pass_undone {
+        "the noise of a force whose low-pass was undone is not white"
     } else if beside.is_nan() || beside > BESIDE {
         "the delay of the force is no half of a sample"
     } else if likelier {

@@ -315,7 +315,7 @@ fn terms() -> impl Strategy<Value = Terms> {
         })
     });
     let delay = (delay, deviation);
-    let lag = (lag, first_delay);
+    let lag = (lag, first_delay, any::<bool>());
     let parts = (mass, flags, pitches, dependences, delay, lag);
     parts.prop_map(|(mass, flags, cogging, dependences, delay, lag)| Terms {
         mass,
@@ -328,6 +328,7 @@ fn terms() -> impl Strategy<Value = Terms> {
         delay_deviation: delay.1,
         lag: lag.0,
         first_delay: lag.1,
+        low_pass_undone: lag.2,
     })
 }
 

@@ -17,7 +17,7 @@ pub struct Asked {
 
 impl Asked {
     /// Reads them; `seeds` are run where no number is given. All of a kind where none is named, of worlds [`World::ALL`];
-    /// `drives` names [`World::DRIVES`].
+    /// `drives` names [`World::DRIVES`], `filters` [`World::FILTERS`].
     pub fn of_arguments(seeds: u64) -> Self {
         let (mut numbers, mut names) = (Vec::new(), Vec::<String>::new());
         for argument in std::env::args().skip(1) {
@@ -30,10 +30,18 @@ impl Asked {
         let seeds = first..first + numbers.first().copied().unwrap_or(seeds);
         let axes: Vec<String> = Machine::all(0).map(|(name, _)| name.to_owned()).to_vec();
         let motions = Motion::ALL.map(|m| m.name().to_owned()).to_vec();
-        let all = World::ALL.into_iter().chain(World::DRIVES);
-        let drives = |world: &World| matches!(world, World::Driven(_));
+        let all = World::ALL
+            .into_iter()
+            .chain(World::DRIVES)
+            .chain(World::FILTERS)
+            .chain(World::OTHERS);
+        let of_a_kind = |world: &World| match world {
+            World::Driven(_) => "drives",
+            World::Filtered(_) => "filters",
+            _ => "",
+        };
         let is_named = |world: &World| {
-            names.contains(&short(*world)) || drives(world) && names.iter().any(|n| n == "drives")
+            names.contains(&short(*world)) || names.iter().any(|n| n == of_a_kind(world))
         };
         let mut worlds: Vec<World> = all.filter(is_named).collect();
         if worlds.is_empty() {

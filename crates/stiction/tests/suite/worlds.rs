@@ -603,3 +603,115 @@ fn a_level_with_a_wave_asks_for_the_wave() {
     let cure = format!("{:?}", cause.cure);
     assert!(cure.contains("coulomb_pitch"), "{cause:?}");
 }
+
+/// Drives smooth the torque that they show: the low-pass is found and undone, and nothing else is blamed for it.
+#[test]
+fn a_low_pass_of_the_logged_force_is_undone() {
+    let others = [
+        "law-shape",
+        "resonance",
+        "backlash",
+        "delay-out-of-range",
+        "force-late",
+    ];
+    let cases = [
+        ("stage", Motion::Commissioning, 1.7e-3),
+        ("screw", Motion::Commissioning, 3e-3),
+        ("screw", Motion::Trapezoid, 1.7e-3),
+        ("joint", Motion::Trapezoid, 3e-3),
+    ];
+    for (axis, motion, time) in cases {
+        let mut machines = Machine::all(SEED).into_iter();
+        let machine = machines.find(|(name, _)| *name == axis).unwrap().1;
+        let log = record(&machine, motion, World::Filtered(time), SEED);
+        let fit = identified(&machine, &[log], &Axis::default(), &Options::default()).unwrap();
+        let mut warnings = fit.warnings().iter();
+        let warning = warnings.find(|w| w.code.as_str() == "force-filtered");
+        let message = &warning
+            .unwrap_or_else(|| panic!("{axis}: {:#?}", fit.warnings()))
+            .message;
+        let ms = message.split("about ").nth(1).unwrap();
+        let ms: f64 = ms.split(' ').next().unwrap().parse().unwrap();
+        assert!((ms / (1e3 * time) - 1.0).abs() < 0.1, "{axis}: {message}");
+        let found = judged(&[machine], Ok(fit));
+        let blamed = found.codes.iter().find(|code| others.contains(code));
+        assert_eq!(blamed, None, "{axis}: {found}");
+        assert!(
+            found.claims.len() >= 4 && !found.is_silent(),
+            "{axis}: {found}"
+        );
+    }
+}
+
+/// Rows that are late by a buffer, and a force that is not late, pass no low-pass.
+#[test]
+fn no_low_pass_is_seen_where_there_is_none() {
+    let cases = [
+        ("stage", Motion::Trapezoid, World::Late(1)),
+        ("stage", Motion::Sine, World::Late(10)),
+        ("joint", Motion::Trapezoid, World::Late(10)),
+        ("screw", Motion::Commissioning, World::Faithful),
+    ];
+    for (axis, motion, world) in cases {
+        let found = of(axis, motion, world);
+        let sees = found.codes.contains(&"force-filtered");
+        assert!(!sees, "{axis}, {world:?}: {found}");
+    }
+}
+
+/// A weight on a joint that swings by a turn or less: what it leaves is no friction of another shape.
+#[test]
+fn a_weight_is_told_from_another_shape() {
+    for motion in [Motion::Commissioning, Motion::Sine] {
+        let found = of("joint", motion, World::Weight);
+        assert!(found.codes.contains(&"gravity"), "{motion:?}: {found}");
+        assert!(!found.codes.contains(&"law-shape"), "{motion:?}: {found}");
+    }
+    let without = of("joint", Motion::Sine, World::MaxwellSlip);
+    assert!(!without.codes.contains(&"gravity"), "{without}");
+}
+
+/// A log of what was asked for, of a drive that gave less: nothing is claimed from it.
+#[test]
+fn a_drive_that_gave_less_is_named_and_not_trusted() {
+    let found = of("joint", Motion::Sine, World::Limited);
+    assert!(found.codes.contains(&"force-not-given"), "{found}");
+    assert!(!found.trusted, "{found}");
+}
+
+/// What a brake does at short rests is no friction of another shape, and another shape is no brake.
+#[test]
+fn a_brake_is_told_from_another_shape() {
+    for axis in ["stage", "joint"] {
+        let braked = of(axis, Motion::Trapezoid, World::Brake);
+        assert!(!braked.codes.contains(&"law-shape"), "{axis}: {braked}");
+        assert!(!braked.is_silent(), "{axis}: {braked}");
+        let other = of(axis, Motion::Trapezoid, World::MaxwellSlip);
+        assert!(!other.codes.contains(&"held-at-rest"), "{axis}: {other}");
+    }
+}
+
+/// A second in which the logged force is zero while the axis moves leaves the values where they are.
+#[test]
+fn a_stretch_of_dead_force_moves_nothing() {
+    let machine = Machine::screw(SEED);
+    let log = record(&machine, Motion::Commissioning, World::Faithful, SEED);
+    let mut dead = log.clone();
+    dead.force[2200..4200].fill(0.0);
+    let [whole, part] = [log, dead]
+        .map(|log| identified(&machine, &[log], &Axis::default(), &Options::default()).unwrap());
+    let named = |fit: &stiction::Fit| {
+        fit.warnings()
+            .iter()
+            .any(|w| w.code.as_str() == "force-dead")
+    };
+    assert!(named(&part) && !named(&whole));
+    for p in whole.parameters() {
+        let Some((low, high)) = p.interval() else {
+            continue;
+        };
+        let other = part.parameter(p.name()).unwrap().value();
+        let off = (other - p.value()).abs() / (0.5 * (high - low));
+        assert!(off < 1.0, "{}: {off:.2} half-widths", p.name());
+    }
+}

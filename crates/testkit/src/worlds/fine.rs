@@ -19,6 +19,8 @@ const GAP: f64 = 0.5;
 const OF_LOAD: f64 = 0.1;
 /// Periods of the cogging in the distance that the top speed covers in a second.
 const PITCHES: f64 = 13.0;
+/// A weight, in parts of the Coulomb level.
+const WEIGHT: f64 = 0.8;
 /// Waves of a level along the stroke.
 const WAVES: f64 = 1.6;
 /// Share of each Maxwell-slip element in force and in stiffness.
@@ -120,6 +122,13 @@ impl Fine {
         }
     }
 
+    /// Passes that time (s) under a brake.
+    pub fn hold(&mut self, duration: f64) {
+        self.state[1] = 0.0;
+        self.state[3] = 0.0;
+        self.time += duration;
+    }
+
     /// The force is given at the beginning, in the middle and at the end.
     fn step(&mut self, force: [f64; 3], h: f64) {
         let at = |s: &State, k: &State, h: f64| std::array::from_fn(|i| s[i] + h * k[i]);
@@ -159,6 +168,8 @@ impl Fine {
         let friction = self.friction(s, &mut out);
         let outside = match self.world {
             World::Cogging => 0.2 * m.coulomb * (TAU * PITCHES * x / m.top_speed).sin(),
+            World::Weight if m.kind == "rotary" => WEIGHT * m.coulomb * (x + 0.3).cos(),
+            World::Weight => WEIGHT * m.coulomb,
             _ => 0.0,
         };
         let (mass, coupling) = match self.world {

@@ -1,12 +1,17 @@
 //! The axis under its controller, and what is logged of it.
 
 use super::fine::Fine;
+use super::motion::SetPoint;
 use super::{Machine, Motion, World};
 use crate::random::Random;
 use std::f64::consts::TAU;
 
 /// Part of the fine instants of a sample that jitter moves it by, at most.
 const JITTER: f64 = 0.2;
+/// What a limited drive gives, in parts of the largest force that would be asked for without.
+const LIMIT: f64 = 0.8;
+/// How long after the end of a motion a brake takes hold, and how long before the next it lets go, s.
+const BRAKED: [f64; 2] = [0.06, 0.04];
 /// One row in this many is missing.
 const DROPPED: f64 = 200.0;
 
@@ -57,9 +62,21 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
     let mut velocity = Vec::new();
     let mut lagged = 0.0;
     let mut hidden = Hidden::of(machine, world);
+    let most = match world {
+        World::Limited => {
+            let free = record(machine, motion, World::Faithful, seed).force;
+            let largest = free.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+            (LIMIT * largest).max(1.05 * machine.static_friction)
+        }
+        _ => f64::INFINITY,
+    };
     for (k, point) in path.iter().enumerate() {
         let read = counted(axis.position());
-        let command = cascade.force(point.position, point.velocity, point.acceleration, read);
+        let brakes = world == World::Brake && is_braked(&path, k, machine.rate);
+        let command = match brakes {
+            true => cascade.let_go(),
+            false => cascade.force(point.position, point.velocity, point.acceleration, read),
+        };
         time.push(k as f64 * h);
         position.push(read);
         force.push(command);
@@ -67,9 +84,20 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
         velocity.push(lagged);
         let acts = match world {
             World::Driven(drive) => k.checked_sub(drive.periods).map_or(0.0, |then| force[then]),
-            _ => command,
+            _ => command.clamp(-most, most),
         };
-        axis.advance(acts + hidden.next(h, &mut random), h);
+        match brakes {
+            true => axis.hold(h),
+            false => axis.advance(acts + hidden.next(h, &mut random), h),
+        }
+    }
+    if let World::Filtered(time) = world {
+        let left = (-h / time).exp();
+        let mut behind = 0.0;
+        for u in &mut force {
+            behind = *u + (behind - *u) * left;
+            *u = behind;
+        }
     }
     for u in &mut force {
         *u += machine.noise * random.normal();
@@ -83,6 +111,13 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
     };
     spoil(&mut log, velocity, machine, world, &mut random);
     log
+}
+
+/// Whether a brake holds at a sample: from some time after the reference has come to rest until shortly before it moves on.
+fn is_braked(path: &[SetPoint], sample: usize, rate: f64) -> bool {
+    let [after, before] = BRAKED.map(|time| (time * rate) as usize);
+    let around = sample.saturating_sub(after)..(sample + before).min(path.len());
+    path[around].iter().all(|point| point.velocity == 0.0)
 }
 
 /// A random force on the axis that no log shows, with a memory of 5 ms and constant power.
@@ -210,6 +245,14 @@ impl Cascade {
             speed: 0.0,
             before: None,
         }
+    }
+
+    /// No force, and nothing kept of what was asked for.
+    fn let_go(&mut self) -> f64 {
+        self.integral = 0.0;
+        self.speed = 0.0;
+        self.before = None;
+        0.0
     }
 
     fn force(&mut self, x: f64, v: f64, a: f64, read: f64) -> f64 {

@@ -305,11 +305,22 @@ pub(super) fn auto(
     })
 }
 
-/// Whether a law is another one with less held: micro-damping, the Stribeck curve or its exponent.
+/// Whether a law is another one with less held: micro-damping, the Stribeck curve or its exponent. Dahl is LuGre that holds all
+/// of them.
 fn holds_less(law: &Law, than: &Law) -> bool {
-    let held = |law: &Law| [law.flat, law.undamped, !law.exponent_fitted];
+    let held = |law: &Law| {
+        [
+            !law.has_stribeck(),
+            !law.has_micro_damping(),
+            !law.exponent_fitted,
+        ]
+    };
     let parts = || held(law).into_iter().zip(held(than));
-    law.kind == than.kind
+    let family = |law: &Law| match law.kind {
+        LawKind::Dahl => LawKind::LuGre,
+        kind => kind,
+    };
+    family(law) == family(than)
         && law.asymmetric == than.asymmetric
         && parts().all(|(own, other)| other || !own)
         && parts().any(|(own, other)| other && !own)
@@ -526,5 +537,22 @@ impl Observer for Heard<'_> {
         let control = self.observer.progress(progress);
         self.stopped |= control == Control::Stop;
         control
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dahl_is_lugre_that_holds_curve_and_damping() {
+        let [dahl, lugre, stribeck] =
+            [LawKind::Dahl, LawKind::LuGre, LawKind::Stribeck].map(Law::new);
+        for freer in [lugre, lugre.flat(), lugre.undamped()] {
+            assert!(holds_less(&freer, &dahl) && !holds_less(&dahl, &freer));
+        }
+        for other in [dahl, lugre.asymmetric(), stribeck] {
+            assert!(!holds_less(&other, &dahl));
+        }
     }
 }

@@ -61,6 +61,8 @@ pub(super) fn condition(
     let chosen = conditioning::choose(sources, &wanted, &symmetric, &settings, observer)?;
     for terms in [&mut symmetric, &mut asymmetric] {
         (terms.lag, terms.first_delay) = (chosen.lag, chosen.first_delay);
+        terms.lag.variance += loaded.filter.map_or(0.0, |filter| filter.variance);
+        terms.low_pass_undone = loaded.filter.is_some();
     }
     // A Maxwell-slip law depends on past motion: it is fitted from where the start no longer has an effect.
     let settle = |record: Record| match options.law.is_some_and(LawKind::has_elements) {

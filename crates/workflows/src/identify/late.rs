@@ -8,7 +8,9 @@ use crate::error::Error;
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::{Axis, Warning, shell};
-use stiction_identify::{Delay, FittedLaw, Observer, alignment, lateness};
+use stiction_identify::{
+    Delay, FittedLaw, ForceFilter, Observer, alignment, force_filter, lateness,
+};
 use stiction_log::{Offset, Role};
 use stiction_number::{four_digits, full};
 use stiction_parameters::Quantity;
@@ -76,6 +78,48 @@ pub(super) fn realigned(
         return Ok((loaded, conditioned));
     };
     loaded.take_force_from(rows);
+    let conditioned = condition(asked, &loaded, observer)?;
+    Ok((loaded, conditioned))
+}
+
+/// The same where the force was logged behind a low-pass, which is undone.
+pub(super) fn unfiltered(
+    asked: Asked,
+    mut loaded: Loaded,
+    conditioned: Conditioned,
+    observer: &mut dyn Observer,
+) -> Result<(Loaded, Conditioned), Error> {
+    if loaded.apart.is_some() || !is_sought(asked, &loaded) {
+        return Ok((loaded, conditioned));
+    }
+    let Some(near) = conditioned.settings.near.as_ref() else {
+        return Ok((loaded, conditioned));
+    };
+    // What a position that is held hides of the motion looks like a force that is smoothed.
+    let is_held = |source: &Source| {
+        let mut findings = source.log.findings.iter();
+        findings.any(|finding| finding.code == Code::HeldPosition)
+    };
+    if loaded.sources.iter().any(is_held) {
+        return Ok((loaded, conditioned));
+    }
+    let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
+    let found = force_filter(
+        &samples?,
+        &conditioned.conditioning,
+        (near, loaded.rows_late()),
+        conditioned.terms(false),
+        &conditioned.settings,
+        observer,
+    );
+    let Some(found) = found.filter(ForceFilter::is_certain) else {
+        return Ok((loaded, conditioned));
+    };
+    for source in loaded.sources.iter_mut().chain(&mut loaded.held_out) {
+        source.log.undo_force_filter(found.time);
+    }
+    loaded.filter = Some(found);
+    loaded.take_force_from(found.rows);
     let conditioned = condition(asked, &loaded, observer)?;
     Ok((loaded, conditioned))
 }

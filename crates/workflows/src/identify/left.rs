@@ -10,6 +10,8 @@ use stiction_number::{Percent, four_digits};
 
 /// Part of what a drift leaves from which on a channel of the log that shows it is taken into the fit first.
 const PART_OF_DRIFT: f64 = 0.5;
+/// The same of a level along the stroke, which is then said beside a drift.
+const OR_ALONG_THE_STROKE: f64 = 0.8;
 
 /// What counts say of a curve that they are likelier with another exponent of, and the line that has it fitted.
 const ANOTHER_CURVE: &str = "the Stribeck curve falls off in another way than that of this law";
@@ -57,6 +59,8 @@ fn code(cause: Cause) -> Code {
         Cause::Resonance => Code::Resonance,
         Cause::Backlash => Code::Backlash,
         Cause::Clocks => Code::ClocksApart,
+        Cause::Limit => Code::ForceNotGiven,
+        Cause::Held => Code::HeldAtRest,
         Cause::Shape => Code::LawShape,
     }
 }
@@ -100,6 +104,7 @@ pub(super) fn cause(law: &FittedLaw, sources: &[Source], others: bool) -> Option
     let misfit = law.misfit.as_ref()?;
     let cause = misfit.cause()?;
     let share = match (&misfit.clocks, &misfit.coupling, moved(misfit)) {
+        _ if cause == Cause::Limit => misfit.limit.map_or(misfit.share, |limit| limit.share),
         (Some(clocks), _, _) => clocks.share,
         (None, Some(coupling), _) => coupling.share,
         (None, None, Some(ripple)) => ripple.share,
@@ -136,6 +141,8 @@ fn words(cause: Cause) -> &'static str {
         Cause::Resonance => "motor and load vibrate against each other",
         Cause::Backlash => "a gap lies between motor and load",
         Cause::Clocks => "force and motion were stamped by two clocks that run apart",
+        Cause::Held => "something else than friction holds the axis where it rests",
+        Cause::Limit => "the drive gave less than the force that was logged",
         Cause::Shape => "friction or inertia has another shape than this law",
     }
 }
@@ -214,7 +221,7 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, sources: &[Source]) -> O
             })
         }
         Cause::Clocks => clocks::stretch(misfit.clocks.as_ref()?, sources),
-        Cause::Resonance | Cause::Backlash | Cause::Shape => None,
+        Cause::Resonance | Cause::Backlash | Cause::Limit | Cause::Held | Cause::Shape => None,
     }
 }
 
@@ -296,9 +303,19 @@ fn message(
                     "Record the axis warmed up, then: stiction identify another.csv{options} --out another; {logged}"
                 ),
             };
+            let by_place = misfit.share_by(Divided::LevelOverPosition);
+            let by_place = match by_place >= OR_ALONG_THE_STROKE * misfit.share {
+                true => format!(
+                    ". A level along the stroke explains {} of what is left too: where the motion goes on from place to place, the two look alike. \
+                     Motion to and fro at each place tells them apart, and coulomb_position = true under [terms] how much of it lies \
+                     along the stroke",
+                    Percent::error(100.0 * by_place).digits(2)
+                ),
+                false => String::new(),
+            };
             format!(
                 "{what}: {left} is a Coulomb level that goes from {} of its mean, as means over sixteenths of the log. {counted}; the \
-                 values are means over the log. {to_do}",
+                 values are means over the log. {to_do}{by_place}",
                 levels()
             )
         }
@@ -321,6 +338,27 @@ fn message(
         ),
         Cause::Clocks => misfit.clocks.as_ref().map_or_else(String::new, |found| {
             clocks::message(found, what, cured.then_some(&to_do))
+        }),
+        Cause::Held => misfit.held.map_or_else(String::new, |held| {
+            let [rests, all] = held.rests;
+            format!(
+                "{what}: in {rests} of {all} rests the force goes by up to {} {} without a count of motion, several times farther than bristles \
+                 let it, as where a brake holds and the controller lets go. {left} comes of what the law makes of it. {counted}, and \
+                 presliding and the Stribeck curve are no constants of the machine. A column that says where the brake holds, given as \
+                 enable under [columns], leaves those rows out; else record motion without rests",
+                four_digits(held.force),
+                log.force_unit
+            )
+        }),
+        Cause::Limit => misfit.limit.map_or_else(String::new, |limit| {
+            let unit = &log.force_unit;
+            let beyond = Percent::error(100.0 * limit.beyond).digits(2);
+            format!(
+                "{what}: {left} is what was logged beyond {} {unit}, in {beyond} of the samples, as where the log holds what a \
+                 controller asked for and the drive is at its limit. Nothing that was fitted is a constant of the machine. Log the force \
+                 or current that the drive measures, or record with less acceleration, so that the drive stays below its limit",
+                four_digits(limit.force)
+            )
         }),
         Cause::Ripple => {
             let line = wave.map_or(String::new(), |wave| {

@@ -9,7 +9,7 @@ use crate::source::Source;
 use crate::wording::Setting;
 use std::time::Instant;
 use stiction_files::Axis;
-use stiction_identify::LawKind;
+use stiction_identify::{ForceFilter, LawKind};
 use stiction_log::{Limits, Log, Motion, Role, Understood};
 
 /// What is asked, of which axis, and since when.
@@ -29,6 +29,8 @@ pub(super) struct Loaded {
     pub beside: Beside,
     /// By how much later than in their rows the force of all logs is taken, s; 0 where it is not.
     pub late: f64,
+    /// The low-pass behind which the force of all logs was logged, which was undone.
+    pub filter: Option<ForceFilter>,
     /// By how much the logs differ in that, in words, where no delay can be that of all.
     pub apart: Option<String>,
 }
@@ -90,6 +92,7 @@ pub(super) fn load(
         held_out,
         beside,
         late: 0.0,
+        filter: None,
         apart: None,
     })
 }

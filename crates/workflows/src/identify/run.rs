@@ -4,7 +4,7 @@ use super::assemble::{self, Parts};
 use super::condition::{Conditioned, condition};
 use super::fit::fit;
 use super::judge::judge;
-use super::late::{aligned, realigned};
+use super::late::{aligned, realigned, unfiltered};
 use super::load::{Asked, Loaded, load};
 use super::method::Method;
 use super::options::{Files, Options};
@@ -216,6 +216,7 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     let loaded = aligned(asked, loaded)?;
     let conditioned = condition(asked, &loaded, observer)?;
     let (loaded, conditioned) = realigned(asked, loaded, conditioned, observer)?;
+    let (loaded, conditioned) = unfiltered(asked, loaded, conditioned, observer)?;
     let ranges = asked.axis.search_box(&loaded.sources[0].log)?;
     let fitted = fit(asked, &loaded, &conditioned, observer);
     let fitted = fitted.map_err(|e| of_the_split(asked, &conditioned, e))?;

@@ -98,7 +98,10 @@ impl Judged {
                 };
             // What an estimated offset is off is part of the delay, and no interval of the fit counts it.
             let of_clocks = |p: &Parameter| estimated_offset && p.name == Quantity::Delay;
-            let known = |p: &Parameter| p.identifiable && holds && !of_clocks(p);
+            // On a sine a weight that is not asked for passes for a mass.
+            let weighed = warnings.iter().any(|w| w.code == Code::Gravity);
+            let of_weight = |p: &Parameter| weighed && p.name == Quantity::Mass;
+            let known = |p: &Parameter| p.identifiable && holds && !of_clocks(p) && !of_weight(p);
             // What one log has more than another may be open, but is none of the machine's.
             // With one level for both directions, what they differ by passes for half of a constant force.
             let mixed = |p: &Parameter| p.name == Quantity::Offset && !law.law.asymmetric;
@@ -514,6 +517,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         reasons.push(text, Next::Check);
     }
     saturation(evidence.sources, reasons);
+    limited(law, reasons);
     no_machine(evidence.sources, reasons);
     another_wins(evidence, warnings, reasons);
     if let Some(why) = evidence.held_back {
@@ -521,14 +525,14 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         reasons.push(text, evidence.another_law());
     }
     // Causes first: what they leave open, and what else shows them, comes after.
-    let mut causes: Vec<Warning> = lacking::weight(evidence)
-        .filter(|_| !gravity)
-        .iter()
-        .map(lacking::warned)
-        .collect();
+    let weight = lacking::weight(evidence);
+    let warned = weight.as_ref().filter(|_| !gravity).map(lacking::warned);
+    let mut causes: Vec<Warning> = warned.into_iter().collect();
     left::named(law, evidence.sources, &evidence.options, &mut causes);
     // A weight on a lever repeats with the angle: cogging would take it up in part.
     causes.retain(|cause| !gravity || cause.code != Code::PositionRipple);
+    // What a weight explains is of no other shape.
+    causes.retain(|cause| weight.is_none() || cause.code != Code::LawShape);
     causes.extend(disagree::named(
         &law.disagreements,
         evidence.sources,
@@ -614,6 +618,18 @@ fn saturation(sources: &[Source], reasons: &mut Reasons) {
             "the force is saturated in {:.0} % of the samples (at most {:.0} % can be left out)",
             100.0 * part,
             100.0 * MOST_SATURATED_SHARE
+        );
+        reasons.push(text, Next::Check);
+    }
+}
+
+/// Refuses what was fitted to force that the drive did not give.
+fn limited(law: &FittedLaw, reasons: &mut Reasons) {
+    let limit = law.misfit.as_ref().and_then(|misfit| misfit.limit);
+    if let Some(limit) = limit {
+        let text = format!(
+            "{} of the samples hold more force than the drive gave",
+            Percent::error(100.0 * limit.beyond).digits(2)
         );
         reasons.push(text, Next::Check);
     }

@@ -1,0 +1,299 @@
+//! A force that was logged behind a low-pass, as drives smooth the torque that they show.
+//!
+//! To first order that is a delay of its time constant, which a fit finds. To second order the force is smaller too, by half of
+//! the square of frequency and time constant, and around reversals the step of friction is smeared: taken for a delay, the
+//! Stribeck peak is too low and stiffness and micro-damping take up what is left. So where a force is later than one that is
+//! held, the low-pass is undone with time constants up to that lateness, and the law fitted behind each. What is left of the
+//! force, passed through the same low-pass again so that its noise counts alike, is least where the time constant is that of the
+//! drive. From there it is found as the lag of a current loop is: its square is what a force shows of it (see [`lag`](crate::lag)).
+
+use crate::alignment::moved;
+use crate::conditioning::record::{Record, Samples};
+use crate::conditioning::{Conditioning, condition_as, median_step, stretches};
+use crate::lag;
+use crate::law::Law;
+use crate::law::terms::{Delay, Terms};
+use crate::replica::HELD_DELAY;
+use crate::separable::follow;
+use crate::separable::optimum::Optimum;
+use crate::separable::search_box::MOST_DELAY;
+use crate::separable::settings::Settings;
+use stiction_search::{Observer, Status};
+use stiction_signal::undo_low_pass;
+
+/// Least time by which a force is later than one that is held, samples, from which on a low-pass is looked for.
+const LEAST_LATE: f64 = 0.3;
+/// Time constants that are tried, samples.
+const TRIED: [f64; 10] = [0.5, 1.0, 1.7, 2.6, 3.8, 5.5, 8.0, 11.5, 16.5, 24.0];
+/// How much later than a fit says the force may be, samples, where the delay of that fit is at the end of its range.
+const BEYOND: f64 = 24.0;
+/// How much longer than the force is late a low-pass may come out, samples: what rows and filters move a delay by.
+const ROUGHLY: f64 = 1.0;
+/// Most fits from the best of the tried ones on, and the change of the square, in parts of its deviation, that is none any more.
+const MOST_FITS: usize = 6;
+const SETTLED: f64 = 0.1;
+
+/// Deviations of the square from none from which on there surely is a low-pass, what it may leave at most, in parts of what is left
+/// without it, and by how much the delay beside it may differ from that of a force which is held, samples. What only looks like a
+/// low-pass, a force that was logged later than fits reach, leaves another delay.
+const SURE: f64 = 3.0;
+const NO_MORE: f64 = 1.05;
+const BESIDE: f64 = 0.75;
+
+/// A low-pass of first order behind which the force was logged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceFilter {
+    /// Its time constant, s.
+    pub time: f64,
+    /// Variance of the square of the time constant, s^4.
+    pub variance: f64,
+    /// Rows by which the force has to be taken later (earlier where negative) once the low-pass is undone.
+    pub rows: isize,
+    /// The delay that is left then, samples.
+    pub delay: f64,
+    /// What is left of the square of the force, in parts of what is left without it.
+    pub left: f64,
+}
+
+impl ForceFilter {
+    /// Whether there surely is one.
+    pub fn is_certain(&self) -> bool {
+        let square = self.time * self.time;
+        square > SURE * self.variance.sqrt()
+            && self.left < NO_MORE
+            && (self.delay - HELD_DELAY).abs() < BESIDE
+    }
+}
+
+/// A fit behind a low-pass that was undone.
+struct Tried {
+    /// Time constant, samples of the record.
+    lag: f64,
+    rows: isize,
+    record: Record,
+    optimum: Optimum,
+    /// Mean square of what is left, behind the low-pass.
+    left: f64,
+}
+
+/// The low-pass that logs of one axis show, `near` being the end of a fit of them, whose force was taken `laid` rows later before;
+/// `None` where the force is no later than one that is held, none shows, or the observer stops it.
+pub fn force_filter(
+    logs: &[Samples],
+    conditioning: &Conditioning,
+    (near, laid): (&(Law, Vec<f64>), isize),
+    terms: &Terms,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Option<ForceFilter> {
+    let (law, start) = near;
+    let delay = *start.get(law.nonlinear())?;
+    if terms.delay != Delay::Fitted || law.layout().kappa.is_none() {
+        return None;
+    }
+    let step = median_step(&logs.first()?.time);
+    let beyond = match delay >= 0.75 * MOST_DELAY {
+        true => BEYOND,
+        false => 0.0,
+    };
+    let late = laid as f64 + delay - HELD_DELAY;
+    if late < LEAST_LATE {
+        return None;
+    }
+    let most = late + beyond + ROUGHLY;
+    let mut fit = |lag: f64, start: &[f64], late: f64| {
+        fitted(
+            logs,
+            conditioning,
+            (law, start),
+            (lag, laid, late),
+            terms,
+            settings,
+            observer,
+        )
+    };
+    let without = fit(0.0, start, late)?;
+    let mut best: Option<Tried> = None;
+    let mut from = without.optimum.p.clone();
+    for lag in TRIED.into_iter().filter(|lag| *lag <= most) {
+        let Some(tried) = fit(lag, &from, late.max(lag)) else {
+            continue;
+        };
+        from.clone_from(&tried.optimum.p);
+        if best.as_ref().is_none_or(|best| tried.left < best.left) {
+            best = Some(tried);
+        }
+    }
+    let mut best = best?;
+    let unit = step * step;
+    let mut variance = f64::INFINITY;
+    for _ in 0..MOST_FITS {
+        let (found, spread) =
+            lag::further(&best.record, &terms.about(&best.record), &best.optimum)?;
+        variance = spread;
+        let square = (best.lag * best.lag - found).clamp(0.0, most * most);
+        let change = (square - best.lag * best.lag).abs();
+        if change < SETTLED * variance.sqrt() {
+            break;
+        }
+        let start = best.optimum.p.clone();
+        best = fit(square.sqrt(), &start, late.max(square.sqrt()))?;
+    }
+    Some(ForceFilter {
+        time: best.lag * step,
+        variance: variance * unit * unit,
+        rows: best.rows,
+        delay: best.optimum.p.last().copied().unwrap_or(0.0),
+        left: best.left / without.left,
+    })
+}
+
+/// A fit of the logs without a low-pass of a time constant of `lag` samples, of which the force was `late` in all.
+fn fitted(
+    logs: &[Samples],
+    conditioning: &Conditioning,
+    (law, start): (&Law, &[f64]),
+    (lag, laid, late): (f64, isize, f64),
+    terms: &Terms,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Option<Tried> {
+    let own = delay_of(lag);
+    // As near to a force that is held as whole rows allow.
+    let rows = match lag > 0.0 {
+        true => (late - own).round() as isize - laid,
+        false => 0,
+    };
+    let logs: Vec<Samples> = logs
+        .iter()
+        .map(|log| moved(&without_filter(log, lag), rows))
+        .collect();
+    let record = condition_as(&logs, conditioning, 0.0).ok()?;
+    let conditioning = lag::asked(conditioning, &record);
+    let record = condition_as(&logs, &conditioning, 0.0).ok()?;
+    let terms = terms.about(&record);
+    let mut start = start.to_vec();
+    if let (Some(delay), true) = (start.last_mut(), lag > 0.0) {
+        *delay = late - own - (laid + rows) as f64 + HELD_DELAY;
+    }
+    let optimum = follow(&start, &record, *law, &terms, settings, observer).ok()?;
+    if optimum.status == Status::Interrupted {
+        return None;
+    }
+    let thinned = record.decimate as f64;
+    let kept = if lag > 0.0 {
+        libm::exp(-thinned / lag)
+    } else {
+        0.0
+    };
+    let mut behind = 0.0;
+    let residual = optimum.evaluation.residual();
+    let square = residual.iter().map(|r| {
+        behind = r + (behind - r) * kept;
+        behind * behind
+    });
+    let left = square.sum::<f64>() / residual.len().max(1) as f64;
+    left.is_finite().then_some(Tried {
+        lag,
+        rows,
+        record,
+        optimum,
+        left,
+    })
+}
+
+/// How much later a slow force is behind a low-pass, samples, both rows being those of the same instants.
+fn delay_of(lag: f64) -> f64 {
+    match lag > 0.0 {
+        true => 1.0 / libm::expm1(1.0 / lag),
+        false => 0.0,
+    }
+}
+
+/// A log whose force is what a low-pass of first order of that time constant, samples, has made into the logged one, within each
+/// stretch.
+fn without_filter(log: &Samples, lag: f64) -> Samples {
+    let mut out = log.clone();
+    if lag <= 0.0 {
+        return out;
+    }
+    out.valid.resize(log.force.len(), true);
+    for stretch in stretches(log, median_step(&log.time)) {
+        undo_low_pass(&mut out.force[stretch.clone()], lag);
+        out.valid[stretch.start] = false;
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::conditioning::{Cutoff, condition};
+    use crate::separable::separable;
+    use stiction_parameters::LawKind;
+    use stiction_search::Silent;
+    use stiction_testkit::worlds::{self, Machine, Motion, World};
+
+    fn found(world: World) -> Option<ForceFilter> {
+        let machine = Machine::screw(1);
+        let log = worlds::record(&machine, Motion::Commissioning, world, 1);
+        let logs = [Samples {
+            time: log.time,
+            position: log.position,
+            force: log.force,
+            ..Samples::default()
+        }];
+        let conditioning = Conditioning {
+            resolution: Some(machine.count),
+            source_cutoff: Cutoff::Hz(283.0),
+            common_cutoff: Cutoff::Hz(70.0),
+            ..Conditioning::default()
+        };
+        let terms = Terms {
+            delay: Delay::Fitted,
+            ..Terms::default()
+        };
+        let (law, settings) = (Law::new(LawKind::LuGre), Settings::default());
+        let record = condition(&logs, &conditioning).unwrap();
+        let near = separable(&record, law, &terms, &settings, &mut Silent).unwrap();
+        let near = (law, near.p);
+        force_filter(
+            &logs,
+            &conditioning,
+            (&near, 0),
+            &terms,
+            &settings,
+            &mut Silent,
+        )
+    }
+
+    /// 3 ms are six samples, beyond the delays that a fit looks for.
+    #[test]
+    fn a_low_pass_is_found_and_a_delay_is_none() {
+        for time in [1.7e-3, 3e-3] {
+            let filter = found(World::Filtered(time)).unwrap();
+            assert!(filter.is_certain(), "{filter:?}");
+            assert!((filter.time / time - 1.0).abs() < 0.05, "{filter:?}");
+            assert!(filter.left < 0.5, "{filter:?}");
+        }
+        for world in [World::Late(1), World::Faithful] {
+            let filter = found(world).filter(ForceFilter::is_certain);
+            assert_eq!(filter, None, "{world:?}");
+        }
+    }
+
+    #[test]
+    fn undone_and_laid_the_rows_are_those_of_a_held_force() {
+        let log = Samples {
+            time: (0..60).map(|k| 1e-3 * f64::from(k)).collect(),
+            force: (0..60)
+                .map(|k| (1.0 - libm::exp(-0.4 * f64::from(k))).max(0.0))
+                .collect(),
+            ..Samples::default()
+        };
+        let before = without_filter(&log, 2.5);
+        assert!(before.force[1..].iter().all(|u| (u - 1.0).abs() < 1e-9));
+        assert!(!before.valid[0] && before.valid[1..].iter().all(|valid| *valid));
+        assert!((delay_of(2.5) - 2.0332).abs() < 1e-3);
+    }
+}
