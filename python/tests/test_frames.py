@@ -154,7 +154,7 @@ def test_the_tables_of_a_fleet_are_one_data_set(tmp_path: Path) -> None:
     _native.write_rows(str(out / "part-000002.parquet"), found[2:])
     (out / ".stiction-fleet").touch()
     table = pandas.read_parquet(out)
-    coulomb = table.query("parameter == 'coulomb' and identifiable")
+    coulomb = table.query("parameter == 'coulomb' and identifiable == True")
     assert list(coulomb.path) == [str(path) for path in logs] and list(coulomb.time) == [0.0, 86_400.0, 172_800.0]
     assert coulomb.value.between(19.0, 23.0).all()
     assert table[table.error.notna()].path.to_list() == [str(tmp_path / "gone.csv")]

@@ -56,7 +56,7 @@ pub struct ExportOptions {
     pub feedforward: Feedforward,
 }
 
-/// Settings of a compensator; those that are absent follow from the law ([`Settings::for_law`]).
+/// Settings of a compensator; those that are absent follow from the law ([`Settings::for_law`](stiction_friction::compensator::Settings::for_law)).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Safety {
     /// Time in which the compensation goes from 0 to its full value, s.

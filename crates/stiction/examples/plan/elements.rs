@@ -5,9 +5,12 @@ use stiction::commands::{Known, PlanOptions, Planned};
 use stiction::{Axis, LawKind};
 use stiction_plan::{Aim, Candidate, Elements, Entry, Expected, HandMade, Subject, hand_made};
 
+/// An axis: its name, its law, elements and what stands behind them.
+type Slipping = (&'static str, LawKind, [[f64; 2]; 3], &'static [f64]);
+
 /// A simulated axis: name, law, stiffness and yield deflection of each element, and what stands behind them in the order of the parameters:
 /// sigma2, for `gms` Fc, vs and attraction, the mass.
-const AXES: [(&str, LawKind, [[f64; 2]; 3], &[f64]); 2] = [
+const AXES: [Slipping; 2] = [
     (
         "slide, maxwell-slip",
         LawKind::MaxwellSlip,
