@@ -70,27 +70,18 @@ impl OfAxis {
             };
             return (of, None);
         };
-        let mut digest = hash_of(path);
         let (axis, fault) = match Axis::read(path) {
             Ok(axis) => (Some(axis), None),
             Err(e) => (None, Some(e.into())),
         };
-        for other in of_all(&axis) {
-            digest = sha256_of(format!("{digest} {}", hash_of(other)).as_bytes());
-        }
+        let digest = digest_of(path, &axis);
         (Self { file, axis, digest }, fault)
     }
 
     /// Whether the files are not those any more that were read.
     pub fn has_changed(&self) -> bool {
-        let Some(path) = &self.file else {
-            return false;
-        };
-        let mut digest = hash_of(path);
-        for other in of_all(&self.axis) {
-            digest = sha256_of(format!("{digest} {}", hash_of(other)).as_bytes());
-        }
-        digest != self.digest
+        let now = self.file.as_ref().map(|path| digest_of(path, &self.axis));
+        now.is_some_and(|now| now != self.digest)
     }
 
     /// The files that belong to a log by its name.
@@ -106,10 +97,13 @@ impl OfAxis {
     }
 }
 
-/// The files of an axis that do not belong to one log each.
-fn of_all(axis: &Option<Axis>) -> impl Iterator<Item = &Path> {
+/// SHA-256 of an axis file and the files that it names, but for those that belong to one log each.
+fn digest_of(path: &Path, axis: &Option<Axis>) -> String {
     let joined = axis.iter().flat_map(|axis| &axis.joined);
-    joined.filter_map(|column| column.file.as_ref()?.of_one_log())
+    let others = joined.filter_map(|column| column.file.as_ref()?.of_one_log());
+    others.fold(hash_of(path), |digest, other| {
+        sha256_of(format!("{digest} {}", hash_of(other)).as_bytes())
+    })
 }
 
 /// SHA-256 of a file, or that it cannot be read.
