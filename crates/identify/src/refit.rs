@@ -4,7 +4,7 @@ use crate::agreement::Told;
 use crate::conditioning::record::Record;
 use crate::conditioning::{Conditioning, condition_as};
 use crate::estimate::Estimate;
-use crate::estimate::uncertainty::{Unknowns, unknowns};
+use crate::estimate::uncertainty::{Unknowns, by_noise, unknowns};
 use crate::misfit::{Divisions, Energies};
 use crate::replica::{Axis, Replica};
 use crate::separable::descent::descend;
@@ -50,6 +50,11 @@ pub(crate) fn refitted(
     };
     let mut at = evaluated(&replica.p, counts);
     let mut last = stepped(&objective, &replica.p, &at)?;
+    let first = (last.longest <= LONGEST_STEP).then(|| First {
+        p: last.p.clone(),
+        c: last.c.clone(),
+        residual: at.residual().to_vec(),
+    });
     if let Asked::All(_) = asked {
         if last.longest > LONGEST_STEP {
             let p = descended(&objective, &replica.p, counts)?;
@@ -82,6 +87,7 @@ pub(crate) fn refitted(
         p: last.p,
         square: (at.cost - last.fall).max(0.0) / at.residual().len().max(1) as f64,
         c: last.c,
+        first,
         all,
     };
     let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
@@ -177,10 +183,53 @@ pub(crate) struct Refit {
     pub p: Vec<f64>,
     /// Linear ones.
     pub c: Vec<f64>,
+    /// What the first step found; `None` where it is not to be trusted.
+    pub first: Option<First>,
     /// What else was asked for.
     pub all: Option<All>,
     /// Mean square of the residual.
     square: f64,
+}
+
+/// What the first step of a fit finds.
+pub(crate) struct First {
+    /// Nonlinear unknowns.
+    pub p: Vec<f64>,
+    /// Linear ones.
+    pub c: Vec<f64>,
+    /// What the true values leave.
+    residual: Vec<f64>,
+}
+
+/// What a fit of a replica without noise of the force finds to first order, and what that noise adds.
+pub(crate) struct Quiet {
+    /// Nonlinear unknowns.
+    pub p: Vec<f64>,
+    /// Linear ones.
+    pub c: Vec<f64>,
+    /// Covariance of both by the noise.
+    pub noise: DMatrix<f64>,
+}
+
+/// One step from the true values, beside the `first` one of the same replica with noise: what the latter leaves more is the noise
+/// as the fit sees it, filtered and thinned.
+pub(crate) fn without_noise(
+    quiet: &Replica,
+    conditioning: &Conditioning,
+    fitted: &Estimate,
+    first: &First,
+    counts: &mut Counts,
+) -> Option<Quiet> {
+    let record = condition_as(&quiet.logs, conditioning, 0.0).ok()?;
+    let objective = Objective::new(&record, fitted.law, &quiet.terms);
+    let at = objective.evaluate(&quiet.p, true);
+    counts.derivatives += 1;
+    let Stepped { p, c, .. } = stepped(&objective, &quiet.p, &at)?;
+    let both = first.residual.iter().zip(at.residual());
+    let noise: Vec<f64> = both.map(|(noisy, quiet)| noisy - quiet).collect();
+    let noise = by_noise(&objective, &at, &noise);
+    let finite = p.iter().chain(&c).chain(&noise).all(|x| x.is_finite());
+    finite.then_some(Quiet { p, c, noise })
 }
 
 /// What a fit of a replica says beside its unknowns.

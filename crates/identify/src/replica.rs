@@ -42,10 +42,29 @@ const REPEATED_TRACKING_FREQUENCY: f64 = 0.0015;
 pub(crate) struct Replica {
     /// One log for each segment of the record.
     pub logs: Vec<Samples>,
+    /// Their forces before noise was added.
+    pub quiet: Vec<Vec<f64>>,
     /// The nonlinear unknowns behind them.
     pub p: Vec<f64>,
     /// The terms to fit them with: those of the estimate, with the delay that the replica has.
     pub terms: Terms,
+}
+
+impl Replica {
+    /// The same motion and counts, with a force that was logged without noise.
+    pub fn without_noise(&self) -> Self {
+        let logs = self.logs.iter().zip(&self.quiet);
+        let logs = logs.map(|(log, force)| Samples {
+            force: force.clone(),
+            ..log.clone()
+        });
+        Self {
+            logs: logs.collect(),
+            quiet: self.quiet.clone(),
+            p: self.p.clone(),
+            terms: self.terms.clone(),
+        }
+    }
 }
 
 /// The axis of an estimate, ready to be simulated along its record any number of times.
@@ -145,7 +164,7 @@ impl<'a> Axis<'a> {
     pub fn replica(&self, force_noise: f64, seed: u64) -> Option<Replica> {
         let answered = self.answered.as_ref();
         // A wrongly identified response, while the fit is still far off, may make the simulated axis oscillate.
-        let logs = self.logs(answered, force_noise, seed).or_else(|| {
+        let both = self.logs(answered, force_noise, seed).or_else(|| {
             answered?;
             self.logs(None, force_noise, seed)
         })?;
@@ -157,16 +176,22 @@ impl<'a> Axis<'a> {
             (Delay::Fitted, Some(own)) => *own = delay,
             _ => terms.delay = Delay::Given(delay * self.record.step()),
         }
-        Some(Replica { logs, p, terms })
+        let (logs, quiet) = both.into_iter().unzip();
+        Some(Replica {
+            logs,
+            quiet,
+            p,
+            terms,
+        })
     }
 
-    /// One log for each segment; `None` if the axis does not follow one.
+    /// One log for each segment, with its force before noise was added; `None` if the axis does not follow one.
     fn logs(
         &self,
         answered: Option<&(Reaction, Vec<Vec<f64>>)>,
         force_noise: f64,
         seed: u64,
-    ) -> Option<Vec<Samples>> {
+    ) -> Option<Vec<(Samples, Vec<f64>)>> {
         let mut noise = Noise::new(seed);
         let segments = self.record.segments.iter().zip(&self.others);
         segments
@@ -186,7 +211,7 @@ impl<'a> Axis<'a> {
         answered: Option<(&Reaction, &[f64])>,
         force_noise: f64,
         noise: &mut Noise,
-    ) -> Option<Samples> {
+    ) -> Option<(Samples, Vec<f64>)> {
         let record = self.record;
         let h = segment.step;
         let mut integrator = Quick::new(self.drive.substeps(self.substeps)).ok()?;
@@ -228,6 +253,7 @@ impl<'a> Axis<'a> {
             deflection: 0.0,
         };
         let (mut position, mut force) = (Vec::<f64>::with_capacity(n), Vec::with_capacity(n));
+        let mut quiet = Vec::with_capacity(n);
         for (k, other) in other.iter().enumerate() {
             let error = segment.position[k] - motion.position;
             let slip = segment.velocity[k] - motion.velocity;
@@ -252,6 +278,7 @@ impl<'a> Axis<'a> {
             }
             let logged = (1.0 - part) * applied + part * before;
             before = applied;
+            quiet.push(logged);
             force.push(logged + force_noise * noise.normal());
             commands.push(applied);
             let acts = |part: f64, force: f64| {
@@ -261,7 +288,7 @@ impl<'a> Axis<'a> {
             self.drive
                 .sample(&commands, self.substeps, &mut behind, acts);
         }
-        Some(Samples {
+        let samples = Samples {
             time: (0..n).map(|k| k as f64 * h).collect(),
             position: Some(position),
             force,
@@ -271,7 +298,8 @@ impl<'a> Axis<'a> {
             temperature: logged(&segment.channels.temperature),
             external: logged(&segment.channels.external),
             ..Samples::default()
-        })
+        };
+        Some((samples, quiet))
     }
 }
 

@@ -14,12 +14,12 @@ use crate::estimate::windows::Windows;
 use crate::law::physical::physical;
 use crate::misfit::Energies;
 use crate::parameter::physical::Physical;
-use crate::refit::{Asked, Refit, force_noise, refitted};
+use crate::refit::{Asked, Refit, force_noise, refitted, without_noise};
 use crate::replica::{Axis, Replica};
 use crate::separable::logs::Logs;
 use crate::shifts::{REPLICA_COUNT, SHIFT_DOUBT, Shifts, TEN_REPLICAS_FACTOR, as_found, between};
 use crate::watch::Watch;
-use stiction_search::Control;
+use stiction_search::{Control, Counts};
 
 /// First seed of these replicas; they differ from those that the cut-offs were chosen on.
 const FIRST_SEED: u64 = 1000;
@@ -30,8 +30,10 @@ const FIRST_SECOND_SEED: u64 = 2000;
 #[derive(Clone, Debug)]
 pub(super) struct Shift {
     pub bias: Vec<f64>,
-    /// Variance from one replica to the next.
+    /// Variance from one replica to the next, without what noise of the force makes to first order.
     scatter: Vec<f64>,
+    /// Variance that this noise makes.
+    noise: Vec<f64>,
     /// Variance that the residuals of the replicas state, on average.
     stated: Vec<f64>,
     /// Squared difference between the shift of a replica and that of a replica of it, less what chance
@@ -52,12 +54,15 @@ impl Shift {
     /// A residual made of encoder steps is correlated with the motion and repeats with it, which makes
     /// the parameters look less certain than they are. The replicas show by how much: the variance is
     /// taken larger or smaller as they scatter more or less than they state (calibration by a bootstrap:
-    /// Beran 1987, doi 10.1093/biomet/74.3.457), and is enlarged because they are few. Added to it are
+    /// Beran 1987, doi 10.1093/biomet/74.3.457). What noise of the force adds to their scatter is known in closed form; what it
+    /// added to these few by chance is taken off (a control variate: Hammersley and Handscomb 1964,
+    /// doi 10.1007/978-94-009-5819-7, section 5.5), and the rest is enlarged because they are few. Added to it are
     /// the variance of the mean shift and the possible error of the shift itself: a tenth of it, and the
     /// amount by which it changes from the replicas to replicas of them (an iterated bootstrap: Hall
     /// 1992, doi 10.1007/978-1-4612-4384-7, section 1.4).
     pub fn total(&self, i: usize, residual: f64) -> f64 {
-        let calibration = TEN_REPLICAS_FACTOR * self.scatter[i] / self.stated[i];
+        let scatter = self.noise[i] + TEN_REPLICAS_FACTOR * self.scatter[i];
+        let calibration = scatter / self.stated[i];
         let calibrated = residual
             * if calibration.is_finite() {
                 calibration
@@ -92,7 +97,7 @@ pub(super) fn shift(
     asked(watch)?;
     let mut first = Shifts::default();
     let mut second = Shifts::default();
-    let mut stated = vec![0.0; raw.len()];
+    let (mut stated, mut by_noise) = (vec![0.0; raw.len()], vec![0.0; raw.len()]);
     let (mut energies, mut told) = (Vec::new(), Vec::new());
     for i in 0..REPLICA_COUNT {
         let (found, replica) = once(
@@ -116,16 +121,21 @@ pub(super) fn shift(
         energies.push(returns.unwrap_or(all.energies));
         told.extend(all.told.clone());
         let of = (record, fitted);
-        windows.count(
-            &replica,
-            of,
-            (&found.truth, &found.shift),
-            &mut watch.counts,
-        );
+        let quiet = replica.without_noise();
+        let still = Still::of(&quiet, of, &found, &mut watch.counts);
         asked(watch)?;
-        first.0.push(found.shift.clone());
-        // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, and to
-        // first order.
+        let (at, shift) = match &still.first {
+            Some(first) => (&quiet, first),
+            None => (&replica, &found.shift),
+        };
+        windows.count(at, of, (&found.truth, shift), &mut watch.counts);
+        asked(watch)?;
+        first.0.push(still.shift);
+        for (sum, variance) in by_noise.iter_mut().zip(&still.noise) {
+            *sum += variance / REPLICA_COUNT as f64;
+        }
+        // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, to first
+        // order and without noise.
         if let Ok(again) = condition(&replica.logs, &conditioning)
             && let refit = &found.refit
             && let next = as_found(fitted, &replica, (&refit.p, &refit.c), &found.parameters)
@@ -134,7 +144,7 @@ pub(super) fn shift(
                 &again,
                 &next,
                 &axis,
-                noise,
+                0.0,
                 (FIRST_SECOND_SEED + i, Asked::Unknowns),
                 watch,
             )
@@ -148,6 +158,7 @@ pub(super) fn shift(
     Some(Shift {
         bias: all.clone().map(|i| first.mean(i)).collect(),
         scatter: all.clone().map(|i| first.variance(i)).collect(),
+        noise: by_noise,
         stated,
         change: all.map(|i| second.change(&first, i)).collect(),
         windows: windows.variance(raw.len()),
@@ -182,6 +193,55 @@ struct Found {
     truth: Vec<Physical>,
     parameters: Vec<Physical>,
     shift: Vec<f64>,
+}
+
+/// What the fit of a replica finds without what noise of its force makes to first order.
+struct Still {
+    /// The whole shift.
+    shift: Vec<f64>,
+    /// That without any noise, to first order; `None` where noise moves the fit too far for that, and stays in the shift.
+    first: Option<Vec<f64>>,
+    /// Variance that noise makes, which the shift is without.
+    noise: Vec<f64>,
+}
+
+impl Still {
+    /// From the same replica without noise, beside what was found with it.
+    fn of(
+        quiet: &Replica,
+        (record, fitted): (&Record, &Estimate),
+        found: &Found,
+        counts: &mut Counts,
+    ) -> Self {
+        let linear = fitted.terms.columns(&fitted.law);
+        let at = |p: &[f64], c: &[f64]| physical(&fitted.law, &linear, record.step(), p, c);
+        let how = record.conditioning.as_ref().zip(found.refit.first.as_ref());
+        let still = how.and_then(|(conditioning, first)| {
+            let still = without_noise(quiet, conditioning, fitted, first, counts)?;
+            Some((still, first))
+        });
+        let Some((still, noisy)) = still else {
+            return Self {
+                shift: found.shift.clone(),
+                first: None,
+                noise: vec![0.0; found.shift.len()],
+            };
+        };
+        let first = between(&found.truth, &at(&still.p, &still.c));
+        let noisy = between(&found.truth, &at(&noisy.p, &noisy.c));
+        let each = found.shift.iter().zip(noisy.iter().zip(&first));
+        Self {
+            shift: each
+                .map(|(all, (noisy, first))| all - noisy + first)
+                .collect(),
+            noise: found
+                .truth
+                .iter()
+                .map(|p| p.variance(&still.noise))
+                .collect(),
+            first: Some(first),
+        }
+    }
 }
 
 /// Makes one replica and fits it.

@@ -53,31 +53,79 @@ pub(crate) fn beside(
     at: &Evaluation,
     is_free: impl Fn(usize) -> bool,
 ) -> Unknowns {
-    let k = at.slopes.len();
-    let width = k + at.columns.len();
-    let columns: Vec<usize> = (0..at.columns.len()).filter(|&j| is_free(j)).collect();
-    let index: Vec<usize> = (0..k).chain(columns.iter().map(|j| k + j)).collect();
-    let of_columns = columns.iter().map(|&j| at.columns[j].as_slice());
-    let jacobian: Vec<&[f64]> = at
-        .slopes
-        .iter()
-        .map(|s| s.as_slice())
-        .chain(of_columns)
-        .collect();
+    let free = Free::of(at, is_free);
     let within = Logs::of(objective.record()).and_then(|logs| logs.within(at));
     let residual = within.as_deref().unwrap_or(at.residual());
-    let small = sandwich(&jacobian, residual, &objective.record().breaks());
-    let mut out = Unknowns {
-        covariance: DMatrix::zeros(width, width),
-        bread: DMatrix::zeros(width, width),
-    };
-    for (a, &i) in index.iter().enumerate() {
-        for (b, &j) in index.iter().enumerate() {
-            out.covariance[(i, j)] = small.covariance[(a, b)];
-            out.bread[(i, j)] = small.bread[(a, b)];
+    let small = sandwich(&free.jacobian, residual, &objective.record().breaks());
+    Unknowns {
+        covariance: free.among_all(&small.covariance),
+        bread: free.among_all(&small.bread),
+    }
+}
+
+/// Covariance that comes of a noise of the force alone, of which this is a long record, as the fit sees it.
+pub(crate) fn by_noise(objective: &Objective, at: &Evaluation, noise: &[f64]) -> DMatrix<f64> {
+    let free = Free::of(at, |j| at.solution.active[j]);
+    let breaks = objective.record().breaks();
+    let (scale, bread, _) = normal(&free.jacobian);
+    let weights = weights(&free.jacobian, &scale, &bread);
+    let scaled = Autoregression::fit(noise, &breaks).covariance(&weights, &breaks);
+    let q = scale.len();
+    free.among_all(&DMatrix::from_fn(q, q, |i, j| {
+        scaled[(i, j)] * scale[i] * scale[j]
+    }))
+}
+
+/// The unknowns that count as free: the nonlinear ones, and some of the coefficients.
+struct Free<'a> {
+    /// Their places among all.
+    index: Vec<usize>,
+    /// Number of all.
+    all: usize,
+    /// Derivatives of the model by them.
+    jacobian: Vec<&'a [f64]>,
+}
+
+impl<'a> Free<'a> {
+    fn of(at: &'a Evaluation, is_free: impl Fn(usize) -> bool) -> Self {
+        let k = at.slopes.len();
+        let columns: Vec<usize> = (0..at.columns.len()).filter(|&j| is_free(j)).collect();
+        let of_columns = columns.iter().map(|&j| at.columns[j].as_slice());
+        let slopes = at.slopes.iter().map(|s| s.as_slice());
+        Self {
+            index: (0..k).chain(columns.iter().map(|j| k + j)).collect(),
+            all: k + at.columns.len(),
+            jacobian: slopes.chain(of_columns).collect(),
         }
     }
-    out
+
+    /// A matrix of them with zero rows for the others.
+    fn among_all(&self, small: &DMatrix<f64>) -> DMatrix<f64> {
+        let mut out = DMatrix::zeros(self.all, self.all);
+        for (a, &i) in self.index.iter().enumerate() {
+            for (b, &j) in self.index.iter().enumerate() {
+                out[(i, j)] = small[(a, b)];
+            }
+        }
+        out
+    }
+}
+
+/// What each column is divided by, the inverse of the normal matrix of the divided columns, and the part of it that belongs to
+/// directions lost to rounding.
+fn normal(jacobian: &[&[f64]]) -> (Vec<f64>, DMatrix<f64>, DMatrix<f64>) {
+    let scale: Vec<f64> = jacobian
+        .iter()
+        .map(|c| {
+            let norm = dot(c, c).sqrt();
+            if norm > 0.0 { 1.0 / norm } else { 1.0 }
+        })
+        .collect();
+    let gram = symmetric(jacobian.len(), |i, j| {
+        dot(jacobian[i], jacobian[j]) * scale[i] * scale[j]
+    });
+    let (bread, lost) = inverse(gram);
+    (scale, bread, lost)
 }
 
 /// `B S B` for Jacobian columns and residual; `breaks` are the indices at which a new segment starts.
@@ -90,17 +138,7 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
             bread: DMatrix::from_element(q, q, f64::INFINITY),
         };
     }
-    let scale: Vec<f64> = jacobian
-        .iter()
-        .map(|c| {
-            let norm = dot(c, c).sqrt();
-            if norm > 0.0 { 1.0 / norm } else { 1.0 }
-        })
-        .collect();
-    let gram = symmetric(q, |i, j| {
-        dot(jacobian[i], jacobian[j]) * scale[i] * scale[j]
-    });
-    let (bread, lost) = inverse(gram);
+    let (scale, bread, lost) = normal(jacobian);
     let weights = weights(jacobian, &scale, &bread);
     let stationary = Autoregression::fit(residual, breaks).covariance(&weights, breaks);
     let mut scores = weights;

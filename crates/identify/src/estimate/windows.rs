@@ -84,7 +84,9 @@ impl Windows {
         let unexplained = |i: usize| {
             let excess = windows.iter().map(|w| {
                 let difference = w.own[i] - w.replicas.mean(i);
-                let chance = w.chance[i] + w.replicas.variance(i) / w.replicas.count();
+                // The log is one more of them, and their mean is that of a few.
+                let few = 1.0 + 1.0 / w.replicas.count();
+                let chance = w.chance[i] + few * w.replicas.variance(i);
                 let excess = difference * difference - chance;
                 if excess.is_finite() {
                     excess.max(0.0)
@@ -136,6 +138,7 @@ fn logged(record: &Record, fitted: &Estimate) -> Replica {
     };
     Replica {
         logs: record.segments.iter().map(samples).collect(),
+        quiet: Vec::new(),
         p: fitted.unknowns().to_vec(),
         terms: fitted.terms.clone(),
     }
