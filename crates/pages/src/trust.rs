@@ -62,7 +62,7 @@ pub(crate) fn constants(result: &ResultFile, called: impl Fn(&str) -> String) ->
         ),
         false => String::new(),
     };
-    let mixed = format!("{mixed}{}", unseen_rise(result));
+    let mixed = format!("{mixed}{}{}", pulled(result), unseen_rise(result));
     match (trust.constants.as_slice(), trust.open.as_slice()) {
         ([], []) => "none was identified".into(),
         ([], _) => "none: the log leaves every parameter open".into(),
@@ -78,6 +78,18 @@ fn unseen_rise(result: &ResultFile) -> &'static str {
         true => {
             "; static friction is held at Coulomb friction, since this motion shows no rise towards rest, which may be there all \
              the same"
+        }
+        false => "",
+    }
+}
+
+/// That levels of each direction have a constant force in them, where none is fitted beside them.
+fn pulled(result: &ResultFile) -> &'static str {
+    let has_offset = result.parameters.iter().any(|p| p.name == "offset");
+    match result.asymmetric && !has_offset {
+        true => {
+            "; a constant force, such as a weight or an offset of the sensor, would be half of what the Coulomb levels of the \
+             directions differ by"
         }
         false => "",
     }

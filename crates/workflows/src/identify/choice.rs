@@ -24,10 +24,13 @@ const SHIFTED: f64 = 0.22;
 /// The same in standard deviations.
 const SURELY: f64 = 3.0;
 
-/// Why the bristle is open where no delay that is looked for fits: what is late, and how, decides most about the slopes of
-/// reversals.
+/// Why bristle and mass are open where no delay that is looked for fits: what is late, and how, decides most about the slopes of
+/// reversals, and viscous friction of a late force looks like a part of the inertia.
 const BEYOND_ALL_DELAYS: &str = "the delay of the force came out at the end of those that are looked for, and it moves stiffness \
-                                 and damping of the bristles more than all else";
+                                 and damping of the bristles and the mass more than all else";
+
+/// Why the delay is open behind a low-pass that was undone: either may be a part of the other.
+const BESIDE_A_LOW_PASS: &str = "what the low-pass of the logged force delays and what is late beside it are known together, not each of them";
 
 /// Why what describes the shape of a law is no constant where that shape holds worse than a simpler one.
 const ANOTHER_SHAPE: &str =
@@ -497,12 +500,15 @@ fn stated(
     }
     let sought = ladder.usual(estimate.law).terms.delay == Delay::Fitted;
     if sought && estimate.terms.delay == Delay::NONE {
-        let moved = [Quantity::Sigma0, Quantity::Sigma1];
+        let moved = [Quantity::Sigma0, Quantity::Sigma1, Quantity::Mass];
         estimate.doubt(|p| {
             moved
                 .contains(&p.name.quantity)
                 .then_some(BEYOND_ALL_DELAYS)
         });
+    }
+    if estimate.terms.low_pass_undone {
+        estimate.doubt(|p| (p.name.quantity == Quantity::Delay).then_some(BESIDE_A_LOW_PASS));
     }
     estimate
 }

@@ -13,8 +13,8 @@ use stiction_files::Warning;
 use stiction_identify::{Delay, Mass, Series, Source as Signal, Status};
 
 /// What is said of a delay at the end of its range.
-pub(super) const DELAY_OUT_OF_RANGE: &str = "the delay between force and motion would be more than four samples, which is \
-     something else that the law does not explain; it is taken as none";
+pub(super) const DELAY_OUT_OF_RANGE: &str = "the delay between force and motion would be more than four samples: one of \
+     them was logged late or behind a filter, or something acts that the law does not explain; it is taken as none";
 
 /// Says what happened on the way, then judges the law.
 pub(super) fn judge(

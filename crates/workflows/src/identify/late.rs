@@ -163,6 +163,14 @@ pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &
         (None, Delay::Given(delay)) => (delay, ""),
         (None, Delay::Fitted) => (0.0, ""),
     };
+    if loaded.filter.is_some() {
+        // A delay that is given turns the search for the low-pass off.
+        warning.message.push_str(
+            ". The delay in the table is that of the force before its low-pass. Where the drive can log the force that its \
+             controller asks for, record that one",
+        );
+        return;
+    }
     let late = loaded.late + further;
     let line = format!("delay = \"{} ms\"", four_digits(1e3 * late));
     let logs = paths(&loaded.sources);
