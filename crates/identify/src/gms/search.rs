@@ -312,7 +312,7 @@ impl Search<'_> {
     }
 
     /// Descends from a point.
-    fn follow(
+    pub fn follow(
         &mut self,
         law: Law,
         start: &[f64],
