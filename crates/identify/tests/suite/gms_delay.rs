@@ -12,14 +12,14 @@ const STEP: f64 = 5e-4;
 const FINE: usize = 10;
 const SAMPLES: usize = 12_000;
 /// What is left at the start, in which a force that is early lies before the log.
-const LEAD: usize = 40;
+const LEAD: usize = 80;
 /// Step of the encoder, m, deviation of the force, N, and the mass, kg.
 const COUNT: f64 = 50e-9;
 const NOISE: f64 = 0.15;
 const MASS: f64 = 6.0;
 
 /// A log of velocities and forces of friction on the fine grid, the force `late` tenths of a sample later than its motion.
-fn log((v, friction): &(Vec<f64>, Vec<f64>), late: i32, seed: u64) -> Record {
+fn log((v, friction): &(Vec<f64>, Vec<f64>), late: i32, seed: u64) -> Samples {
     let fine = STEP / FINE as f64;
     let mut noise = Noise::new(seed);
     let mut position = noise.uniform() * COUNT;
@@ -34,18 +34,26 @@ fn log((v, friction): &(Vec<f64>, Vec<f64>), late: i32, seed: u64) -> Record {
         let (h, t) = (1e-6, i as f64 * fine);
         friction[i] + MASS * (motion(t + h) - motion(t - h)) / (2.0 * h)
     };
-    let rows = (LEAD..SAMPLES * FINE - LEAD).step_by(FINE);
+    let rows = (LEAD..v.len() - LEAD).step_by(FINE);
     let earlier = |i: usize| (i as i32 - late) as usize;
     let force = rows
         .clone()
         .map(|i| whole(earlier(i)) + NOISE * noise.normal());
-    let samples = Samples {
+    Samples {
         force: force.collect(),
         time: (0..rows.len()).map(|i| i as f64 * STEP).collect(),
         position: Some(rows.map(|i| positions[i - 1]).collect()),
         ..Samples::default()
-    };
-    condition(&[samples], &Conditioning::default()).unwrap()
+    }
+}
+
+fn record(logs: &[Samples]) -> Record {
+    condition(logs, &Conditioning::default()).unwrap()
+}
+
+/// An axis of four elements along the fine grid.
+fn axis(samples: usize) -> (Vec<f64>, Vec<f64>) {
+    four().along(samples * FINE, STEP / FINE as f64, 10, motion)
 }
 
 fn fitted(record: &Record, law: Law, delay: Delay) -> Estimate {
@@ -84,12 +92,12 @@ fn truths(truth: &Maxwell) -> Vec<(String, f64)> {
 #[test]
 fn elements_find_a_delay() {
     let truth = four();
-    let axis = truth.along(SAMPLES * FINE, STEP / FINE as f64, 10, motion);
+    let axis = axis(SAMPLES);
     let (mut inside, mut all) = (0, 0);
     for late in [13, -6] {
         let delay = 0.1 * f64::from(late) * STEP;
         for seed in 1..=3 {
-            let record = log(&axis, late, seed);
+            let record = record(&[log(&axis, late, seed)]);
             let found = fitted(&record, gms(4), Delay::Fitted);
             assert_eq!(found.terms.delay_from, DelayFrom::Elements);
             let own = off(&found, "delay", delay);
@@ -114,6 +122,11 @@ fn elements_find_a_delay() {
             let given = fitted(&record, gms(4), Delay::Given(delay));
             assert_eq!(given.terms.delay_from, DelayFrom::Stated);
             assert!(given.parameter("delay").is_none());
+            let evaluations = |found: &Estimate| {
+                println!("    {:?}", found.counts);
+                found.counts.with_derivatives() + found.counts.coarse()
+            };
+            assert!(evaluations(&found) < 5 * evaluations(&given));
             for (name, _) in truths(&truth) {
                 let std = |found: &Estimate| found.parameter(&name).unwrap().std.unwrap();
                 let ratio = std(&found) / std(&given);
@@ -137,7 +150,7 @@ fn elements_do_not_spoil_the_delay_of_bristles() {
         motion,
     );
     for late in [13, -6] {
-        let record = log(&axis, late, 1);
+        let record = record(&[log(&axis, late, 1)]);
         let found = fitted(&record, gms(4), Delay::Fitted);
         let Delay::Given(delay) = found.terms.delay else {
             panic!("{:?}", found.terms.delay);
@@ -152,4 +165,27 @@ fn elements_do_not_spoil_the_delay_of_bristles() {
             "{found_at}"
         );
     }
+}
+
+/// Of several logs it is one delay.
+#[test]
+fn logs_have_one_delay() {
+    let axis = axis(SAMPLES / 2);
+    let logs = [log(&axis, 13, 1), log(&axis, 13, 2)];
+    let found = fitted(&record(&logs), gms(4), Delay::Fitted);
+    assert_eq!(found.terms.delay_from, DelayFrom::Elements);
+    let own = off(&found, "delay", 1.3 * STEP);
+    let deviation = found.terms.delay_deviation / STEP;
+    println!("{own} of {deviation}");
+    assert!(own.abs() < 4.0 && deviation < 0.1, "{own} of {deviation}");
+}
+
+/// A delay beyond all that are looked for is none of the elements either.
+#[test]
+fn a_delay_out_of_range_is_not_stated() {
+    let axis = axis(SAMPLES / 2);
+    let found = fitted(&record(&[log(&axis, 60, 1)]), gms(4), Delay::Fitted);
+    println!("{:?}", found.terms);
+    assert!(matches!(found.terms.delay_from, DelayFrom::OtherLaw(_)));
+    assert!(found.parameter("delay").is_none());
 }
