@@ -45,6 +45,7 @@ pub fn elements(logs: u64) {
             elements: Some(Elements {
                 count: elements.len(),
                 falls: kind == LawKind::Gms,
+                delayed: true,
             }),
             ..Subject::default()
         };
