@@ -13,6 +13,8 @@ pub(super) struct Parabola {
     pub curvature: f64,
     /// Variance of where it is, from how points scatter about the parabola.
     pub scatter: f64,
+    /// Root mean square of what the points scatter.
+    pub noise: f64,
 }
 
 impl Parabola {
@@ -41,6 +43,7 @@ impl Parabola {
             at,
             cost: fit[0] + 0.5 * slope * at,
             curvature,
+            noise: noise.sqrt(),
             scatter: noise * (by.transpose() * bread * by)[(0, 0)],
         })
     }
