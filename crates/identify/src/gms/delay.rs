@@ -36,8 +36,6 @@ const SPACINGS: [f64; 2] = [0.25, 0.1];
 const SIDE: i32 = 3;
 /// Most times that points are laid around the minimum that the last ones show.
 const MOST_MOVES: usize = 4;
-/// Root mean square of what the points of a parabola scatter, in parts of its rise, from which on some count as ended elsewhere.
-const ROUGH: f64 = 0.02;
 /// Change of the delay, samples, from which on elements are looked for anew.
 const FAR: f64 = 0.25;
 /// Standard deviation, samples, from which on the profile counts as flat.
@@ -218,23 +216,16 @@ impl<'a> Profile<'a> {
         if near.delay == delay {
             return near.cost;
         }
-        let start = near.p.clone();
-        let end = self.descend(delay, &start, watch);
-        let cost = end.cost;
-        self.points.push(end);
-        cost
-    }
-
-    /// The end of a descent at a delay.
-    fn descend(&self, delay: f64, start: &[f64], watch: &mut Watch) -> Point {
         let terms = self.terms(delay);
         let objective = Objective::new(self.record, self.law, &terms);
-        let end = descend(&objective, &self.bounds, start, STEPS, watch);
-        Point {
+        let end = descend(&objective, &self.bounds, &near.p, STEPS, watch);
+        let cost = end.evaluation.cost;
+        self.points.push(Point {
             delay,
-            cost: end.evaluation.cost,
+            cost,
             p: end.p,
-        }
+        });
+        cost
     }
 
     /// Where it is least, from a delay on; `None` where it falls to an end of the range, or the points show no minimum.
@@ -294,43 +285,13 @@ impl<'a> Profile<'a> {
     /// The parabola through points around a delay; `None` where it has no minimum.
     fn parabola(&mut self, middle: f64, spacing: f64, watch: &mut Watch) -> Option<Parabola> {
         // From the middle outwards, so that each descent begins at its neighbour.
-        self.cost(middle, watch);
+        let mut points = vec![(0.0, self.cost(middle, watch))];
         for i in 1..=SIDE {
             for side in [-1, 1] {
-                self.cost(middle + f64::from(side * i) * spacing, watch);
+                let x = f64::from(side * i) * spacing;
+                points.push((x, self.cost(middle + x, watch)));
             }
         }
-        let places: Vec<f64> = (-SIDE..=SIDE).map(|i| f64::from(i) * spacing).collect();
-        let found = self.through(middle, &places, watch);
-        let reach = f64::from(SIDE) * spacing;
-        if found.is_some_and(|found| found.noise <= ROUGH * found.curvature * reach * reach) {
-            return found;
-        }
-        // Some ended elsewhere, where an element has no force any more or two are one: each again from its neighbours.
-        for way in [1, -1] {
-            for i in (-SIDE..SIDE).map(|i| way * i) {
-                let [from, to] = [i, i + way].map(|i| middle + f64::from(i) * spacing);
-                self.follow(from, to, watch);
-            }
-        }
-        self.through(middle, &places, watch)
-    }
-
-    fn through(&mut self, middle: f64, places: &[f64], watch: &mut Watch) -> Option<Parabola> {
-        let point = |&x: &f64| (x, self.cost(middle + x, watch));
-        let points: Vec<(f64, f64)> = places.iter().map(point).collect();
         Parabola::through(&points).map(|found| found.moved(middle))
-    }
-
-    /// Descends at one delay from the end at another; what is better stays.
-    fn follow(&mut self, from: f64, to: f64, watch: &mut Watch) {
-        let start = self.nearest(from).p.clone();
-        let end = self.descend(to, &start, watch);
-        let far = |point: &Point| (point.delay - to).abs();
-        let own = self.points.iter_mut();
-        let own = own.min_by(|a, b| far(a).total_cmp(&far(b)));
-        if let Some(own) = own.filter(|own| end.cost < own.cost) {
-            *own = end;
-        }
     }
 }

@@ -13,8 +13,6 @@ pub(super) struct Parabola {
     pub curvature: f64,
     /// Variance of where it is, from how points scatter about the parabola.
     pub scatter: f64,
-    /// Root mean square of what the points scatter.
-    pub noise: f64,
 }
 
 impl Parabola {
@@ -43,7 +41,6 @@ impl Parabola {
             at,
             cost: fit[0] + 0.5 * slope * at,
             curvature,
-            noise: noise.sqrt(),
             scatter: noise * (by.transpose() * bread * by)[(0, 0)],
         })
     }
