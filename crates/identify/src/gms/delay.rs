@@ -2,41 +2,42 @@
 //!
 //! Elements change between stick and slip at instants between samples, where the slope of their force by the delay jumps. So the
 //! cost has kinks along the delay, and no descent finds where it is least. On the scale of tenths of a sample thousands of
-//! reversals average them out: with all else fitted again at each delay the cost is smooth. It is followed downhill from the delay
-//! that LuGre finds to where it rises on both sides, and a parabola through points around there says where it is least.
+//! reversals average them out: with all else fitted again at each delay the cost is smooth. It is followed downhill on the thinned
+//! record from the delay that LuGre finds to where it rises on both sides, and a parabola through points around there, of the whole
+//! record, says where it is least.
+//!
+//! Beside a delay that is too late the force begins before the motion turns. An element that yields at once takes that, with any
+//! stiffness, and is missing among the others; the cost has a minimum of its own with it, which no step along the delay leaves. Beside
+//! a delay that is too early nothing of the kind fits. So elements are looked for anew on the early side.
 
 mod parabola;
+mod profile;
 
+use super::count::MOST;
 use super::ladder::Search;
-use super::search::search;
+use super::search::{ELEMENTS_ABOVE, search};
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::estimate::uncertainty::sandwich;
+use crate::fit::EQUAL_ERROR_RATIO;
 use crate::held_delay;
 use crate::law::Law;
 use crate::law::terms::{Delay, DelayFrom, Terms};
-use crate::separable::descent::descend;
 use crate::separable::logs::Logs;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
-use crate::separable::search_box::{MOST_DELAY, SearchBox};
+use crate::separable::search_box::MOST_DELAY;
 use crate::separable::settings::Settings;
 use crate::watch::Watch;
 use parabola::Parabola;
+use profile::{NARROW, Profile};
 use stiction_search::{Observer, Stage, Status};
 
-/// Steps of a descent at a delay, from the end of that at the nearest delay before.
-const STEPS: usize = 8;
-/// First step of the way downhill, samples; steps double up to the longest.
-const FIRST_STEP: f64 = 0.5;
-const LONGEST_STEP: f64 = 1.0;
-/// Distances between the points of a parabola, samples: on the wide one the minimum is found, on the narrow one it is stated.
-const SPACINGS: [f64; 2] = [0.25, 0.1];
-/// Points to either side of the middle one.
-const SIDE: i32 = 3;
-/// Most times that points are laid around the minimum that the last ones show.
-const MOST_MOVES: usize = 4;
-/// Change of the delay, samples, from which on elements are looked for anew.
+/// How much earlier than where the cost is least elements are looked for anew, samples.
+const EARLIER: f64 = 1.0;
+/// Steps of the descent on the whole record from where the thinned one ended.
+const SETTLING_STEPS: usize = 20;
+/// Change of the delay, samples, from which on their number is chosen anew.
 const FAR: f64 = 0.25;
 /// Standard deviation, samples, from which on the profile counts as flat.
 const FLAT: f64 = 1.0;
@@ -75,6 +76,13 @@ pub(crate) fn sought(
     Ok((terms.clone(), kept))
 }
 
+/// Elements beside a delay, samples.
+struct Place {
+    delay: f64,
+    law: Law,
+    p: Vec<f64>,
+}
+
 /// The same from a delay, samples; `None` where nothing is found.
 fn found(
     record: &Record,
@@ -84,40 +92,39 @@ fn found(
     settings: &Settings,
     watch: &mut Watch,
 ) -> Result<Option<(Terms, Optimum)>, Error> {
-    let mut profile = Profile::new(record, terms, held, start)?;
-    let Some(mut least) = profile.least(start, watch) else {
+    let Some(mut place) = walked(record, (terms, start), held, settings, watch)? else {
         return Ok(None);
     };
+    let mut profile = Profile::new(record, place.law, terms, record.step())?;
+    let near = profile.terms(place.delay);
+    let mut search = of(record, law, &near, settings);
+    watch.best = f64::INFINITY;
+    let rung = search.follow(place.law, &place.p, SETTLING_STEPS, watch)?;
+    let mut cost = rung.cost();
+    place.p = rung.descent.p;
     let mut elements = held.elements.clone();
-    if (least.at - start).abs() > FAR && !watch.stopped {
-        // Beside another delay there may have been other elements, and more or fewer.
-        let near = profile.terms(least.at);
-        let again = search(record, law, &near, settings, &mut *watch.observer)?;
+    if law.elements == 0 && (place.delay - start).abs() > FAR && !watch.stopped {
+        // Beside another delay there may be more or fewer.
+        let again = self::search(record, law, &near, settings, &mut *watch.observer)?;
         watch.counts.add(&again.counts);
         watch.stopped |= again.status == Status::Interrupted;
-        let mut anew = Profile::new(record, terms, &again, least.at)?;
-        if let Some(there) = anew.least(least.at, watch)
-            && (law.elements == 0 || there.cost < least.cost)
-        {
-            (profile, least) = (anew, there);
+        if again.evaluation.cost <= EQUAL_ERROR_RATIO * EQUAL_ERROR_RATIO * cost {
+            profile = Profile::new(record, again.law, terms, record.step())?;
+            cost = again.evaluation.cost;
             elements = again.elements;
+            (place.law, place.p) = (again.law, again.p);
         }
     }
+    profile.begin(place.delay, cost, place.p);
+    let Some(least) = profile.least(place.delay, watch) else {
+        return Ok(None);
+    };
     if watch.stopped {
         return Ok(None);
     }
     let near = profile.terms(least.at);
-    let mut search = Search {
-        record,
-        law: Law {
-            elements: 0,
-            ..profile.law
-        },
-        terms: &near,
-        settings,
-        iterations: 0,
-    };
-    let rung = search.follow(profile.law, &profile.nearest(least.at).p, STEPS, watch)?;
+    let mut search = of(record, law, &near, settings);
+    let rung = search.follow(place.law, &profile.start(least.at), 1, watch)?;
     let optimum = search.finish(rung, watch)?;
     let variance = variance(record, &near, &optimum, &least);
     let cost = optimum.evaluation.cost;
@@ -144,13 +151,67 @@ fn found(
     }))
 }
 
+/// A search for elements of a law.
+fn of<'a>(record: &'a Record, law: Law, terms: &'a Terms, settings: &'a Settings) -> Search<'a> {
+    Search {
+        record,
+        law: Law { elements: 0, ..law },
+        terms,
+        settings,
+        iterations: 0,
+    }
+}
+
+/// Where the cost is least on the thinned record, to some tenth of a sample: from a delay on, and with as many elements that are looked
+/// for anew earlier than that.
+fn walked(
+    record: &Record,
+    (terms, start): (&Terms, f64),
+    held: &Optimum,
+    settings: &Settings,
+    watch: &mut Watch,
+) -> Result<Option<Place>, Error> {
+    let thinned = record.rough(settings.thin);
+    let near = thinned.as_ref().unwrap_or(record);
+    let unit = record.step();
+    watch.best = f64::INFINITY;
+    let mut own = Profile::new(near, held.law, terms, unit)?;
+    own.descend(start, &held.p, watch);
+    let Some(valley) = own.valley(start, watch) else {
+        return Ok(None);
+    };
+    let early = (valley - EARLIER).max(-MOST_DELAY);
+    let beside = own.terms(early);
+    let wanted = held.law.elements;
+    let most = (wanted + ELEMENTS_ABOVE).min(MOST);
+    let mut search = of(near, held.law, &beside, settings);
+    let rungs = search.ladder(most, wanted, watch)?;
+    let mut best = (own, valley);
+    if let Some(rung) = rungs.into_iter().next_back() {
+        let mut anew = Profile::new(near, rung.law, terms, unit)?;
+        anew.begin(early, rung.cost(), rung.descent.p);
+        if let Some(other) = anew.valley(early, watch)
+            && anew.cost(other, watch) < best.0.cost(valley, watch)
+        {
+            best = (anew, other);
+        }
+    }
+    let (mut profile, valley) = best;
+    let delay = profile.near(valley, watch);
+    Ok(Some(Place {
+        delay,
+        law: profile.law,
+        p: profile.start(delay),
+    }))
+}
+
 /// Variance of the delay at a minimum, samples^2: of one more unknown beside all others, with the correlation of what is left counted
 /// as for these. Where the cost rises less along the profile than beside linear unknowns, by as much more; and what the points of
 /// the profile scatter about the parabola.
 fn variance(record: &Record, terms: &Terms, optimum: &Optimum, least: &Parabola) -> f64 {
     let objective = Objective::new(record, optimum.law, terms);
     let at = &optimum.evaluation;
-    let (unit, by) = (record.step(), SPACINGS[1]);
+    let (unit, by) = (record.step(), NARROW);
     let fit = (&optimum.p[..], at);
     let mut column = held_delay::column(&objective, terms, fit, least.at * unit, by * unit);
     column.iter_mut().for_each(|x| *x /= by);
@@ -162,136 +223,4 @@ fn variance(record: &Record, terms: &Terms, optimum: &Optimum, least: &Parabola)
     let own = jacobian.len() - 1;
     let softer = (1.0 / (known.bread[(own, own)] * least.curvature)).max(1.0);
     known.covariance[(own, own)] * softer * softer + least.scatter
-}
-
-/// The cost along the delay, with all else fitted again.
-struct Profile<'a> {
-    record: &'a Record,
-    law: Law,
-    terms: &'a Terms,
-    bounds: SearchBox,
-    points: Vec<Point>,
-}
-
-/// The end of a descent at a delay, samples.
-struct Point {
-    delay: f64,
-    cost: f64,
-    p: Vec<f64>,
-}
-
-impl<'a> Profile<'a> {
-    /// With a fit at a delay.
-    fn new(record: &'a Record, terms: &'a Terms, fit: &Optimum, delay: f64) -> Result<Self, Error> {
-        let first = Point {
-            delay,
-            cost: fit.evaluation.cost,
-            p: fit.p.clone(),
-        };
-        Ok(Self {
-            record,
-            law: fit.law,
-            terms,
-            bounds: SearchBox::from_record(record, &fit.law)?,
-            points: vec![first],
-        })
-    }
-
-    fn terms(&self, delay: f64) -> Terms {
-        Terms {
-            delay: Delay::Given(delay * self.record.step()),
-            ..self.terms.clone()
-        }
-    }
-
-    fn nearest(&self, delay: f64) -> &Point {
-        let far = |point: &&Point| (point.delay - delay).abs();
-        let nearest = self.points.iter().min_by(|a, b| far(a).total_cmp(&far(b)));
-        nearest.expect("a profile begins with a point")
-    }
-
-    /// The cost at a delay.
-    fn cost(&mut self, delay: f64, watch: &mut Watch) -> f64 {
-        let near = self.nearest(delay);
-        if near.delay == delay {
-            return near.cost;
-        }
-        let terms = self.terms(delay);
-        let objective = Objective::new(self.record, self.law, &terms);
-        let end = descend(&objective, &self.bounds, &near.p, STEPS, watch);
-        let cost = end.evaluation.cost;
-        self.points.push(Point {
-            delay,
-            cost,
-            p: end.p,
-        });
-        cost
-    }
-
-    /// Where it is least, from a delay on; `None` where it falls to an end of the range, or the points show no minimum.
-    fn least(&mut self, start: f64, watch: &mut Watch) -> Option<Parabola> {
-        let mut middle = self.valley(start, watch)?;
-        let mut wider = None;
-        for spacing in SPACINGS {
-            let mut found = None;
-            for _ in 0..MOST_MOVES {
-                let mut parabola = self.parabola(middle, spacing, watch)?;
-                let far = parabola.at - middle;
-                let most = f64::from(SIDE) * spacing;
-                middle += far.clamp(-most, most);
-                if middle.abs() >= MOST_DELAY || watch.stopped {
-                    return None;
-                }
-                if far.abs() <= spacing {
-                    // What the shape is not, both show otherwise.
-                    let apart = wider.map_or(0.0, |wide: Parabola| parabola.at - wide.at);
-                    parabola.scatter += apart * apart;
-                    found = Some(parabola);
-                    break;
-                }
-            }
-            // Where kinks are all that the narrow one shows, the wide one stands.
-            let Some(found) = found else { break };
-            wider = Some(found);
-        }
-        wider
-    }
-
-    /// A delay with a lower cost than those beside it.
-    fn valley(&mut self, start: f64, watch: &mut Watch) -> Option<f64> {
-        let here = self.cost(start, watch);
-        let sides = [-FIRST_STEP, FIRST_STEP];
-        let [early, late] = sides.map(|step| self.cost(start + step, watch));
-        if early >= here && late >= here {
-            return Some(start);
-        }
-        let way = if late < early { 1.0 } else { -1.0 };
-        let (mut at, mut cost) = (start + way * FIRST_STEP, early.min(late));
-        let mut step = FIRST_STEP;
-        loop {
-            step = (2.0 * step).min(LONGEST_STEP);
-            let next = at + way * step;
-            if next.abs() > MOST_DELAY || watch.stopped {
-                return None;
-            }
-            let there = self.cost(next, watch);
-            if there >= cost {
-                return Some(at);
-            }
-            (at, cost) = (next, there);
-        }
-    }
-
-    /// The parabola through points around a delay; `None` where it has no minimum.
-    fn parabola(&mut self, middle: f64, spacing: f64, watch: &mut Watch) -> Option<Parabola> {
-        // From the middle outwards, so that each descent begins at its neighbour.
-        let mut points = vec![(0.0, self.cost(middle, watch))];
-        for i in 1..=SIDE {
-            for side in [-1, 1] {
-                let x = f64::from(side * i) * spacing;
-                points.push((x, self.cost(middle + x, watch)));
-            }
-        }
-        Parabola::through(&points).map(|found| found.moved(middle))
-    }
 }

@@ -87,47 +87,56 @@ fn truths(truth: &Maxwell) -> Vec<(String, f64)> {
     each.chain([("mass".to_string(), MASS)]).collect()
 }
 
+/// What is found on a log, and how many of its intervals hold the truth, and of how many.
+fn covered(record: &Record, delay: f64) -> (Estimate, [usize; 2]) {
+    let found = fitted(record, gms(4), Delay::Fitted);
+    assert_eq!(found.terms.delay_from, DelayFrom::Elements);
+    let own = off(&found, "delay", delay);
+    println!(
+        "{:.4} samples, {own:.2} deviations of {:.4}; {:?}",
+        found.value("delay").unwrap() / STEP,
+        found.terms.delay_deviation / STEP,
+        found.counts
+    );
+    assert!(own.abs() < 4.0, "{own}");
+    let mut inside = usize::from(own.abs() < 1.96);
+    let truths = truths(&four());
+    for (name, value) in &truths {
+        let (low, high) = found.parameter(name).unwrap().ci95.unwrap();
+        inside += usize::from(low <= *value && *value <= high);
+        println!("    {name} {:.2}", off(&found, name, *value));
+    }
+    (found, [inside, 1 + truths.len()])
+}
+
 /// A force that is late or early by parts of a sample is found so, with intervals that hold the truth as often as they say, and the
 /// elements beside it are as well known as where it is given, or nearly.
+///
+/// Where it is early LuGre says that it is two samples late, and beside that the elements have a minimum of their own, with one that
+/// yields at once.
 #[test]
 fn elements_find_a_delay() {
-    let truth = four();
     let axis = axis(SAMPLES);
     let (mut inside, mut all) = (0, 0);
     for late in [13, -6] {
         let delay = 0.1 * f64::from(late) * STEP;
         for seed in 1..=3 {
             let record = record(&[log(&axis, late, seed)]);
-            let found = fitted(&record, gms(4), Delay::Fitted);
-            assert_eq!(found.terms.delay_from, DelayFrom::Elements);
-            let own = off(&found, "delay", delay);
-            println!(
-                "{late} {seed}: {:.4} samples, {own:.2} deviations of {:.4}; {:?}",
-                found.value("delay").unwrap() / STEP,
-                found.terms.delay_deviation / STEP,
-                found.counts
-            );
-            assert!(own.abs() < 4.0, "{late} {seed}: {own}");
-            inside += usize::from(own.abs() < 1.96);
-            all += 1;
-            for (name, value) in truths(&truth) {
-                let (low, high) = found.parameter(&name).unwrap().ci95.unwrap();
-                inside += usize::from(low <= value && value <= high);
-                all += 1;
-                println!("    {name} {:.2}", off(&found, &name, value));
-            }
+            println!("{late} {seed}");
+            let (found, counted) = covered(&record, delay);
+            inside += counted[0];
+            all += counted[1];
             if seed > 1 {
                 continue;
             }
             let given = fitted(&record, gms(4), Delay::Given(delay));
             assert_eq!(given.terms.delay_from, DelayFrom::Stated);
             assert!(given.parameter("delay").is_none());
-            let evaluations = |found: &Estimate| {
-                println!("    {:?}", found.counts);
-                found.counts.with_derivatives() + found.counts.coarse()
-            };
-            assert!(evaluations(&found) < 5 * evaluations(&given));
-            for (name, _) in truths(&truth) {
+            // An evaluation on the thinned record, which has every second sample of the motion, is half of one.
+            let evaluations = |found: &Estimate| found.counts.full_records(0.5);
+            println!("    given: {:?}", given.counts);
+            assert!(evaluations(&found) < 3.5 * evaluations(&given));
+            for (name, _) in truths(&four()) {
                 let std = |found: &Estimate| found.parameter(&name).unwrap().std.unwrap();
                 let ratio = std(&found) / std(&given);
                 println!("    {name}: {ratio:.2} times as wide");
@@ -137,6 +146,28 @@ fn elements_find_a_delay() {
     }
     println!("{inside} of {all}");
     assert!(10 * inside >= 8 * all, "{inside} of {all}");
+}
+
+/// The same over more seeds.
+#[test]
+#[ignore = "soak: more seeds, three of each are above"]
+fn intervals_beside_a_delay_that_is_found_hold_the_truth() {
+    let axis = axis(SAMPLES);
+    for late in [13, -6] {
+        let delay = 0.1 * f64::from(late) * STEP;
+        let (mut own, mut inside, mut all) = (0, 0, 0);
+        for seed in 1..=6 {
+            let (found, counted) = covered(&record(&[log(&axis, late, seed)]), delay);
+            own += usize::from(off(&found, "delay", delay).abs() < 1.96);
+            inside += counted[0];
+            all += counted[1];
+        }
+        println!("{late}: delay {own} of 6, all {inside} of {all}");
+        assert!(
+            own >= 4 && 10 * inside >= 8 * all,
+            "{late}: {own}, {inside} of {all}"
+        );
+    }
 }
 
 /// On an axis of bristles LuGre knows the delay, and elements that are fitted beside it do not spoil it.
@@ -160,10 +191,10 @@ fn elements_do_not_spoil_the_delay_of_bristles() {
             "{late}: {found_at} of {deviation}, {:?}",
             found.terms.delay_from
         );
-        assert!(
-            (found_at - 0.1 * f64::from(late)).abs() < 0.15,
-            "{found_at}"
-        );
+        // Which is to say as well as LuGre says.
+        let off = found_at - 0.1 * f64::from(late);
+        assert!(off.abs() < 3.0 * deviation, "{off}");
+        assert!(matches!(found.terms.delay_from, DelayFrom::OtherLaw(_)));
     }
 }
 

@@ -7,8 +7,6 @@ use nalgebra::{Matrix3, Vector3};
 pub(super) struct Parabola {
     /// Where it is.
     pub at: f64,
-    /// The value there.
-    pub cost: f64,
     /// Half the second derivative.
     pub curvature: f64,
     /// Variance of where it is, from how points scatter about the parabola.
@@ -39,7 +37,6 @@ impl Parabola {
         let by = Vector3::new(0.0, -0.5 / curvature, -at / curvature);
         Some(Self {
             at,
-            cost: fit[0] + 0.5 * slope * at,
             curvature,
             scatter: noise * (by.transpose() * bread * by)[(0, 0)],
         })
@@ -68,8 +65,8 @@ mod tests {
         };
         let found = Parabola::through(&of(&|x| 2.0 + 3.0 * (x - 0.07) * (x - 0.07))).unwrap();
         let found = found.moved(1.0);
-        assert!((found.at - 1.07).abs() < 1e-12 && (found.cost - 2.0).abs() < 1e-12);
-        assert!((found.curvature - 3.0).abs() < 1e-10 && found.scatter < 1e-24);
+        assert!((found.at - 1.07).abs() < 1e-12 && found.scatter < 1e-24);
+        assert!((found.curvature - 3.0).abs() < 1e-10);
         assert!(Parabola::through(&of(&|x| 1.0 - x * x)).is_none());
         assert!(Parabola::through(&of(&|_| f64::NAN)).is_none());
     }
