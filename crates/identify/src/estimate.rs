@@ -25,6 +25,7 @@ use crate::estimate::fitted::FittedLaw;
 use crate::estimate::series::Series;
 use crate::estimate::uncertainty::Unknowns;
 use crate::fit::Fit;
+use crate::held_delay;
 use crate::law::Law;
 use crate::law::dependence::Dependence;
 use crate::law::physical::physical;
@@ -225,6 +226,14 @@ pub fn estimate(
             .position(|p| p.name == Quantity::Offset)
             .unwrap_or(parameters.len());
         parameters.insert(at, Parameter::given(Quantity::Mass, mass));
+    }
+    if let Some(delay) = held_delay::parameter(terms, record.step()) {
+        let after = |p: &Parameter| p.name.quantity.place() > Quantity::Delay.place();
+        let at = parameters
+            .iter()
+            .position(after)
+            .unwrap_or(parameters.len());
+        parameters.insert(at, delay);
     }
     for (name, value) in terms.dependences.iter().filter_map(Dependence::reference) {
         if parameters.iter().all(|p| p.name != name) {

@@ -16,6 +16,7 @@
 mod choose;
 mod count;
 mod curves;
+pub(crate) mod delay;
 pub(crate) mod dictionary;
 mod kink;
 mod ladder;

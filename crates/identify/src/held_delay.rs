@@ -1,18 +1,20 @@
-//! A delay of the force that one law has found, held beside another that cannot fit it.
+//! A delay of the force that is held beside a law that no descent finds it for.
 //!
 //! Elements change between stick and slip at instants between samples, where the slope of their force by the delay jumps, so that
-//! no descent finds it. The delay belongs to the log, not to friction: LuGre finds it on the same record, and what is open of
-//! it there is counted in the intervals of what is fitted beside it.
+//! no descent finds it. The delay belongs to the log, not to friction: LuGre finds it on the same record, from where the elements
+//! look for it along their cost ([`crate::gms::delay`]). What is open of it is counted in the intervals of what is fitted beside it.
 
 use crate::estimate::Estimate;
-use crate::law::terms::{Delay, Terms};
+use crate::law::terms::{Delay, DelayFrom, Terms};
 use crate::law::{Law, LawKind};
+use crate::parameter::physical::Physical;
+use crate::parameter::{IntervalKind, Parameter};
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::DMatrix;
 use stiction_parameters::Quantity;
 
 impl Terms {
-    /// Whether this law has to be told the delay that is asked for.
+    /// Whether this law has to be told where to look for the delay that is asked for.
     pub fn asks_delay_of_another(&self, law: &Law) -> bool {
         self.delay == Delay::Fitted && law.kind.has_elements()
     }
@@ -33,6 +35,7 @@ impl Terms {
         Self {
             delay,
             delay_deviation: deviation,
+            delay_from: DelayFrom::OtherLaw(other.fit.rmse),
             ..self.clone()
         }
     }
@@ -68,21 +71,7 @@ pub(crate) fn spread(
     if deviation.is_nan() || deviation <= 0.0 {
         return None;
     }
-    let c = &at.solution.coefficients;
-    let model = |delay: f64| {
-        let terms = Terms {
-            delay: Delay::Given(delay),
-            ..terms.clone()
-        };
-        let moved = Objective::new(objective.record(), *objective.law(), &terms);
-        moved.model(p, c)
-    };
-    let [early, late] = [model(delay - deviation), model(delay + deviation)];
-    let column: Vec<f64> = late
-        .iter()
-        .zip(&early)
-        .map(|(b, a)| 0.5 * (b - a))
-        .collect();
+    let column = column(objective, terms, (p, at), delay, deviation);
     let along = at.slopes.iter().map(|s| s.as_slice());
     let along = along.chain(at.columns.iter().map(|c| c.as_slice()));
     let product = |x: &[f64]| x.iter().zip(&column).map(|(x, y)| x * y).sum::<f64>();
@@ -93,4 +82,46 @@ pub(crate) fn spread(
         .collect();
     let finite = moved.iter().all(|x| x.is_finite());
     finite.then(|| DMatrix::from_fn(n, n, |i, j| moved[i] * moved[j]))
+}
+
+/// Half of what the model has more with the delay, s, `by` later than `by` earlier, all else as it is.
+pub(crate) fn column(
+    objective: &Objective,
+    terms: &Terms,
+    (p, at): (&[f64], &Evaluation),
+    delay: f64,
+    by: f64,
+) -> Vec<f64> {
+    let c = &at.solution.coefficients;
+    let model = |delay: f64| {
+        let terms = Terms {
+            delay: Delay::Given(delay),
+            ..terms.clone()
+        };
+        let moved = Objective::new(objective.record(), *objective.law(), &terms);
+        moved.model(p, c)
+    };
+    let [early, late] = [model(delay - by), model(delay + by)];
+    let both = late.iter().zip(&early);
+    both.map(|(b, a)| 0.5 * (b - a)).collect()
+}
+
+/// The delay that elements have found, as a parameter; `step` is the sample time, s.
+pub(crate) fn parameter(terms: &Terms, step: f64) -> Option<Parameter> {
+    let Delay::Given(value) = terms.delay else {
+        return None;
+    };
+    let found = Physical {
+        name: Quantity::Delay.into(),
+        value,
+        slope: Vec::new(),
+        nonlinear: None,
+        linear: None,
+    };
+    let variance = terms.delay_deviation * terms.delay_deviation;
+    let parameter = Parameter::judged(&found, variance, None, String::new(), step);
+    (terms.delay_from == DelayFrom::Elements).then_some(Parameter {
+        interval: IntervalKind::Profile,
+        ..parameter
+    })
 }

@@ -4,8 +4,9 @@ use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::estimate::intervals::intervals;
 use crate::estimate::{Estimate, estimate};
+use crate::gms;
 use crate::law::Law;
-use crate::law::terms::{Delay, Terms};
+use crate::law::terms::{Delay, DelayFrom, Terms};
 use crate::separable::optimum::Optimum;
 use crate::separable::settings::Settings;
 use crate::separable::{follow, separable};
@@ -22,7 +23,8 @@ const MOST_WEIGHTS: usize = 12;
 /// A fitted delay that reaches the end of its range is no delay but some other effect that the law does
 /// not explain: it is set to zero and the law is fitted again, as the terms of the estimate then say. Where friction depends on
 /// what is transmitted and the weight is fitted, it is fitted again with that weight until both are one. Beside a Maxwell-slip law
-/// a delay that is to be fitted is held at what LuGre finds of it on the same record.
+/// a delay that is to be fitted is first held at what LuGre finds of it on the same record, and from there looked for along the
+/// profile of the cost of the elements; where that shows none, it stays there.
 ///
 /// # Errors
 /// Those of [`separable`].
@@ -66,7 +68,7 @@ pub fn fit_law(
         };
         return fit_law(record, law, &held, low_speed_bound, settings, observer);
     }
-    stated(
+    let (fitted, optimum) = stated(
         record,
         law,
         terms,
@@ -75,10 +77,18 @@ pub fn fit_law(
             None => separable(record, law, terms, settings, observer),
             Some(from) => follow(from, record, law, terms, settings, observer),
         },
-    )
+    )?;
+    let seeks = law.kind.has_elements() && matches!(terms.delay_from, DelayFrom::OtherLaw(_));
+    if !seeks || optimum.status == Status::Interrupted {
+        return Ok((fitted, optimum));
+    }
+    let (terms, optimum) =
+        gms::delay::sought(record, law, &fitted.terms, optimum, settings, observer)?;
+    let fitted = estimate(record, law, &terms, &optimum, low_speed_bound);
+    Ok((fitted, optimum))
 }
 
-/// The law that finds the delay for one that cannot ([`Terms::asks_delay_of_another`]), with its full intervals, and the end of
+/// The law that says where another one begins to look for the delay ([`Terms::asks_delay_of_another`]), with its full intervals, and the end of
 /// its search, which [`fit_law`] leaves. [`Terms::holding_delay_of`] it is what stands beside the other law.
 ///
 /// # Errors

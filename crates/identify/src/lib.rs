@@ -116,7 +116,7 @@ pub use identify::{delay_of_another, fit_law, fit_law_from, identify};
 pub use lateness::lateness;
 pub use law::Law;
 pub use law::dependence::Dependence;
-pub use law::terms::{Delay, FirstDelay, Lag, Mass, Terms};
+pub use law::terms::{Delay, DelayFrom, FirstDelay, Lag, Mass, Terms};
 pub use law::transmitted::Transmitted;
 pub use misfit::{
     Between, Cause, Clocks, Coupling, Divided, Encoder, Held, Limit, Misfit, Repeats, Ripple,

@@ -13,7 +13,7 @@ pub(crate) const PAIR_COUNT: usize = 4;
 const ORDER: usize = 4;
 
 /// Sums over samples for each pair of cut-offs, in N^2 (N^2 m^2). The unknowns are the logarithms of the parameters of the law, the
-/// terms beside it in units of Coulomb friction, the offset over it where one is fitted, and of LuGre the delay in samples.
+/// terms beside it in units of Coulomb friction, the offset over it where one is fitted, and where it is fitted the delay in samples.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Information {
     /// How many of the unknowns, the first ones, are parameters whose deviation counts.
@@ -54,8 +54,7 @@ impl Information {
     pub fn none_of(candidate: &Candidate) -> Self {
         let subject = &candidate.subject;
         let parameters = subject.parameters();
-        // Maxwell-slip elements are fitted with a delay that is known: they cannot find it.
-        let delay = usize::from(candidate.slip.is_none());
+        let delay = usize::from(subject.elements.is_none_or(|elements| elements.delayed));
         Self::none(parameters, parameters + usize::from(subject.offset) + delay)
     }
 
@@ -246,7 +245,8 @@ const EXCESS: [usize; 2] = [1, 4];
 const VELOCITY: [usize; 2] = [2, 5];
 const RATIO: usize = 3;
 
-/// Derivatives of the force with respect to the unknowns along the true motion, in the order of [`Subject::names`](crate::Subject::names).
+/// Derivatives of the force with respect to the unknowns along the true motion, in the order of [`Subject::names`](crate::Subject::names),
+/// then the offset and the delay.
 fn jacobian(candidate: &Candidate, step: f64, run: &Run) -> Result<Vec<Vec<f64>>, SignalError> {
     let Candidate {
         sigma1,
@@ -256,8 +256,18 @@ fn jacobian(candidate: &Candidate, step: f64, run: &Run) -> Result<Vec<Vec<f64>>
     } = *candidate;
     if let Some(slip) = &candidate.slip {
         let acceleration = gradient(&run.velocity, step)?;
-        let columns = slip.jacobian(candidate, step, (&run.velocity, &acceleration));
-        return Ok(beside(candidate, run, columns));
+        let motion = (&run.velocity[..], &acceleration[..]);
+        let columns = slip.jacobian(candidate, step, motion);
+        let mut columns = beside(candidate, run, columns);
+        let elements = candidate.subject.elements;
+        if elements.is_none_or(|elements| elements.delayed) {
+            let mut force = slip.force(candidate, step, motion);
+            for (i, force) in force.iter_mut().enumerate() {
+                *force += candidate.beside(0.0, run.reading[i], run.velocity[i]);
+            }
+            columns.push(gradient(&force, 1.0)?);
+        }
+        return Ok(columns);
     }
     let along = along(candidate, step, &run.velocity, true);
     // The force about an instant is the mean over the periods beside it, and so are these differences.

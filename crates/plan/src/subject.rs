@@ -30,13 +30,15 @@ impl Default for Subject {
     }
 }
 
-/// Maxwell-slip elements: how many, and which of the two laws they are of.
+/// Maxwell-slip elements: how many, which of the two laws they are of, and what is known beside them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Elements {
     /// 1 to 10.
     pub count: usize,
     /// Whether their level falls with speed (`gms`) or not (`maxwell-slip`).
     pub falls: bool,
+    /// Whether the delay of the force is fitted beside them, or known. Beside LuGre a plan always has it fitted.
+    pub delayed: bool,
 }
 
 impl Elements {

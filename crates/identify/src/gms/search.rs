@@ -26,7 +26,7 @@ const SAME_MINIMUM_COST: f64 = 2e-3;
 /// Number of other descents that are followed further.
 const MOST_RIVALS: usize = 3;
 /// The stepwise reduction begins with this many elements more than wanted.
-const ELEMENTS_ABOVE: usize = 3;
+pub(super) const ELEMENTS_ABOVE: usize = 3;
 
 /// Most steps of a descent during the reduction.
 const RUNG_STEPS: usize = 30;
@@ -312,7 +312,7 @@ impl Search<'_> {
     }
 
     /// Descends from a point.
-    fn follow(
+    pub fn follow(
         &mut self,
         law: Law,
         start: &[f64],

@@ -29,6 +29,8 @@ pub struct Terms {
     pub delay: Delay,
     /// Standard deviation of a delay that is given, s, which intervals count; 0 where it is known.
     pub delay_deviation: f64,
+    /// How a delay that is given came to be known.
+    pub delay_from: DelayFrom,
     /// A lag between the force that was logged and that which the axis feels, as a current loop has one. Its time is a part of a
     /// delay that is fitted; beside one that is given there is none.
     pub lag: Lag,
@@ -60,6 +62,18 @@ pub enum Delay {
 impl Delay {
     /// Force and motion of a row belong together.
     pub const NONE: Self = Delay::Given(0.0);
+}
+
+/// How a delay that is given came to be known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum DelayFrom {
+    /// It was stated.
+    Stated,
+    /// LuGre found it on the same record, or that none is within the range, and leaves a residual of this root mean square, N (N m).
+    /// Maxwell-slip elements begin there to look for their own.
+    OtherLaw(f64),
+    /// Maxwell-slip elements found it, along the profile of their cost.
+    Elements,
 }
 
 /// What is known of a lag of first order: the square of its time constant, which is what a force shows of it.
@@ -118,6 +132,7 @@ impl Default for Terms {
             cogging: Vec::new(),
             delay: Delay::NONE,
             delay_deviation: 0.0,
+            delay_from: DelayFrom::Stated,
             lag: Lag::NONE,
             low_pass_undone: false,
             first_delay: None,

@@ -3,9 +3,9 @@
 
 use proptest::prelude::*;
 use stiction_identify::{
-    Conditioning, Control, Cutoff, Delay, Dependence, FirstDelay, Lag, Law, LawKind, Mass,
-    Observer, Progress, Samples, Settings, Source, Terms, Transmitted, condition, cross_validate,
-    estimate, intervals, low_speed_bound, predict, separable,
+    Conditioning, Control, Cutoff, Delay, DelayFrom, Dependence, FirstDelay, Lag, Law, LawKind,
+    Mass, Observer, Progress, Samples, Settings, Source, Terms, Transmitted, condition,
+    cross_validate, estimate, intervals, low_speed_bound, predict, separable,
 };
 
 #[derive(Clone, Copy, Debug)]
@@ -307,6 +307,10 @@ fn terms() -> impl Strategy<Value = Terms> {
             variance: 10f64.powf(variance),
         })
     ];
+    let from = prop_oneof![
+        Just(DelayFrom::Stated),
+        (-9.0..9.0).prop_map(|e: f64| DelayFrom::OtherLaw(10f64.powf(e)))
+    ];
     let deviation = prop_oneof![Just(0.0), (-9.0..9.0).prop_map(|e: f64| 10f64.powf(e))];
     let first_delay = prop::option::of((-1e3..1e3, -9.0..9.0)).prop_map(|given| {
         given.map(|(delay, deviation): (f64, f64)| FirstDelay {
@@ -314,7 +318,7 @@ fn terms() -> impl Strategy<Value = Terms> {
             deviation: 10f64.powf(deviation),
         })
     });
-    let delay = (delay, deviation);
+    let delay = (delay, deviation, from);
     let lag = (lag, first_delay, any::<bool>());
     let parts = (mass, flags, pitches, dependences, delay, lag);
     parts.prop_map(|(mass, flags, cogging, dependences, delay, lag)| Terms {
@@ -326,6 +330,7 @@ fn terms() -> impl Strategy<Value = Terms> {
         dependences,
         delay: delay.0,
         delay_deviation: delay.1,
+        delay_from: delay.2,
         lag: lag.0,
         first_delay: lag.1,
         low_pass_undone: lag.2,

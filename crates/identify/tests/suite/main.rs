@@ -13,6 +13,7 @@ mod dynamic;
 mod elasto_plastic;
 mod exponent;
 mod gms;
+mod gms_delay;
 mod hostile;
 mod identifiable;
 mod lugre;

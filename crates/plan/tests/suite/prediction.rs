@@ -1,7 +1,8 @@
 //! What is predicted, held against fits of simulated logs.
 
 use stiction_identify::{
-    Conditioning, Dependence, Law, LawKind, Samples, Settings, Silent, Terms, condition, identify,
+    Conditioning, Delay, Dependence, Law, LawKind, Samples, Settings, Silent, Terms, condition,
+    identify,
 };
 use stiction_plan::{
     Aim, Alone, Atom, Back, Belief, Candidate, Elements, Entry, Expected, HandMade, Limits, Loop,
@@ -367,9 +368,13 @@ fn axes_with_terms_are_those_without_and_more() {
     }
 }
 
-fn with_elements(falls: bool) -> Candidate {
+fn with_elements(falls: bool, delayed: bool) -> Candidate {
     let subject = Subject {
-        elements: Some(Elements { count: 3, falls }),
+        elements: Some(Elements {
+            count: 3,
+            falls,
+            delayed,
+        }),
         ..Subject::default()
     };
     let mut values = vec![6e5, 1.5e5, 3e4, 1.5e-5, 6e-5, 3e-4, 60.0];
@@ -426,25 +431,43 @@ fn nested_reversals_reach_across_the_yields() {
 
 #[test]
 fn elements_of_maxwell_slip_are_known_as_predicted() {
-    are_elements_realised(false);
+    are_elements_realised(false, false);
 }
 
 #[test]
 fn elements_whose_level_falls_are_known_as_predicted() {
-    are_elements_realised(true);
+    are_elements_realised(true, false);
 }
 
-fn are_elements_realised(falls: bool) {
-    let axis = with_elements(falls);
+/// With a delay that the fit finds as well.
+#[test]
+fn elements_of_maxwell_slip_beside_a_delay_are_known_as_predicted() {
+    are_elements_realised(false, true);
+}
+
+#[test]
+fn elements_whose_level_falls_beside_a_delay_are_known_as_predicted() {
+    are_elements_realised(true, true);
+}
+
+fn are_elements_realised(falls: bool, delayed: bool) {
+    let axis = with_elements(falls, delayed);
     axis.validate().unwrap();
     assert_eq!(axis.values().len(), axis.subject.names().len());
-    is_realised(&axis, &nested_motion(), &terms());
+    let terms = Terms {
+        delay: match delayed {
+            true => Delay::Fitted,
+            false => Delay::NONE,
+        },
+        ..terms()
+    };
+    is_realised(&axis, &nested_motion(), &terms);
 }
 
 /// What is drawn of elements is an axis, and goes together as the first identification says.
 #[test]
 fn elements_are_drawn_together() {
-    let axis = with_elements(true);
+    let axis = with_elements(true, false);
     let n = axis.values().len();
     let mut correlations = vec![vec![0.0; n]; n];
     for (i, row) in correlations.iter_mut().enumerate() {

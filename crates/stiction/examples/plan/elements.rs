@@ -28,7 +28,7 @@ const AXES: [Slipping; 2] = [
 /// The slide with as many elements.
 const FILE: &str = "rate = \"2 kHz\"\n[limits]\nstroke = [\"-100 mm\", \"100 mm\"]\nspeed = \"0.2 m/s\"\nacceleration = \"6 m/s2\"\n\
                     jerk = \"1500 m/s3\"\nrated_force = \"150 N\"\npeak_force = \"200 N\"\nmass = \"10 kg\"\nforce_noise = \"1 N\"\n\
-                    [log]\nresolution = \"50 nm\"\n[controller]\nbandwidth = \"60 Hz\"\n[terms]\ngms_elements = 3\ndelay = \"none\"\n";
+                    [log]\nresolution = \"50 nm\"\n[controller]\nbandwidth = \"60 Hz\"\n[terms]\ngms_elements = 3\n";
 
 /// A table of them: a probe by the nameplate, a plan for what that says of the elements, and so many logs of it.
 pub fn elements(logs: u64) {
@@ -45,6 +45,7 @@ pub fn elements(logs: u64) {
             elements: Some(Elements {
                 count: elements.len(),
                 falls: kind == LawKind::Gms,
+                delayed: true,
             }),
             ..Subject::default()
         };

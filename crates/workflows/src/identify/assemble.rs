@@ -16,7 +16,9 @@ use stiction_files::result::{
     ResolvedAxis, ResultFile, SCHEMA, Search, Unsettled, ValidationEntry,
 };
 use stiction_files::symbols;
-use stiction_identify::{Delay, Fit, FittedLaw, IntervalKind, Parameter, Record, Series};
+use stiction_identify::{
+    Delay, DelayFrom, Fit, FittedLaw, IntervalKind, Parameter, Record, Series,
+};
 use stiction_log::Motion;
 use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity};
@@ -265,21 +267,25 @@ pub(super) fn counts_note(estimate: &FittedLaw) -> Option<String> {
     })
 }
 
-/// A note that the delay is that of another law, where this one cannot find it.
+/// A note on where the delay beside a Maxwell-slip law comes from, which no descent finds.
 pub(super) fn delay_note(estimate: &FittedLaw, late: f64) -> Option<String> {
     let Delay::Given(delay) = estimate.terms.delay else {
         return None;
     };
     let deviation = estimate.terms.delay_deviation;
-    (deviation > 0.0).then(|| {
-        let ms = |seconds: f64| four_digits(1e3 * seconds);
-        format!(
-            "delay between force and motion: a Maxwell-slip law cannot find it; held at the {} ms (std {} ms) that lugre finds on \
-             the same log, and the intervals count what is open of it",
-            ms(delay + late),
-            ms(deviation)
-        )
-    })
+    let ms = |seconds: f64| four_digits(1e3 * seconds);
+    let (all, open) = (ms(delay + late), ms(deviation));
+    match estimate.terms.delay_from {
+        DelayFrom::Elements => Some(format!(
+            "delay between force and motion: {all} ms (std {open} ms), where the elements explain the force best, fitted again at each \
+             delay; the intervals of all else count what is open of it"
+        )),
+        DelayFrom::OtherLaw(_) if deviation > 0.0 => Some(format!(
+            "delay between force and motion: beside the elements it stays open, or lugre explains the force better; held at the {all} ms \
+             (std {open} ms) that lugre finds on the same log, and the intervals count what is open of it"
+        )),
+        DelayFrom::OtherLaw(_) | DelayFrom::Stated => None,
+    }
 }
 
 /// A note that a measured acceleration is not used by the method.

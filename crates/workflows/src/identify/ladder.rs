@@ -21,7 +21,7 @@ pub(super) struct Ladder<'a> {
     pub held_out: &'a [Record],
     /// Linear terms beside the laws.
     pub terms: &'a LinearTerms,
-    /// The same beside a law that cannot find the delay of the force, where that is asked for: held at what another finds.
+    /// The same beside a law that begins to look for the delay of the force, where that is asked for, at what another finds.
     pub held_delay: Option<LinearTerms>,
     pub low_speed: f64,
     /// Whether the Stribeck exponent is assumed, and may be fitted where the data ask for it.
@@ -112,7 +112,7 @@ impl Ladder<'_> {
         }
     }
 
-    /// Fits the law that finds the delay of the force for one that cannot, where it is asked for, and holds what it finds.
+    /// Fits the law that says where another one begins to look for the delay of the force, where it is asked for, and keeps what it finds.
     pub fn hold_delay(
         &mut self,
         law: Law,

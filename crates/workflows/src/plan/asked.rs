@@ -62,7 +62,10 @@ pub(super) fn asked(
         axis.fits(motion, &motion.force().si_text(), "plan")?;
     }
     let subject = Subject {
-        elements: law.elements,
+        elements: law.elements.map(|elements| Elements {
+            delayed: terms.delay == Delay::Fitted,
+            ..elements
+        }),
         asymmetric: false,
         offset: terms.offset,
         terms: own,
@@ -139,16 +142,6 @@ fn not_planned<'a>(
             &then,
         )
     });
-    let delay = law.elements.filter(|_| terms.delay == Delay::Fitted);
-    let delay = delay.map(|_| {
-        warning(
-            "terms.delay = \"fit\"",
-            "Maxwell-slip elements cannot find the delay of the force; what is expected holds where it is known, and every interval is wider \
-             where it is held at what LuGre finds of it",
-            "Give it under [terms] of the axis file: delay = \"none\" where force and motion of a row belong to the same instant, else the \
-             time by which the force is late",
-        )
-    });
     let mass = (terms.mass == Mass::Absent).then(|| {
         warning(
             "mass = \"none\"",
@@ -160,7 +153,6 @@ fn not_planned<'a>(
         .chain(fitted)
         .chain(given)
         .chain(elements)
-        .chain(delay)
         .chain(mass)
 }
 

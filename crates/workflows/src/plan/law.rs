@@ -61,5 +61,7 @@ pub(super) fn elements(kind: LawKind, count: usize) -> Option<Elements> {
     kind.has_elements().then_some(Elements {
         count,
         falls: kind.has_stribeck(),
+        // Unless the axis file gives it.
+        delayed: true,
     })
 }
