@@ -181,20 +181,31 @@ impl Search<'_> {
             if watch.stopped {
                 break;
             }
+            let before = rung.cost();
             let (curve, atoms) = self.split(&rung);
             rung = self.fit(&curve, &atoms, self.settings.steps, watch)?;
             rung = self.settle(rung, watch)?;
-            if rung.descent.status != Status::Stalled {
-                break;
-            }
-            let objective = Objective::new(self.record, rung.law, self.terms);
-            let cost = rung.cost();
-            match kink::way_out(&objective, &rung.bounds, &rung.descent.p, cost, watch) {
-                Some(p) => rung = self.follow(rung.law, &p, self.settings.steps, watch)?,
-                None => {
-                    rung.descent.status = Status::Converged;
-                    break;
+            match rung.descent.status {
+                Status::Stalled => {
+                    let objective = Objective::new(self.record, rung.law, self.terms);
+                    let cost = rung.cost();
+                    let (bounds, p) = (&rung.bounds, &rung.descent.p);
+                    match kink::way_out(&objective, bounds, p, cost, watch) {
+                        Some(p) => rung = self.follow(rung.law, &p, self.settings.steps, watch)?,
+                        None => {
+                            rung.descent.status = Status::Converged;
+                            break;
+                        }
+                    }
                 }
+                Status::Budget => {}
+                _ => break,
+            }
+            // From kink to kink there is often a way on that gains nothing.
+            let gain = 1.0 - rung.cost() / before;
+            if gain < SETTLED_GAIN {
+                rung.descent.status = Status::Converged;
+                break;
             }
         }
         let objective = Objective::new(self.record, rung.law, self.terms);
