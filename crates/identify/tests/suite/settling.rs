@@ -226,8 +226,8 @@ fn a_short_log_of_fast_strokes_keeps_its_delay() {
                 continue;
             };
             let Some((low, high)) = p.ci95 else { continue };
-            // Of the 24 values one or two may lie a little outside: none by more than 2.8 standard deviations.
-            let reach = 0.72 * (high - low);
+            // Of the 24 values one or two may lie a little outside.
+            let reach = 0.6 * (high - low);
             let off = (right - 0.5 * (low + high)).abs();
             assert!(
                 off < reach,
