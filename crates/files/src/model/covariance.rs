@@ -12,11 +12,8 @@ const LARGEST_ASYMMETRY: f64 = 1e-9;
 /// Largest ratio of a standard deviation and the root of its variance, either way, dimensionless: both are the same
 /// number, except where a procedure widens one.
 const MOST_APART: f64 = 2.0;
-/// Pivot of the correlation matrix (its square root, off the diagonal) up to which it may be rounding only,
-/// dimensionless.
+/// What is left of the correlation matrix up to which it may be rounding only, dimensionless.
 const LEAST_PART: f64 = 1e-6;
-/// Correlation that rounding may leave with a parameter that adds no variance of its own: the root of [`LEAST_PART`].
-const LARGEST_REST: f64 = 1e-3;
 
 /// What is wrong with the covariance.
 pub(super) fn fault(model: &ModelFile) -> Option<Fault> {
@@ -91,46 +88,67 @@ fn against_deviation(model: &ModelFile, i: usize) -> Option<Fault> {
     Some((element(i, i), found, allowed))
 }
 
-/// A lower triangular square root of a covariance, or the row and column at which the matrix proves not to be one.
+/// A square root of a covariance, each row that of a parameter, or the row and column at which the matrix proves not to
+/// be one.
 ///
-/// Cholesky on the correlations, so that units do not matter. A parameter that is a linear function of those before
-/// it, or that the data do not determine, adds no variance of its own.
+/// Cholesky on the correlations, so that units do not matter, the parameter of the most variance left first: in any
+/// other order what rounding leaves grows with the squared ratio of the standard deviations, as where a stiffness is the
+/// sum of others that are a hundred times larger or smaller than each other. A parameter that is a linear function of
+/// others, or that the data do not determine, adds no variance of its own.
 pub(crate) fn root(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, (usize, usize)> {
     let n = matrix.len();
     let size: Vec<f64> = (0..n).map(|i| libm::sqrt(matrix[i][i])).collect();
-    let mut lower = vec![vec![0.0; n]; n];
+    let mut left = vec![vec![0.0; n]; n];
     for i in 0..n {
         for j in 0..=i {
             let scale = size[i] * size[j];
-            if scale == 0.0 {
-                if matrix[i][j] != 0.0 {
-                    return Err((i, j));
-                }
-                continue;
-            }
-            let sum: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
-            let left = matrix[i][j] / scale - sum;
-            let own = lower[j][j] > LEAST_PART;
-            let none = match i == j {
-                true => left < -LEAST_PART,
-                false => !own && left.abs() > LARGEST_REST,
+            let correlation = matrix[i][j] / scale;
+            left[i][j] = match scale {
+                0.0 if matrix[i][j] == 0.0 => 0.0,
+                _ if i == j => 1.0,
+                _ if correlation.is_finite() => correlation,
+                _ => return Err((i, j)),
             };
-            if none || !left.is_finite() {
-                return Err((i, j));
-            }
-            lower[i][j] = if i == j {
-                libm::sqrt(left.max(0.0))
-            } else if own {
-                left / lower[j][j]
-            } else {
-                0.0
-            };
+            left[j][i] = left[i][j];
         }
     }
-    for (row, size) in lower.iter_mut().zip(&size) {
+    let mut root = vec![vec![0.0; n]; n];
+    let mut open: Vec<usize> = (0..n).collect();
+    for column in 0..n {
+        let most = (0..open.len()).rev();
+        let Some(most) = most.max_by(|&a, &b| {
+            let variance = |at: usize| left[open[at]][open[at]];
+            variance(a).total_cmp(&variance(b))
+        }) else {
+            break;
+        };
+        let pivot = left[open[most]][open[most]];
+        if pivot <= LEAST_PART {
+            break;
+        }
+        let own = open.remove(most);
+        root[own][column] = libm::sqrt(pivot);
+        for &i in &open {
+            root[i][column] = left[i][own] / root[own][column];
+        }
+        for &i in &open {
+            for &j in &open {
+                left[i][j] -= root[i][column] * root[j][column];
+            }
+        }
+    }
+    for (at, &i) in open.iter().enumerate() {
+        if left[i][i] < -LEAST_PART {
+            return Err((i, i));
+        }
+        if let Some(&j) = open[..at].iter().find(|&&j| left[i][j].abs() > LEAST_PART) {
+            return Err((i, j));
+        }
+    }
+    for (row, size) in root.iter_mut().zip(&size) {
         row.iter_mut().for_each(|x| *x *= size);
     }
-    Ok(lower)
+    Ok(root)
 }
 
 /// Whether an element is not a number, or differs from the one on the other side of the diagonal.
