@@ -81,35 +81,8 @@ impl Reaction {
     /// surely show less of that, they alone say how the controller responds (a test of one estimate by another that holds
     /// under fewer assumptions: Hausman 1978, doi 10.2307/1913827).
     pub fn of(record: &Record, logging: Logging) -> Option<Self> {
-        let slow = Sos::butterworth_low_pass(4, AXIS_CUTOFF, 1.0).ok()?;
-        let mut channels = Vec::with_capacity(record.segments.len());
-        for segment in &record.segments {
-            if segment.reading.is_empty() {
-                return None;
-            }
-            let force = fast(&segment.drive, &slow)?;
-            let reading = fast(&segment.reading, &slow)?;
-            // The response is logged with the force, so the readings get the same delay and averaging as
-            // the log.
-            let reading: Vec<f64> = (0..reading.len())
-                .map(|k| logging.at(&reading, k))
-                .collect();
-            channels.push((reading, force));
-        }
-        let largest = largest_at_rest(record, channels.iter().map(|(reading, _)| &reading[..]));
-        // The filter has to settle at both ends.
-        let trim = slow.settling_samples();
-        let (mut far, mut all) = (Sums::default(), Sums::default());
-        for (reading, force) in &channels {
-            let is_far = far_from_motion(reading, largest);
-            for k in trim + ANSWER_LAGS - 1..force.len().saturating_sub(trim) {
-                let x = SVector::from_fn(|lag, _| reading[k - lag]);
-                all.add(&x, force[k]);
-                if is_far[k] {
-                    far.add(&x, force[k]);
-                }
-            }
-        }
+        let fast = Fast::of(record)?;
+        let (all, far) = fast.sums(logging);
         let all = all.answer()?;
         let surely_less = |far: &Answer| {
             let apart = far.deviation * far.deviation - all.deviation * all.deviation;
@@ -158,6 +131,78 @@ impl Reaction {
     }
 }
 
+/// Whether a held force was logged as the mean of two samples, as far from motion the response of the controller to its readings
+/// tells: taken for a force that was logged as it was held it lasts a sample longer, and the other way round no response of this
+/// length is left (order by the criterion of Schwarz 1978, doi 10.1214/aos/1176344136). `false` where no response is seen. How much
+/// later a force acts than it was logged no response tells.
+pub(crate) fn is_logged_as_mean(record: &Record) -> bool {
+    let Some(fast) = Fast::of(record) else {
+        return false;
+    };
+    let criterion = |late: f64| {
+        let (_, far) = fast.sums(Logging::new(late));
+        let answer = far.answer().filter(|answer| answer.is_certain);
+        answer.and_then(|_| far.criterion())
+    };
+    matches!((criterion(0.0), criterion(0.5)), (held, Some(mean)) if held.is_none_or(|held| mean < held))
+}
+
+/// What a record has above the band that the axis can follow.
+struct Fast {
+    segments: Vec<FastSegment>,
+    /// Samples that the filter needs to settle at both ends.
+    trim: usize,
+}
+
+/// The same of one segment.
+struct FastSegment {
+    force: Vec<f64>,
+    reading: Vec<f64>,
+    /// Which samples are far from motion.
+    is_far: Vec<bool>,
+}
+
+impl Fast {
+    /// `None` where there is no position.
+    fn of(record: &Record) -> Option<Self> {
+        let slow = Sos::butterworth_low_pass(4, AXIS_CUTOFF, 1.0).ok()?;
+        let both = record.segments.iter().map(|segment| {
+            let reading = (!segment.reading.is_empty()).then_some(&segment.reading)?;
+            Some((fast(&segment.drive, &slow)?, fast(reading, &slow)?))
+        });
+        let both: Vec<_> = both.collect::<Option<_>>()?;
+        let largest = largest_at_rest(record, both.iter().map(|(_, reading)| &reading[..]));
+        let segments = both.into_iter().map(|(force, reading)| FastSegment {
+            is_far: far_from_motion(&reading, largest),
+            force,
+            reading,
+        });
+        Some(Self {
+            segments: segments.collect(),
+            trim: slow.settling_samples(),
+        })
+    }
+
+    /// Sums of all samples, and of those far from motion. The response is logged with the force, so the readings get the same
+    /// delay and averaging as the log.
+    fn sums(&self, logging: Logging) -> (Sums, Sums) {
+        let (mut all, mut far) = (Sums::default(), Sums::default());
+        for segment in &self.segments {
+            let samples = segment.force.len();
+            let reading = (0..samples).map(|k| logging.at(&segment.reading, k));
+            let reading: Vec<f64> = reading.collect();
+            for k in self.trim + ANSWER_LAGS - 1..samples.saturating_sub(self.trim) {
+                let x = SVector::from_fn(|lag, _| reading[k - lag]);
+                all.add(&x, segment.force[k]);
+                if segment.is_far[k] {
+                    far.add(&x, segment.force[k]);
+                }
+            }
+        }
+        (all, far)
+    }
+}
+
 /// Sums of a least squares fit of the force to the last readings.
 #[derive(Clone, Default)]
 struct Sums {
@@ -173,6 +218,20 @@ impl Sums {
         self.product += x * force;
         self.power += force * force;
         self.samples += 1;
+    }
+
+    /// Schwarz's criterion of the number of lags that makes it least; `None` where the readings determine no response.
+    fn criterion(&self) -> Option<f64> {
+        let samples = self.samples as f64;
+        let with = |lags: usize| {
+            let square = self.square.view((0, 0), (lags, lags)).into_owned();
+            let product = self.product.rows(0, lags).into_owned();
+            let left = self.power - square.cholesky()?.solve(&product).dot(&product);
+            Some(samples * libm::log(left / samples) + lags as f64 * libm::log(samples))
+        };
+        let each = (1..=ANSWER_LAGS).filter_map(with);
+        each.filter(|criterion| criterion.is_finite())
+            .min_by(f64::total_cmp)
     }
 
     /// The fit; `None` where the readings do not determine it.
@@ -308,6 +367,16 @@ mod tests {
             let off = (square / middle.len() as f64).sqrt();
             assert!(off < 0.3 * NOISE, "late by {late}: off by {off} N");
         }
+    }
+
+    #[test]
+    fn the_answer_tells_whether_the_force_is_a_mean() {
+        for (late, mean) in [(0.0, false), (1.0, false), (0.5, true), (1.5, true)] {
+            let (record, _) = record(true, late);
+            assert_eq!(is_logged_as_mean(&record), mean, "late by {late}");
+        }
+        let (silent, _) = record(false, 0.5);
+        assert!(!is_logged_as_mean(&silent));
     }
 
     #[test]

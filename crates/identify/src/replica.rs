@@ -12,7 +12,7 @@ use crate::drive::Drive;
 use crate::estimate::Estimate;
 use crate::law::dependence::{Factor, product};
 use crate::law::terms::{ColumnKind, Delay, FirstDelay, LinearTerm, Terms};
-use crate::reaction::{Logging, Reaction};
+use crate::reaction::{Logging, Reaction, is_logged_as_mean};
 use crate::repeats::Repeats;
 use crate::state_space::rests_much;
 use std::borrow::Cow;
@@ -25,6 +25,8 @@ use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Delay of a force that is logged where it is held, from its sample to the next, samples.
 pub(crate) const HELD_DELAY: f64 = -0.5;
+/// Samples by which the mean of a sample and the one before is late.
+const AS_MEAN: f64 = 0.5;
 /// Deviations of a fitted delay that chance explains.
 const CHANCE: f64 = 2.0;
 /// The same from which on a delay is surely another one.
@@ -89,7 +91,7 @@ pub(crate) struct Axis<'a> {
 impl<'a> Axis<'a> {
     /// `None` for an axis that cannot be simulated: without inertia, or without a bristle.
     pub fn of(record: &'a Record, fitted: &'a Estimate) -> Option<Self> {
-        Self::logged(record, fitted, late(fitted, record.step()))
+        Self::logged(record, fitted, late(record, fitted))
     }
 
     /// The same with a force that is logged so many samples later than it was held.
@@ -108,7 +110,7 @@ impl<'a> Axis<'a> {
         if repeats.iter().all(Option::is_none) || rests_much(record) {
             return None;
         }
-        let axis = Self::driven(record, fitted, late(fitted, record.step()), repeats)?;
+        let axis = Self::driven(record, fitted, late(record, fitted), repeats)?;
         axis.answered.is_some().then_some(axis)
     }
 
@@ -310,22 +312,32 @@ fn logged(channel: &[f64]) -> Option<Vec<f64>> {
 
 /// Samples by which the force is logged later than it was held; negative where it acts later than it was logged. A drive logs
 /// the force of this sample or of one before, or the mean of two: a fitted delay that chance may have moved from there is taken
-/// as that, unless there is a lag.
+/// as that, unless there is a lag. Where it may be either, the response of the controller to its readings tells which (decision
+/// 0108).
 ///
 /// The higher the cut-offs, the more of what a controller answers to its encoder is taken for a delay, and a replica with that
 /// delay is as biased as the fit. Where a first fit with low cut-offs surely had another one, it is that of the log (decision
 /// 0082).
-pub(crate) fn late(fitted: &Estimate, step: f64) -> f64 {
+pub(crate) fn late(record: &Record, fitted: &Estimate) -> f64 {
+    let step = record.step();
     let own = fitted.delay_samples();
     let is_sought = fitted.terms.delay == Delay::Fitted && fitted.lag_samples() == 0.0;
     if !is_sought {
         return own - HELD_DELAY;
     }
-    held_late(own, deviation(fitted, step), fitted.terms.first_delay)
+    let first = fitted.terms.first_delay;
+    let is_mean = || is_logged_as_mean(record);
+    held_late(own, deviation(fitted, step), first, is_mean)
 }
 
-/// The same from the delay of a fit with its standard deviation, where it has one, and that of a first fit, samples.
-fn held_late(own: f64, deviation: Option<f64>, first: Option<FirstDelay>) -> f64 {
+/// The same from the delay of a fit with its standard deviation, where it has one, and that of a first fit, samples; `is_mean`
+/// says whether the log has the mean of two.
+fn held_late(
+    own: f64,
+    deviation: Option<f64>,
+    first: Option<FirstDelay>,
+    is_mean: impl FnOnce() -> bool,
+) -> f64 {
     let moved = |first: &FirstDelay| (own - first.delay).abs() > SURELY * first.deviation;
     let (delay, deviation) = match first.filter(moved) {
         Some(first) => (first.delay, Some(first.deviation)),
@@ -335,9 +347,23 @@ fn held_late(own: f64, deviation: Option<f64>, first: Option<FirstDelay>) -> f64
     let Some(deviation) = deviation else {
         return late;
     };
-    let within = |near: &f64| (late - near).abs() <= CHANCE * deviation;
-    let near = [late.round(), 0.5 * (2.0 * late).round()];
-    near.into_iter().find(within).unwrap_or(late)
+    let within = |times: f64, near: f64| (late - near).abs() <= times * deviation;
+    let (whole, half) = (late.round(), late.floor() + 0.5);
+    let [is_whole, is_half] = [whole, half].map(|near| within(CHANCE, near));
+    // A mean of the sample and the one before, unless it surely acts whole samples later besides.
+    let mean = if within(SURELY, AS_MEAN) {
+        AS_MEAN
+    } else {
+        half
+    };
+    if is_whole && within(SURELY, mean) && is_mean() {
+        return mean;
+    }
+    match (is_whole, is_half) {
+        (true, _) => whole,
+        (false, true) => half,
+        (false, false) => late,
+    }
 }
 
 /// What a first fit of a replica with this delay, samples, would find: its delay is that of the log but for whole samples.
@@ -529,6 +555,19 @@ mod tests {
         assert!(other < 0.5, "{other}");
     }
 
+    /// A fit of a short log hardly tells a force that was logged as it was held from the mean of two.
+    #[test]
+    fn the_answer_decides_where_the_delay_does_not() {
+        let late = |own, deviation, is_mean| held_late(own, Some(deviation), None, || is_mean);
+        assert_eq!(late(-0.3, 0.3, false), 0.0);
+        assert_eq!(late(-0.3, 0.3, true), 0.5);
+        assert_eq!(late(-0.6, 0.3, true), 0.5);
+        // Surely another delay, whatever was answered.
+        assert_eq!(late(-0.49, 0.01, true), 0.0);
+        assert_eq!(late(-1.1, 0.2, true), -0.5);
+        assert_eq!(late(-1.18, 0.01, false), -1.18 - HELD_DELAY);
+    }
+
     /// The force of a log acts 0.09 samples later than it was held; rows of a replica are a whole sample later, and a fit of it
     /// finds a delay as far beside the truth as that of the log.
     #[test]
@@ -537,11 +576,11 @@ mod tests {
             delay: -0.586,
             deviation: 0.094,
         };
-        let late = held_late(-0.591, Some(0.02), Some(first));
+        let late = held_late(-0.591, Some(0.02), Some(first), || false);
         assert!((late + 0.091).abs() < 1e-12, "{late}");
         let delay = HELD_DELAY + Logging::new(late).part;
         let found = delay - 0.044;
-        let again = held_late(found, Some(0.02), Some(of_replica(first, delay)));
+        let again = held_late(found, Some(0.02), Some(of_replica(first, delay)), || false);
         assert!((again - 0.865).abs() < 1e-12, "{again}");
     }
 }

@@ -187,7 +187,7 @@ pub fn tune(
         if round == 0 {
             tuned.first_delay = replica::first_delay(&fitted, record.step());
         }
-        let late = *late.get_or_insert_with(|| replica::late(&fitted, record.step()));
+        let late = *late.get_or_insert_with(|| replica::late(&record, &fitted));
         let Some(axis) = Axis::logged(&record, &fitted, late) else {
             break;
         };

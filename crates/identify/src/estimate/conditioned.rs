@@ -96,6 +96,8 @@ pub(super) fn shift(
     let mut windows = Windows::of(record, fitted, raw, &mut watch.counts);
     asked(watch)?;
     let mut first = Shifts::default();
+    // Those of the first without noise and to first order, which is all that is asked of the second.
+    let mut alike = Shifts::default();
     let mut second = Shifts::default();
     let (mut stated, mut by_noise) = (vec![0.0; raw.len()], vec![0.0; raw.len()]);
     let (mut energies, mut told) = (Vec::new(), Vec::new());
@@ -130,6 +132,7 @@ pub(super) fn shift(
         };
         windows.count(at, of, (&found.truth, shift), &mut watch.counts);
         asked(watch)?;
+        alike.0.push(shift.clone());
         first.0.push(still.shift);
         for (sum, variance) in by_noise.iter_mut().zip(&still.noise) {
             *sum += variance / REPLICA_COUNT as f64;
@@ -160,7 +163,7 @@ pub(super) fn shift(
         scatter: all.clone().map(|i| first.variance(i)).collect(),
         noise: by_noise,
         stated,
-        change: all.map(|i| second.change(&first, i)).collect(),
+        change: all.map(|i| second.change(&alike, i)).collect(),
         windows: windows.variance(raw.len()),
         energies,
         told,

@@ -183,7 +183,8 @@ fn what_elements_held_before_is_not_blamed_on_the_law() {
 #[test]
 fn a_short_log_of_fast_strokes_keeps_its_delay() {
     let machine = axis("machine");
-    for seed in 0..3 {
+    // With the last three noises the force passed for one that is logged as it is held.
+    for seed in [0, 1, 2, 51, 57, 67] {
         let log = ClosedLoop {
             plant: Plant::new(machine.mass, machine.law).unwrap(),
             controller: Cascade::tuned(machine.mass, 60.0, 500.0).unwrap(),
@@ -214,6 +215,11 @@ fn a_short_log_of_fast_strokes_keeps_its_delay() {
         };
         let settings = Settings::default();
         let tuned = tune(&logs, &wanted, law, &terms, &settings, &mut Silent).unwrap();
+        let terms = Terms {
+            lag: tuned.lag,
+            first_delay: tuned.first_delay,
+            ..terms
+        };
         let record = condition(&logs, &tuned.conditioning).unwrap();
         let bound = low_speed_bound(&record);
         let found = identify(&record, law, &terms, bound, &settings, &mut Silent).unwrap();
@@ -226,7 +232,7 @@ fn a_short_log_of_fast_strokes_keeps_its_delay() {
                 continue;
             };
             let Some((low, high)) = p.ci95 else { continue };
-            // Of the 24 values one or two may lie a little outside.
+            // Of the 48 values two or three may lie a little outside.
             let reach = 0.6 * (high - low);
             let off = (right - 0.5 * (low + high)).abs();
             assert!(
