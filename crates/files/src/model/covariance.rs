@@ -114,14 +114,14 @@ pub(crate) fn root(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, (usize, usize)>
     }
     let mut root = vec![vec![0.0; n]; n];
     let mut open: Vec<usize> = (0..n).collect();
-    for column in 0..n {
-        let most = (0..open.len()).rev();
-        let Some(most) = most.max_by(|&a, &b| {
-            let variance = |at: usize| left[open[at]][open[at]];
-            variance(a).total_cmp(&variance(b))
-        }) else {
-            break;
-        };
+    let most_left = |open: &[usize], left: &[Vec<f64>]| {
+        let variance = |at: usize| left[open[at]][open[at]];
+        // Of equal ones the first.
+        let places = (0..open.len()).rev();
+        places.max_by(|&a, &b| variance(a).total_cmp(&variance(b)))
+    };
+    while let Some(most) = most_left(&open, &left) {
+        let column = n - open.len();
         let pivot = left[open[most]][open[most]];
         if pivot <= LEAST_PART {
             break;
