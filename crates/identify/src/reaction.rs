@@ -33,6 +33,9 @@ const CERTAIN_ANSWER: f64 = 4.0;
 /// Standard deviations of the response to a standing difference of position from which on it is believed.
 const CERTAIN_STANDING: f64 = 4.0;
 
+/// Samples by which the mean of a sample and the one before is late.
+pub(crate) const AS_MEAN: f64 = 0.5;
+
 /// How a force that is held from sample to sample was logged: as the mean of two neighbours where it is
 /// logged late by a part of a sample (half for a force centred about its instant).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,7 +147,11 @@ pub(crate) fn is_logged_as_mean(record: &Record) -> bool {
         let answer = far.answer().filter(|answer| answer.is_certain);
         answer.and_then(|_| far.criterion())
     };
-    matches!((criterion(0.0), criterion(0.5)), (held, Some(mean)) if held.is_none_or(|held| mean < held))
+    match (criterion(0.0), criterion(AS_MEAN)) {
+        (Some(held), Some(mean)) => mean < held,
+        (None, Some(_)) => true,
+        (_, None) => false,
+    }
 }
 
 /// What a record has above the band that the axis can follow.

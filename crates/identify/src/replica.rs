@@ -12,7 +12,7 @@ use crate::drive::Drive;
 use crate::estimate::Estimate;
 use crate::law::dependence::{Factor, product};
 use crate::law::terms::{ColumnKind, Delay, FirstDelay, LinearTerm, Terms};
-use crate::reaction::{Logging, Reaction, is_logged_as_mean};
+use crate::reaction::{AS_MEAN, Logging, Reaction, is_logged_as_mean};
 use crate::repeats::Repeats;
 use crate::state_space::rests_much;
 use std::borrow::Cow;
@@ -25,8 +25,6 @@ use stiction_servo::plant::{Load, Motion, Plant};
 
 /// Delay of a force that is logged where it is held, from its sample to the next, samples.
 pub(crate) const HELD_DELAY: f64 = -0.5;
-/// Samples by which the mean of a sample and the one before is late.
-const AS_MEAN: f64 = 0.5;
 /// Deviations of a fitted delay that chance explains.
 const CHANCE: f64 = 2.0;
 /// The same from which on a delay is surely another one.
@@ -319,15 +317,15 @@ fn logged(channel: &[f64]) -> Option<Vec<f64>> {
 /// delay is as biased as the fit. Where a first fit with low cut-offs surely had another one, it is that of the log (decision
 /// 0082).
 pub(crate) fn late(record: &Record, fitted: &Estimate) -> f64 {
-    let step = record.step();
     let own = fitted.delay_samples();
     let is_sought = fitted.terms.delay == Delay::Fitted && fitted.lag_samples() == 0.0;
     if !is_sought {
         return own - HELD_DELAY;
     }
-    let first = fitted.terms.first_delay;
-    let is_mean = || is_logged_as_mean(record);
-    held_late(own, deviation(fitted, step), first, is_mean)
+    let deviation = deviation(fitted, record.step());
+    held_late(own, deviation, fitted.terms.first_delay, || {
+        is_logged_as_mean(record)
+    })
 }
 
 /// The same from the delay of a fit with its standard deviation, where it has one, and that of a first fit, samples; `is_mean`
