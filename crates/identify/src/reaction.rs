@@ -84,8 +84,13 @@ impl Reaction {
     /// surely show less of that, they alone say how the controller responds (a test of one estimate by another that holds
     /// under fewer assumptions: Hausman 1978, doi 10.2307/1913827).
     pub fn of(record: &Record, logging: Logging) -> Option<Self> {
-        let fast = Fast::of(record)?;
-        let (all, far) = fast.sums(logging);
+        let (mut all, mut far) = (Sums::default(), Sums::default());
+        Fast::of(record)?.each(logging, |x, force, is_far| {
+            all.add(x, force);
+            if is_far {
+                far.add(x, force);
+            }
+        });
         let all = all.answer()?;
         let surely_less = |far: &Answer| {
             let apart = far.deviation * far.deviation - all.deviation * all.deviation;
@@ -143,7 +148,12 @@ pub(crate) fn is_logged_as_mean(record: &Record) -> bool {
         return false;
     };
     let criterion = |late: f64| {
-        let (_, far) = fast.sums(Logging::new(late));
+        let mut far = Sums::default();
+        fast.each(Logging::new(late), |x, force, is_far| {
+            if is_far {
+                far.add(x, force);
+            }
+        });
         let answer = far.answer().filter(|answer| answer.is_certain);
         answer.and_then(|_| far.criterion())
     };
@@ -190,23 +200,18 @@ impl Fast {
         })
     }
 
-    /// Sums of all samples, and of those far from motion. The response is logged with the force, so the readings get the same
-    /// delay and averaging as the log.
-    fn sums(&self, logging: Logging) -> (Sums, Sums) {
-        let (mut all, mut far) = (Sums::default(), Sums::default());
+    /// Shows the last readings, the force and whether it is far from motion, sample by sample. The response is logged with the
+    /// force, so the readings get the same delay and averaging as the log.
+    fn each(&self, logging: Logging, mut see: impl FnMut(&SVector<f64, ANSWER_LAGS>, f64, bool)) {
         for segment in &self.segments {
             let samples = segment.force.len();
             let reading = (0..samples).map(|k| logging.at(&segment.reading, k));
             let reading: Vec<f64> = reading.collect();
             for k in self.trim + ANSWER_LAGS - 1..samples.saturating_sub(self.trim) {
                 let x = SVector::from_fn(|lag, _| reading[k - lag]);
-                all.add(&x, segment.force[k]);
-                if segment.is_far[k] {
-                    far.add(&x, segment.force[k]);
-                }
+                see(&x, segment.force[k], segment.is_far[k]);
             }
         }
-        (all, far)
     }
 }
 
