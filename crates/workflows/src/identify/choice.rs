@@ -40,6 +40,14 @@ const ANOTHER_SHAPE: &str =
 const AT_AN_END: &str =
     "one of its parameters came out at the end of what is searched, and another law holds as well";
 
+/// Why a law that holds static friction at Coulomb friction is not taken where the axis rests.
+const SHOWN_BY_THE_COUNTS: &str =
+    "the counts of the encoder show a static friction above Coulomb friction";
+
+/// Why the bristles are open where the counts are asked of a law that holds static friction, and do not determine it.
+const HELD_FROM_THE_COUNTS: &str = "the counts of the encoder, which this is from, do not tell whether static friction is above Coulomb \
+                                    friction, where the law holds it; the bristles would make up for it";
+
 /// Error on held-out samples, percent, from which on a law says nothing of them: as much as without any force.
 const NOTHING_HOLDS: f64 = 100.0;
 
@@ -237,8 +245,15 @@ pub(super) fn auto(
         return asked(simplest, ladder, &[], false, settings, observer);
     };
     let at = reliable(&climb, &laws, best);
-    laws[at].reported = true;
     let left_aside = at != best && laws[best].held_back.is_none();
+    let asked = match rests && !climb.stopped {
+        true => of_the_counts(&climb, &laws, at, ladder, observer),
+        false => None,
+    };
+    let shown = asked.as_ref().filter(|asked| asked.shows);
+    let by_the_force = at;
+    let at = shown.map_or(at, |asked| asked.at);
+    laws[at].reported = true;
     let Climb { mut rungs, stopped } = climb;
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     // Too few samples may be left to hold some out.
@@ -263,6 +278,8 @@ pub(super) fn auto(
     });
     if left_aside {
         laws[best].held_back = Some(AT_AN_END.into());
+    } else if at != by_the_force {
+        laws[by_the_force].held_back = Some(SHOWN_BY_THE_COUNTS.into());
     }
     let rung = rungs.swap_remove(at);
     let another_curve = rests.then(|| curved(&rung, ladder)).flatten();
@@ -272,9 +289,15 @@ pub(super) fn auto(
     let Rung {
         estimate, optimum, ..
     } = rung;
-    let mut estimate = stated(ladder, &optimum, estimate, observer);
+    let mut estimate = match &asked {
+        Some(asked) if asked.shows => asked.estimate.clone(),
+        _ => stated(ladder, &optimum, estimate, observer),
+    };
     for freer in &freer {
         estimate.doubt_beside(&before, freer);
+    }
+    if asked.is_some_and(|asked| !asked.shows) && estimate.of_the_counts {
+        estimate.leave_open(&[Quantity::Sigma0, Quantity::Sigma1], HELD_FROM_THE_COUNTS);
     }
     if let Some(next) = another_curve
         && !stopped
@@ -530,6 +553,50 @@ fn reliable(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
     let near = |&i: &usize| rungs[i].held_out_error() <= most;
     let within: Vec<usize> = able.into_iter().filter(inside).filter(near).collect();
     climb.best_of(&within).unwrap_or(best)
+}
+
+/// A law with a Stribeck curve that the counts of the encoder were asked of.
+struct OfTheCounts {
+    /// Its place among the laws.
+    at: usize,
+    estimate: Estimate,
+    /// Whether they were used and determine its static friction.
+    shows: bool,
+}
+
+/// What the counts say of static friction where the law that was chosen by the force, at this place, holds it at Coulomb friction. A fit
+/// of the force passes over what happens within a count or two of a rest; the counts do not, and what they see of a rise that the law
+/// lacks they give to the stiffness of the bristles.
+fn of_the_counts(
+    climb: &Climb,
+    laws: &[LawEntry],
+    at: usize,
+    ladder: &Ladder,
+    observer: &mut dyn Observer,
+) -> Option<OfTheCounts> {
+    let own = &climb.rungs[at];
+    let law = &own.estimate.law;
+    let most = engine::NEVER_EQUAL_RATIO * own.held_out_error();
+    let is_as_good = |&i: &usize| {
+        let rung = &climb.rungs[i];
+        let other = &rung.estimate.law;
+        let frees = other.has_stribeck() && !law.has_stribeck() && holds_less(other, law);
+        frees && laws[i].held_back.is_none() && rung.held_out_error() <= most
+    };
+    let able: Vec<usize> = (0..climb.rungs.len()).filter(is_as_good).collect();
+    let at = climb.best_of(&able)?;
+    let Rung {
+        estimate, optimum, ..
+    } = &climb.rungs[at];
+    let estimate = stated(ladder, optimum, estimate.clone(), observer);
+    let mut levels = estimate.parameters.iter();
+    let determined = levels.all(|p| p.name.quantity != Quantity::Static || p.identifiable);
+    let shows = determined && estimate.of_the_counts && estimate.status != Status::Interrupted;
+    Some(OfTheCounts {
+        at,
+        estimate,
+        shows,
+    })
 }
 
 /// An observer, and whether it has asked to stop.

@@ -8,7 +8,7 @@ use std::fmt::Write;
 use stiction_codes::Code;
 use stiction_files::result::{CauseEntry, Cure};
 use stiction_files::{Warning, shell, symbols};
-use stiction_identify::{Disagreement, NOT_CONSTANT};
+use stiction_identify::{Disagreement, FittedLaw, NOT_CONSTANT};
 use stiction_log::Motion;
 use stiction_number::{Percent, four_digits, short};
 use stiction_parameters::Quantity;
@@ -33,12 +33,12 @@ pub(super) fn options(asked: Asked) -> String {
 }
 
 /// A warning for every parameter that two logs have differently; `options` are those of the run that has to be repeated for each
-/// log, as they are typed, and whether it makes a map of constant velocities.
+/// log, as they are typed, and whether its law has one level for all logs.
 pub(super) fn named(
     found: &[Disagreement],
     sources: &[Source],
     motion: Motion,
-    (options, of_a_map): (&str, bool),
+    (options, one_level): (&str, bool),
 ) -> Vec<Warning> {
     let all = found.iter().enumerate();
     // The commands are the same for all.
@@ -47,7 +47,7 @@ pub(super) fn named(
             found,
             sources,
             motion,
-            ((i == 0).then_some(options), of_a_map),
+            ((i == 0).then_some(options), one_level),
         )
     })
     .collect()
@@ -57,7 +57,7 @@ fn warning(
     found: &Disagreement,
     sources: &[Source],
     motion: Motion,
-    (options, of_a_map): (Option<&str>, bool),
+    (options, one_level): (Option<&str>, bool),
 ) -> Warning {
     let paths = found.logs.map(|log| path_of(sources, log));
     let values = found.values.map(four_digits);
@@ -77,8 +77,7 @@ fn warning(
         true => "The intervals count how the logs scatter",
         false => "It is no constant of the machine",
     };
-    // A map of constant velocities has one level.
-    let own_level = own_level(found).filter(|_| !of_a_map);
+    let own_level = own_level(found).filter(|_| !one_level);
     let together = own_level.map_or(String::new(), |key| {
         format!(
             ". Give each log its own in one fit with {key} = true under [terms] in the axis file ({} is then that of the first log)",
@@ -106,6 +105,11 @@ fn warning(
             part(found.deviation / size)
         ),
     )
+}
+
+/// Whether a law has one level for all logs, whatever the axis file says: Maxwell-slip elements have levels of their own.
+pub(super) fn has_one_level(law: &FittedLaw) -> bool {
+    law.law.kind.has_elements()
 }
 
 /// The key of the axis file that gives each log a level of its own.
@@ -137,13 +141,14 @@ pub(super) fn of_two_axes(found: &[Disagreement]) -> Option<String> {
 }
 
 /// The first of them as a part of the verdict.
-pub(super) fn cause(found: &[Disagreement]) -> Option<CauseEntry> {
-    let first = found.first()?;
+pub(super) fn cause(law: &FittedLaw) -> Option<CauseEntry> {
+    let first = law.disagreements.first()?;
+    let key = own_level(first).filter(|_| !has_one_level(law));
     Some(CauseEntry {
         code: Code::LogsDisagree,
         text: format!("the logs differ in {}", first.name),
         size: Percent::error(100.0 * first.part).digits(2),
-        cure: own_level(first).map(|key| Cure::Line {
+        cure: key.map(|key| Cure::Line {
             table: "terms".into(),
             line: format!("{key} = true"),
             replaces: false,

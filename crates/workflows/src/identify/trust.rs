@@ -142,11 +142,16 @@ impl Judged {
             let compared = evidence.chosen && !evidence.laws.is_empty();
             let own = lacking::weight(evidence)
                 .or_else(|| left::cause(evidence.law, evidence.sources, compared));
-            let between = || disagree::cause(&evidence.law.disagreements);
-            // Levels that differ have a cure; what of another shape is left may be of them.
+            let between = disagree::cause(evidence.law);
+            let levels = between
+                .as_ref()
+                .is_some_and(|between| between.cure.is_some());
+            // What of another shape is left may be of levels that differ.
+            let is_first =
+                |own: &CauseEntry| own.cure.is_some() && !(levels && own.code == Code::LawShape);
             let found = match own {
-                Some(own) if own.cure.is_some() => Some(own),
-                own => between().or(own),
+                Some(own) if is_first(&own) => Some(own),
+                own => between.or(own),
             };
             // All else is in the wrong unit until the force is scaled.
             self.trust.cause = evidence.unscaled.clone().or(found);
@@ -537,7 +542,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         &law.disagreements,
         evidence.sources,
         evidence.motion,
-        (&evidence.options, false),
+        (&evidence.options, disagree::has_one_level(law)),
     ));
     let place = match evidence.shows_friction() {
         true => 0,

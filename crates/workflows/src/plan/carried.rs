@@ -9,6 +9,9 @@ use stiction_log::{Dimension, Motion, Value};
 use stiction_plan::carrier::{Carried, Carrier, Job};
 use stiction_plan::{HandMade, Motion as Path, hand_made};
 
+/// Least spacing of positions, m (rad), that a set point has to have: that of the finest encoders.
+const FINEST: f64 = 1e-12;
+
 /// Where the axis stands when the motion starts, m (rad).
 pub(super) fn start(motion: Motion, options: &PlanOptions) -> Result<f64, Error> {
     let Some(text) = &options.start else {
@@ -19,10 +22,20 @@ pub(super) fn start(motion: Motion, options: &PlanOptions) -> Result<f64, Error>
         Motion::Rotary => (Dimension::ANGLE, "30 deg"),
     };
     let value = Value::parse(text).and_then(|value| value.si_of(wanted));
-    value.map_err(|e| {
-        let allowed = format!("the position at which the axis stands, such as {example}: {e}");
+    let refused = |why: &str| {
+        let allowed = format!("the position at which the axis stands, such as {example}: {why}");
         Error::usage(format!("--start {text:?}"), allowed)
-    })
+    };
+    let value = value.map_err(|e| refused(&e.to_string()))?;
+    // Beside it small motions would be rounded away.
+    let farthest = FINEST / f64::EPSILON;
+    if value.abs() > farthest {
+        let unit = motion.position().si_text();
+        return Err(refused(&format!(
+            "at most {farthest:.0} {unit} from zero, so that set points tell a motion"
+        )));
+    }
+    Ok(value)
 }
 
 /// One full stroke in the forms that are wanted: what a form cannot hold is refused before anything is designed.
