@@ -250,9 +250,11 @@ pub(super) fn auto(
         true => of_the_counts(&climb, &laws, at, ladder, observer),
         false => None,
     };
-    let shown = asked.as_ref().filter(|asked| asked.shows);
     let by_the_force = at;
-    let at = shown.map_or(at, |asked| asked.at);
+    let at = match &asked {
+        Some(asked) if asked.shows => asked.at,
+        _ => by_the_force,
+    };
     laws[at].reported = true;
     let Climb { mut rungs, stopped } = climb;
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
