@@ -27,6 +27,7 @@ pub use held::Held;
 pub use limit::Limit;
 pub use parts::Divided;
 use parts::Measures;
+pub(crate) use parts::reversals;
 pub use ripple::{Repeats, Ripple};
 
 use self::coupling::beside::Beside;

@@ -1,9 +1,10 @@
-//! Whether a Coulomb level is more than its sum with viscous friction.
+//! Whether a Coulomb level is more than its sum with viscous friction, and a constant force more than its sum with inertia.
 //!
 //! Where an axis slides at hardly more than one speed, a log shows the force there, and Coulomb and viscous friction share it
 //! in many ways. Viscous friction is never negative: an estimate that is pressed against zero, by noise or by anything that
 //! the law does not describe, takes the level along, and neither its deviation nor replicas of it show how far.
 
+use crate::conditioning::record::Record;
 use crate::estimate::uncertainty;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
@@ -20,6 +21,28 @@ const WORTH: f64 = 0.1;
 const WORTH_OF_CHANCE: f64 = 0.01;
 /// Standard deviations within which viscous friction cannot be told from none.
 const CHANCE: f64 = 2.0;
+
+/// Part of the mean square of the acceleration that is constant from which inertia and constant force share one force.
+const CONSTANT: f64 = 0.9;
+
+/// Flags a constant force beside an inertia that is open, where the acceleration hardly changes but for noise of the encoder, which
+/// makes the two look apart.
+pub(super) fn flag_a_force_that_takes_the_inertia(record: &Record, parameters: &mut [Parameter]) {
+    let open = |p: &Parameter| p.name == Quantity::Mass && p.identified && !p.identifiable;
+    let acceleration = record.pick(|s| &s.acceleration);
+    let n = acceleration.len() as f64;
+    let mean = acceleration.iter().sum::<f64>() / n;
+    let square = acceleration.iter().map(|a| a * a).sum::<f64>() / n;
+    if !parameters.iter().any(open) || mean * mean < CONSTANT * square {
+        return;
+    }
+    let constant = |p: &&mut Parameter| p.name == Quantity::Offset && p.identifiable;
+    if let Some(own) = parameters.iter_mut().find(constant) {
+        own.identifiable = false;
+        own.reason =
+            "takes the place of what inertia does where the acceleration hardly changes".into();
+    }
+}
 
 /// Flags the Coulomb levels that take the place of a viscous friction which the data do not tell from none.
 pub(super) fn flag_levels_that_take_viscous_friction(

@@ -1,8 +1,10 @@
-//! What a delay that is hardly known takes along.
+//! What a delay that is hardly known takes along, and what is not known of one that jumps of friction tell.
 
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
+use crate::law::Law;
 use crate::law::terms::Delay;
+use crate::misfit::reversals;
 use crate::replica::{self, HELD_DELAY};
 use stiction_parameters::Quantity;
 
@@ -29,4 +31,13 @@ pub(super) fn flag_what_an_unknown_delay_takes_along(record: &Record, estimate: 
         p.identifiable = false;
         p.reason = "it moves with the delay of the force, which is hardly known; give [terms] delay if the drive states one".into();
     }
+}
+
+/// Variance, s^2, that the delay of a law without bristles has beyond what noise leaves: its friction jumps between two samples,
+/// wherever between them the axis turned back.
+pub(super) fn of_jumps(record: &Record, law: &Law) -> f64 {
+    if law.kind.has_bristle() {
+        return 0.0;
+    }
+    record.step().powi(2) / (12.0 * reversals(record).max(1) as f64)
 }

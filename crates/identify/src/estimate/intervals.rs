@@ -5,11 +5,13 @@ use crate::agreement::Between;
 use crate::conditioning::record::Record;
 use crate::estimate::along::Along;
 use crate::estimate::conditioned::shift;
-use crate::estimate::confused::flag_levels_that_take_viscous_friction;
+use crate::estimate::confused::{
+    flag_a_force_that_takes_the_inertia, flag_levels_that_take_viscous_friction,
+};
 use crate::estimate::curve::{
     end_of_an_open_curve, missing, rises_unseen, spans_all_speeds, stays_within,
 };
-use crate::estimate::delayed::flag_what_an_unknown_delay_takes_along;
+use crate::estimate::delayed::{flag_what_an_unknown_delay_takes_along, of_jumps};
 use crate::estimate::filtered::flag_what_a_filter_hides;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::least::no_surer_than_any_log;
@@ -82,6 +84,7 @@ pub fn intervals(
     spans_all_speeds(&fitted.law, record.top_speed(), &mut fitted.parameters);
     let at = &optimum.evaluation;
     flag_levels_that_take_viscous_friction(&objective, at, &raw, &mut fitted.parameters);
+    flag_a_force_that_takes_the_inertia(record, &mut fitted.parameters);
     let doubted = fitted.misfit.as_ref().and_then(Misfit::cause).is_some();
     end_of_an_open_curve(
         &fitted.law,
@@ -209,14 +212,20 @@ fn conditioned(
     estimate.fitted.misfit = misfit;
     let pressed = pressed::spread(objective, at, raw, &estimate.unknowns.covariance);
     let stated = &estimate.fitted.covariance.matrix;
+    let jumps = of_jumps(objective.record(), &estimate.fitted.law);
     let known: Vec<f64> = (0..raw.len())
         .map(|i| {
+            let jumps = match raw[i].name.quantity {
+                Quantity::Delay => jumps,
+                _ => 0.0,
+            };
             let total = shift
                 .as_ref()
                 .map_or(stated[i][i], |s| s.total(i, stated[i][i]));
             total
                 + spread.as_ref().map_or(0.0, |s| s[(i, i)])
                 + pressed.as_ref().map_or(0.0, |s| s[i])
+                + jumps
         })
         .collect();
     let mut between = Between::default();
@@ -245,7 +254,8 @@ fn conditioned(
             between.add(p.name, p.variance(&unknowns));
         }
     }
-    if shift.is_none() && spread.is_none() && pressed.is_none() && between.is_nothing() {
+    let nothing = shift.is_none() && spread.is_none() && pressed.is_none() && jumps == 0.0;
+    if nothing && between.is_nothing() {
         return between;
     }
     let levels = levels(objective, raw);
@@ -288,16 +298,29 @@ fn reach_as_far_as((least, largest): (f64, f64), parameters: &mut [Parameter]) {
     }
 }
 
-/// Flags the parameters that describe a shape which the residual shows to be another one, and those that logs have too
-/// differently.
+/// Flags the parameters that describe a shape which the residual shows to be another one, those that stand for a level along the
+/// stroke which its terms do not describe, and those that logs have too differently.
 fn flag_what_the_residual_doubts(fitted: &mut FittedLaw) {
     let cause = fitted.misfit.as_ref().and_then(Misfit::cause);
+    let along_the_stroke = |p: &Parameter| {
+        matches!(
+            p.name.quantity,
+            Quantity::CoulombPosition | Quantity::CoulombPitch(..)
+        )
+    };
+    let described =
+        cause == Some(Cause::Position) && fitted.parameters.iter().any(along_the_stroke);
     let differing = &fitted.disagreements;
     let claimed = |p: &&mut Parameter| p.identified && p.identifiable;
     for p in fitted.parameters.iter_mut().filter(claimed) {
         let shape = cause.and_then(|cause| cause.against(p.name.quantity));
+        // On strokes the speed goes with the place.
+        let instead = [Quantity::Coulomb, Quantity::Sigma2].contains(&p.name.quantity) && described;
+        let place = instead.then_some(
+            "takes up part of how friction changes along the stroke, which its terms do not describe",
+        );
         let level = || differing.iter().find_map(|found| found.against(p.name));
-        if let Some(reason) = shape.map(String::from).or_else(level) {
+        if let Some(reason) = shape.or(place).map(String::from).or_else(level) {
             p.identifiable = false;
             p.reason = reason;
         }

@@ -213,6 +213,19 @@ fn travel(record: &Record) -> Vec<f64> {
     out
 }
 
+/// How often the axis turns back.
+pub(crate) fn reversals(record: &Record) -> usize {
+    let least = REVERSED_COUNTS * record.resolution.unwrap_or(0.0);
+    let turned = |segment: &Segment| {
+        let travel = along(segment, least);
+        travel
+            .windows(2)
+            .filter(|pair| pair[0] * pair[1] < 0.0)
+            .count()
+    };
+    record.segments.iter().map(turned).sum()
+}
+
 /// The same at the full rate; a reversal is a way back of more than `least`.
 fn along(segment: &Segment, least: f64) -> Vec<f64> {
     let Some(&first) = segment.position.first() else {

@@ -33,5 +33,6 @@ mod study_examples;
 mod study_size;
 mod study_sweep;
 mod terms;
+mod unexplained;
 mod workflow;
 mod worlds;

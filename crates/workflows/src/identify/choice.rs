@@ -29,6 +29,10 @@ const SURELY: f64 = 3.0;
 const BEYOND_ALL_DELAYS: &str = "the delay of the force came out at the end of those that are looked for, and it moves stiffness \
                                  and damping of the bristles and the mass more than all else";
 
+/// Why static friction is open there too, where the Stribeck velocity is.
+const AN_END_BESIDE_IT: &str = "is where a curve ends whose Stribeck velocity is open, and the delay of the force came out at the end \
+                                of those that are looked for";
+
 /// Why the delay is open behind a low-pass that was undone: either may be a part of the other.
 const BESIDE_A_LOW_PASS: &str = "what the low-pass of the logged force delays and what is late beside it are known together, not each of them";
 
@@ -530,6 +534,17 @@ fn stated(
             moved
                 .contains(&p.name.quantity)
                 .then_some(BEYOND_ALL_DELAYS)
+        });
+        let widths = estimate.parameters.iter();
+        let open: Vec<Side> = widths
+            .filter(|p| {
+                p.name.quantity == Quantity::StribeckVelocity && p.identified && !p.identifiable
+            })
+            .map(|p| p.name.side)
+            .collect();
+        estimate.doubt(|p| {
+            let ends = p.name.quantity == Quantity::Static && open.contains(&p.name.side);
+            ends.then_some(AN_END_BESIDE_IT)
         });
     }
     if estimate.terms.low_pass_undone {

@@ -12,7 +12,7 @@ use stiction_files::Warning;
 use stiction_files::result::{BetterLaw, CauseEntry, Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
 use stiction_identify::procedure::StepFit;
-use stiction_identify::{Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
+use stiction_identify::{Cause, Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
 use stiction_identify::{NO_INTERVAL, Parameter};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
@@ -39,6 +39,8 @@ const UNTRUSTED_BELOW: f64 = 0.5;
 /// Effective number of independent samples in the residual, as a part of all samples, below which the residual is
 /// called systematic, dimensionless; see `docs/codes/correlated-residual.md`.
 const SYSTEMATIC_BELOW_SHARE: f64 = 0.05;
+/// Part of the variance of a systematic residual from which a misfit explains it, dimensionless: half.
+const EXPLAINED_FROM: f64 = 0.5;
 /// Shift of a parameter by encoder, filters and noise, as a part of its value, above which a warning names it,
 /// dimensionless.
 const NAMED_SHIFT: f64 = 0.05;
@@ -75,6 +77,7 @@ impl Judged {
             other,
             few_levels,
             estimated_offset,
+            unexplained,
         }: Reasons,
         warnings: Vec<Warning>,
     ) -> Self {
@@ -90,6 +93,7 @@ impl Judged {
                 && !few_levels
                 && !held
                 && !assumed
+                && !unexplained
                 && law.fit.r2 >= LEAST_R2
                 && match motion {
                     Shown::Sliding => !law.stays_in_presliding(),
@@ -183,6 +187,8 @@ pub(super) struct Reasons {
     few_levels: bool,
     /// Whether the offset between the clocks of two files was estimated, which a delay then makes up for.
     estimated_offset: bool,
+    /// Whether most of an autocorrelated residual has no cause that is known.
+    unexplained: bool,
 }
 
 impl Reasons {
@@ -549,7 +555,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         false => warnings.len(),
     };
     warnings.splice(place..place, causes);
-    systematic(law, warnings);
+    reasons.unexplained = systematic(evidence, warnings);
     shifted(law, warnings);
     static_at_rest(law, evidence.motion, warnings);
     unidentifiable(law, evidence.motion, warnings);
@@ -785,23 +791,39 @@ fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     }
 }
 
-/// A residual that is autocorrelated over many samples is not noise.
-fn systematic(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
+/// A residual that is autocorrelated over many samples is not noise; whether that may bias the parameters by more than the
+/// misfit of the force has widened their intervals: most of it is no misfit with a cause.
+fn systematic(evidence: &Evidence, warnings: &mut Vec<Warning>) -> bool {
+    let estimate = evidence.law;
     let fit = &estimate.fit;
     // What counts say is not from this residual.
-    if !estimate.of_the_counts
-        && fit.effective_samples < SYSTEMATIC_BELOW_SHARE * fit.samples as f64
+    if estimate.of_the_counts
+        || fit.effective_samples >= SYSTEMATIC_BELOW_SHARE * fit.samples as f64
     {
-        warnings.push(Warning::new(
-            Code::CorrelatedResidual,
-            format!(
-                "the residual is strongly autocorrelated: {:.0} effective samples of {}. An effect that the \
-                 law does not describe may be left (another law, cogging, gravity, force and position \
-                 logged at different instants); it may bias the parameters by more than their intervals",
-                fit.effective_samples, fit.samples
-            ),
-        ));
+        return false;
     }
+    let misfit = estimate.misfit.as_ref();
+    let explained = misfit.is_some_and(|misfit| {
+        !matches!(misfit.cause(), None | Some(Cause::Shape)) || misfit.share >= EXPLAINED_FROM
+    });
+    let unexplained = evidence.signal == "force" && !explained;
+    let worth = match (explained, unexplained) {
+        (true, _) => "the intervals count what comes back of it",
+        (_, true) => {
+            "it may bias the parameters by more than their intervals, so none of them is given as a constant"
+        }
+        (_, false) => "it may bias the parameters by more than their intervals",
+    };
+    warnings.push(Warning::new(
+        Code::CorrelatedResidual,
+        format!(
+            "the residual is strongly autocorrelated: {:.0} effective samples of {}. An effect that the \
+             law does not describe may be left (another law, cogging, gravity, force and position \
+             logged at different instants); {worth}",
+            fit.effective_samples, fit.samples
+        ),
+    ));
+    unexplained
 }
 
 /// An error of the logged force drives the simulated axis of an open loop like the force itself, is integrated twice
