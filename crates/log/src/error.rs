@@ -44,11 +44,35 @@ impl Kind {
     }
 }
 
+/// What a place in a file is counted in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Counted {
+    /// Rows of a sheet, or records, as what shows such a file counts them.
+    #[default]
+    Rows,
+    /// Lines of a text, as an editor counts them, with those of its head.
+    Lines,
+    /// Rows of samples, without those of a head.
+    DataRows,
+}
+
+impl Counted {
+    fn name(self) -> &'static str {
+        match self {
+            Counted::Rows => "row",
+            Counted::Lines => "line",
+            Counted::DataRows => "data row",
+        }
+    }
+}
+
 /// Where in a file the problem is; every part is optional.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Place {
-    /// Line or row, counted from 1 as an editor shows it.
+    /// Line or row, counted from 1.
     pub row: Option<u64>,
+    /// What `row` counts.
+    pub counted: Counted,
     /// Column by its name, or its number counted from 1.
     pub column: Option<String>,
     /// Byte offset from the start of the file.
@@ -59,7 +83,7 @@ impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut parts = Vec::new();
         if let Some(row) = self.row {
-            parts.push(format!("row {row}"));
+            parts.push(format!("{} {row}", self.counted.name()));
         }
         if let Some(column) = &self.column {
             parts.push(format!("column {column}"));
@@ -192,6 +216,20 @@ impl Error {
     pub fn at_row(mut self, row: u64) -> Self {
         self.place.row = Some(row);
         self
+    }
+
+    /// The same problem, at this line of a text counted from 1.
+    #[must_use]
+    pub fn at_line(mut self, line: u64) -> Self {
+        self.place.counted = Counted::Lines;
+        self.at_row(line)
+    }
+
+    /// The same problem, at this row of samples counted from 1.
+    #[must_use]
+    pub fn at_data_row(mut self, row: u64) -> Self {
+        self.place.counted = Counted::DataRows;
+        self.at_row(row)
     }
 
     /// The same problem, in this column.

@@ -132,7 +132,7 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
             let allowed =
                 "columns: path, and where they are known machine, time, temperature, axis";
             return Err(refused(
-                format!("row 1, column {}: ", at + 1),
+                format!("line 1, column {}: ", at + 1),
                 format!("{cell:?}"),
                 allowed,
             ));
@@ -140,7 +140,7 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
         if let Some(before) = places.insert(name, at) {
             let found = format!("{name} is column {} already", before + 1);
             return Err(refused(
-                format!("row 1, column {}: ", at + 1),
+                format!("line 1, column {}: ", at + 1),
                 found,
                 "each column once",
             ));
@@ -149,7 +149,7 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
     if !places.contains_key("path") {
         let found = "has no column path".to_string();
         let allowed = "path, the log of each row, from the folder of the list";
-        return Err(refused("row 1: ".into(), found, allowed));
+        return Err(refused("line 1: ".into(), found, allowed));
     }
     let folder = file.parent().unwrap_or(Path::new(""));
     let from_there = |path: &str| match is_address(Path::new(path)) {
@@ -166,11 +166,11 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
             let text = cells.get(*places.get(name)?)?;
             (!text.is_empty()).then_some(text)
         };
-        let at = |name: &str| format!("row {row}, column {name}: ");
+        let at = |name: &str| format!("line {row}, column {name}: ");
         if cells.len() != head.len() {
             let found = stiction_number::counted(cells.len(), "cell");
-            let allowed = format!("{}, as row 1 has", head.len());
-            return Err(refused(format!("row {row}: "), found, &allowed));
+            let allowed = format!("{}, as line 1 has", head.len());
+            return Err(refused(format!("line {row}: "), found, &allowed));
         }
         let Some(path) = cell("path") else {
             return Err(refused(
@@ -183,7 +183,7 @@ pub fn read_list(file: &Path) -> Result<Vec<Listed>, Error> {
         // One log may have several paths.
         let place = path.canonicalize().unwrap_or_else(|_| path.clone());
         if let Some(before) = seen.insert(place, row) {
-            let found = format!("{} is in row {before} already", shell::text(&path));
+            let found = format!("{} is in line {before} already", shell::text(&path));
             return Err(refused(at("path"), found, "each log once"));
         }
         let time = cell("time").map(|text| {
@@ -247,8 +247,8 @@ mod tests {
         std::os::unix::fs::symlink(at("a.csv"), at("b.csv")).unwrap();
         std::fs::write(at("list.csv"), "path,machine\na.csv,A\nb.csv,B\n").unwrap();
         let refused = read_list(&at("list.csv")).unwrap_err().to_string();
-        assert!(refused.contains("row 3, column path: "), "{refused}");
-        assert!(refused.contains("is in row 2 already"), "{refused}");
+        assert!(refused.contains("line 3, column path: "), "{refused}");
+        assert!(refused.contains("is in line 2 already"), "{refused}");
     }
 
     #[test]

@@ -163,7 +163,7 @@ impl Reader {
     fn placed(&self, node: usize, error: Error) -> Error {
         let error = self.at(node, error);
         match error.place.row {
-            None => error.at_row(self.tokens.row()),
+            None => error.at_line(self.tokens.row()),
             Some(_) => error,
         }
     }

@@ -75,7 +75,7 @@ impl<R: Read> Tokens<R> {
     /// An error at the place that is being read.
     pub(super) fn bad(&self, found: impl Into<String>) -> Error {
         Error::new(Kind::Format, found, "JSON, or one JSON value in every line")
-            .at_row(self.row)
+            .at_line(self.row)
             .at_byte(self.before + self.used as u64)
     }
 

@@ -191,7 +191,7 @@ impl Columns {
             };
             let beyond = self.beyond.iter().find(|b| b.role == *role);
             let message = format!(
-                "{role}: {} of {rows} missing, first in row {} of the part that is kept{}; {done}",
+                "{role}: {} of {rows} missing, first in data row {} of the part that is kept{}; {done}",
                 count(cells, "cell"),
                 first.start + 1,
                 beyond.map_or(String::new(), Beyond::among)
@@ -252,7 +252,7 @@ impl Beyond {
         );
         let allowed = format!("at most {LARGEST_VALUE:e} in SI units; check its unit and scale");
         Error::new(Kind::Value, found, allowed)
-            .at_row(self.row as u64)
+            .at_data_row(self.row as u64)
             .in_column(self.role.name())
     }
 }

@@ -107,7 +107,7 @@ impl Chosen {
         let values = &table.columns[column].values;
         if values.len() < clock.range.end {
             let found = format!(
-                "enable, column {}, has {}, and the record goes to row {}",
+                "enable, column {}, has {}, and the record goes to data row {}",
                 enable::place(table, column),
                 count(values.len(), "sample"),
                 clock.range.end

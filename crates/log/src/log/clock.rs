@@ -150,7 +150,7 @@ fn stamped(
         let found = format!("{} without a time stamp", count(stampless.len(), "row"));
         if share(&stampless) > MAX_DROPPED_SHARE {
             let allowed = "at most 5 % of the rows; give the rate instead of the time column";
-            return Err(Error::new(Kind::Time, found, allowed).at_row(first as u64 + 1));
+            return Err(Error::new(Kind::Time, found, allowed).at_data_row(first as u64 + 1));
         }
         let message = format!("{found}, first data row {}; dropped", first + 1);
         findings.push(Finding::new(Code::TimeMissing, Severity::Warning, message));
@@ -190,7 +190,7 @@ fn stamped(
                             short(rate)
                         ),
                     );
-                    return Err(error.at_row(first as u64 + 1));
+                    return Err(error.at_data_row(first as u64 + 1));
                 }
                 _ if let Some((clock, rows)) = &part => {
                     let at = |row: usize| short((range.start + row) as f64 / clock.rate_hz);
@@ -213,7 +213,7 @@ fn stamped(
                     .to_string(),
             };
             let error = Error::new(Kind::Time, found, allowed).settled(Settled::Elsewhere);
-            return Err(error.at_row(first as u64 + 1));
+            return Err(error.at_data_row(first as u64 + 1));
         }
         let message = format!(
             "{found}, first data row {} at {} s; the first of each is kept",
@@ -348,7 +348,7 @@ fn backward(raw: &[f64], row: usize, end: Option<f64>) -> Error {
         ),
         None => "increasing time stamps: sort the rows by them, or give the rate instead of the time column".into(),
     };
-    let error = Error::new(Kind::Time, found, allowed).at_row(row as u64 + 1);
+    let error = Error::new(Kind::Time, found, allowed).at_data_row(row as u64 + 1);
     match in_order {
         true => error.settled(Settled::Elsewhere),
         false => error,

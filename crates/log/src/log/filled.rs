@@ -50,7 +50,7 @@ pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Resul
             format!("0 or practically 0 (at most {})", short(largest))
         };
         let found = format!(
-            "{role} is {value} in {cells} of {} ({}), first in row {} of the part that is kept, between \
+            "{role} is {value} in {cells} of {} ({}), first in data row {} of the part that is kept, between \
              samples far from 0",
             count(rows, "sample"),
             Percent::error(100.0 * cells as f64 / rows as f64).short(),

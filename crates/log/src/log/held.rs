@@ -67,7 +67,8 @@ pub(super) fn meaned(force: &[f64], rows: usize) -> Vec<f64> {
 pub(super) fn finding(rows: usize, rate: f64) -> Finding {
     let message = format!(
         "the position is renewed once in {rows} rows only; the rows between are left out, their force goes into the mean, and the log \
-         is read at {} Hz",
+         is read at {} Hz. Nothing has to be done; for constants of the machine log at the rate of the encoder, or the position that the \
+         controller sees",
         full(rate / rows as f64)
     );
     Finding::new(Code::HeldPosition, Severity::Warning, message)

@@ -106,7 +106,7 @@ impl Joint<'_> {
         self.body
             .decimal
             .as_ref()
-            .map(|seen| format!("row {} ({})", seen.line, seen.text))
+            .map(|seen| format!("line {} ({})", seen.line, seen.text))
     }
 
     /// Joins the next block, which was read from `state` if it was read at all.
@@ -161,7 +161,7 @@ impl Joint<'_> {
         let samples: usize = body.columns.iter().map(Vec::len).sum();
         if samples as u64 > self.budget.samples() {
             let error = self.budget.too_many_samples(Some(self.expected(samples)));
-            return Err(error.at_row(first_line + block.lines));
+            return Err(error.at_line(first_line + block.lines));
         }
         let Some(stop) = block.stop.take() else {
             self.line += block.lines;
@@ -185,7 +185,7 @@ impl Joint<'_> {
     }
 
     fn explain(&self, stop: Stop) -> Error {
-        let error = stop.error.at_row(self.line);
+        let error = stop.error.at_line(self.line);
         match stop.column {
             Some(column) => error.in_column(self.layout.label(column)),
             None => error,

@@ -100,7 +100,7 @@ pub(super) fn layout(source: &Source, options: &TextOptions) -> Result<Layout, E
     let near = lines.iter().take_while(|l| l.start < SAMPLE_BYTES).count();
     let fit = best(&lines[..near], skip, source.row_end, options)?;
     if fit.width > MAX_COLUMNS {
-        return Err(problem::too_many_columns(fit.width).at_row(first_line(&lines, &fit)));
+        return Err(problem::too_many_columns(fit.width).at_line(first_line(&lines, &fit)));
     }
     let ends = Ends::new(fit.separator, source.row_end);
     let above = prologue::read(&lines, &fit, &ends, options)?;
@@ -119,11 +119,11 @@ pub(super) fn layout(source: &Source, options: &TextOptions) -> Result<Layout, E
             Kind::Ambiguous,
             format!("{} with decimal {}", other.seen.text, other.decimal),
             format!(
-                "numbers with decimal {} as in row {} ({}); the same mark throughout the file",
+                "numbers with decimal {} as in line {} ({}); the same mark throughout the file",
                 first.decimal, first.seen.line, first.seen.text
             ),
         )
-        .at_row(other.seen.line)
+        .at_line(other.seen.line)
         .in_column(label(other.column)));
     }
     if options.separator.is_none() && options.decimal.is_none() {
@@ -178,7 +178,7 @@ fn refuse_other_mark(
         let number = matches!(cell::classify(&cell.text), Cell::Number(..));
         if *role == Role::Text && number {
             let error = problem::wrong_cell(&cell.text, Some(decimal), None);
-            return Err((column, error.at_row(line.number)));
+            return Err((column, error.at_line(line.number)));
         }
     }
     Ok(())
@@ -265,7 +265,7 @@ fn best(lines: &[Line], skip: usize, row_end: u8, options: &TextOptions) -> Resu
                 "separator = \"comma\" or separator = \"blanks\" under [text] of the axis file",
             )
             .settled(Settled::InText)
-            .at_row(lines[row].number))
+            .at_line(lines[row].number))
         }
     }
 }

@@ -42,7 +42,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
             Role::Text => {
                 let seen = body.texts[c].as_ref();
                 let example = seen.map_or(String::new(), |s| {
-                    format!(" such as {} in row {}", s.text, s.line)
+                    format!(" such as {} in line {}", s.text, s.line)
                 });
                 table.skipped.push(format!("{label}: text{example}"));
                 left_out.push(c + 1);

@@ -72,7 +72,7 @@ pub(super) fn read(
         .last()
         .is_some_and(|f| f.open)
     {
-        return Err(problem::open_quote().at_row(lines[last].number));
+        return Err(problem::open_quote().at_line(lines[last].number));
     }
     let names = cells(last);
     let adjacent = last + 1 == first;
@@ -95,7 +95,7 @@ pub(super) fn read(
                     ),
                     "the same unit in both places, or in one of them only",
                 )
-                .at_row(lines[last].number)
+                .at_line(lines[last].number)
                 .in_column(problem::label(&titles[column].name, column)));
             }
             found.say_top(lines, before, "");
@@ -131,7 +131,7 @@ pub(super) fn read(
             ),
         )
         .settled(Settled::InText)
-        .at_row(lines[last].number));
+        .at_line(lines[last].number));
     }
     if adjacent
         && names.len() > 1
@@ -188,7 +188,7 @@ pub(super) fn wrong_header(line: u64, names: usize, fit: &Fit) -> Error {
         )
         .settled(Settled::InText),
     };
-    error.at_row(line)
+    error.at_line(line)
 }
 
 /// Whether these cells are names: text, and no numbers.
@@ -225,7 +225,7 @@ fn refuse_counted_row(lines: &[Line], fit: &Fit) -> Result<(), Error> {
         "header = true (column numbers) or header = false (a sample) under [text] of the axis file",
     )
     .settled(Settled::InText)
-    .at_row(line.number))
+    .at_line(line.number))
 }
 
 /// Refuses rows that could as well be numbers with a decimal comma.
@@ -275,6 +275,6 @@ pub(super) fn refuse_comma_twice(
         ),
     )
     .settled(Settled::InText)
-    .at_row(line.number)
+    .at_line(line.number)
     .in_column(column.to_string()))
 }

@@ -110,7 +110,7 @@ impl Header<'_> {
             names.pop();
         }
         if names.len() > MAX_COLUMNS {
-            return Err(problem::too_many_columns(names.len()).at_row(line.number));
+            return Err(problem::too_many_columns(names.len()).at_line(line.number));
         }
         let (first, samples) = self.first_row(&mut names)?;
         let keys: Vec<usize> = (0..names.len()).filter(|&c| names[c] == "Name").collect();
@@ -278,14 +278,14 @@ impl Header<'_> {
                 ),
                 _ => Error::new(Kind::Format, found, "one cell for each name"),
             }
-            .at_row(line));
+            .at_line(line));
         }
         Err(Error::new(
             Kind::Format,
             "channel names without samples below",
             "one row of numbers or more, one cell for each name",
         )
-        .at_row(number))
+        .at_line(number))
     }
 
     /// Where time columns seem not to be written: refuses samples that start with time stamps, since
@@ -320,7 +320,7 @@ impl Header<'_> {
             "samples of every channel in the first row, or an export without time columns whose \
              first channel is no time",
         )
-        .at_row(self.lines[first].number))
+        .at_line(self.lines[first].number))
     }
 
     /// The cells of the row with this key between the names and the samples.

@@ -782,7 +782,7 @@ fn infinite_numbers_are_named() {
     let said = message(&log, "missing-cells");
     assert!(
         said.starts_with(
-            "force: 2 cells of 300 missing, first in row 10 of the part that is kept, 1 of them beyond any \
+            "force: 2 cells of 300 missing, first in data row 10 of the part that is kept, 1 of them beyond any \
              measurement, as inf N in data row 10; "
         ),
         "{said}"

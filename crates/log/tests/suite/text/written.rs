@@ -193,7 +193,7 @@ fn text_columns_are_skipped_and_said() {
     assert_eq!(
         table.skipped,
         [
-            "phase: text such as `hold` in row 2",
+            "phase: text such as `hold` in line 2",
             "note: no number in any row"
         ]
     );
@@ -201,7 +201,7 @@ fn text_columns_are_skipped_and_said() {
     let table = detect("t;x\n0;0.5\n1;1,234.5\n2;2,345.5\n").unwrap();
     assert_eq!(
         table.skipped,
-        ["x: text such as `1,234.5` (digits must not be grouped) in row 3"]
+        ["x: text such as `1,234.5` (digits must not be grouped) in line 3"]
     );
 }
 
@@ -346,7 +346,7 @@ fn a_column_may_be_empty_for_long() {
         text += &format!("{i}.5,{word},{number}\n");
     }
     let table = detect(&text).unwrap();
-    assert_eq!(table.skipped, ["word: text such as `go` in row 60002"]);
+    assert_eq!(table.skipped, ["word: text such as `go` in line 60002"]);
     let number = &table.columns[1].values;
     assert_eq!(number.len(), 120_000);
     assert!(number[..60_000].iter().all(|v| v.is_nan()));
