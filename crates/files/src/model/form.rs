@@ -160,7 +160,8 @@ impl ModelFile {
                 .map(ModelParameter::from)
                 .collect(),
             covariance: of_the_machine(&result.covariance),
-            remaining: result.remaining.clone(),
+            // A unit that is wrong by many powers of ten gives sizes that no machine has, and a model with them would not be read.
+            remaining: result.remaining.clone().filter(super::read::is_read),
         }
     }
 

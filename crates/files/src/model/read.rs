@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::hash::sha256_of;
 use crate::result::{CovarianceEntry, PitchEntry, RangeEntry, RemainingEntry, ShapeEntry};
 use crate::symbols;
+use std::ops::RangeInclusive;
 use std::path::Path;
 use stiction_log::Motion;
 use stiction_parameters::Name;
@@ -474,25 +475,44 @@ fn remaining(table: &Table<'_>) -> Result<RemainingEntry, Error> {
     Ok(remaining)
 }
 
+/// Parts of a level.
+const PARTS: RangeInclusive<f64> = 0.0..=100.0;
+/// Forces, N (N m).
+const SIZES: RangeInclusive<f64> = 0.0..=1e15;
+/// Lengths, m (rad), and times, s.
+const EXTENTS: RangeInclusive<f64> = 1e-12..=1e12;
+
+/// Whether all sizes of what a law leaves are such as are read.
+pub(super) fn is_read(remaining: &RemainingEntry) -> bool {
+    let shapes = &remaining.shapes;
+    let mut sizes =
+        (shapes.iter().map(|shape| shape.force)).chain([remaining.place, remaining.wandering]);
+    let mut extents = (shapes.iter().flat_map(|shape| [shape.short, shape.long]))
+        .chain([remaining.place_length, remaining.memory]);
+    PARTS.contains(&remaining.level)
+        && sizes.all(|size| SIZES.contains(&size))
+        && extents.all(|extent| EXTENTS.contains(&extent))
+}
+
 /// A part of a level.
 fn part(table: &Table<'_>, key: &'static str) -> Result<f64, Error> {
-    within(table, key, 0.0..=100.0, "a number from 0 to 100")
+    within(table, key, PARTS, "a number from 0 to 100")
 }
 
 /// A force.
 fn size(table: &Table<'_>, key: &'static str) -> Result<f64, Error> {
-    within(table, key, 0.0..=1e15, "a number from 0 to 1e15")
+    within(table, key, SIZES, "a number from 0 to 1e15")
 }
 
 /// A length or a time.
 fn extent(table: &Table<'_>, key: &'static str) -> Result<f64, Error> {
-    within(table, key, 1e-12..=1e12, "a number from 1e-12 to 1e12")
+    within(table, key, EXTENTS, "a number from 1e-12 to 1e12")
 }
 
 fn within(
     table: &Table<'_>,
     key: &'static str,
-    range: std::ops::RangeInclusive<f64>,
+    range: RangeInclusive<f64>,
     allowed: &str,
 ) -> Result<f64, Error> {
     let given = table.required(key, table.get(key), allowed)?;

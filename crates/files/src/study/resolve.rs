@@ -25,6 +25,7 @@ use crate::config::{ANY_COUNT, Form, Source, Table};
 use crate::error::{Error, Warning};
 pub(super) use compensators::whole;
 pub(super) use dimensions::Dimensions;
+pub(super) use entry::MOST_WAY;
 use entry::{few, once, seen};
 use inputs::input;
 use std::path::Path;

@@ -1,7 +1,8 @@
 //! The study that an identification begins: its axis on motion like that of the log, without and with compensation.
 
 use super::model::is_simulated_law;
-use super::resolve::whole;
+use super::resolve::{MOST_WAY, whole};
+use crate::config::machine::{FORCES, MASSES};
 use crate::result::ResultFile;
 use crate::symbols;
 use std::f64::consts::TAU;
@@ -61,8 +62,10 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
     let slides = levels.all(|p| p.value > 0.0);
     let unit_fits = result.axis.force_unit == symbols::force_unit(shown.motion);
     let moves = seen.top_speed > 0.0 && shown.force > 0.0 && shown.rate >= LEAST_RATE;
+    // With a unit that is wrong by many powers of ten the study would be refused.
+    let is_credible = MASSES.contains(&mass) && FORCES.contains(&(LIMIT_OVER_FORCE * shown.force));
     let law = LawKind::from_name(&result.law).filter(|law| is_simulated_law(*law))?;
-    if !unit_fits || !slides || !moves {
+    if !unit_fits || !slides || !moves || !is_credible {
         return None;
     }
     // A count in a sample is a speed, and the speed gain is the mass times the bandwidth.
@@ -80,6 +83,9 @@ pub fn template(result: &ResultFile, shown: &Shown) -> Option<String> {
         frequency *= 2.0;
     }
     let amplitude = seen.top_speed / (TAU * frequency);
+    if 2.0 * amplitude > MOST_WAY {
+        return None;
+    }
     let (length, force) = (
         symbols::length_unit(shown.motion),
         symbols::force_unit(shown.motion),

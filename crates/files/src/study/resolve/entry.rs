@@ -14,7 +14,7 @@ pub(super) const MOST_SAMPLES: usize = 1_000_000;
 pub(super) const LEAST_SAMPLES: f64 = 10.0;
 
 /// Farthest way of a motion, m or rad, as that after which a position may repeat.
-pub(super) const MOST_WAY: f64 = 1e9;
+pub(in crate::study) const MOST_WAY: f64 = 1e9;
 
 /// Most samples at which a motion is evaluated to find how far it goes.
 const MOST_LOOKED_AT: f64 = 10_000.0;
