@@ -70,10 +70,11 @@ pub fn run(arguments: &Arguments) -> Exit {
         }
         let next = refused::next(&e, &arguments.command)
             .or_else(|| crate::next::corrected(&e))
-            .or_else(|| crate::next::not_regular(&e));
+            .or_else(|| crate::next::not_regular(&e))
+            .or_else(|| crate::usage::next(&e, &arguments.command))
+            .or_else(|| crate::usage::no_plan(&e, &arguments.command));
         if let Some(next) = next {
-            // As above.
-            let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&next));
+            output::complain(&next);
         }
         if common.json {
             let error = serde_json::json!({ "error": { "code": e.code(), "message": message } });
@@ -179,7 +180,7 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
                 let kept = arguments.filter(|a| next == Next::Again || a != "--no-finish");
                 let command = stiction::commands::text::command(kept);
                 let why = stiction::commands::text::why(next);
-                format!("next: {why}\n  {command}\n")
+                format!("{why}\nnext: {command}\n")
             }
             _ => {
                 let is_study = |path: &&PathBuf| path.ends_with("study.toml");

@@ -1,7 +1,7 @@
 //! Work that may be long: how large it is, what is kept of it while it lasts, how to go on.
 
 use crate::arguments::Common;
-use crate::output;
+use crate::{next, output};
 use std::io::Write;
 use std::path::Path;
 use stiction::Error;
@@ -62,9 +62,7 @@ pub fn how_to_resume() {
     let others = arguments.filter(|a| a != "--resume");
     let all = others.chain(["--resume".into()]);
     let command = stiction::commands::text::command(all);
-    let said = format!("next: {command} goes on where it was stopped");
-    // With standard error closed there is nowhere to say it.
-    let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
+    output::complain(&next::after("to go on where it was stopped:", &command));
 }
 
 /// The present command, which takes no runs of an earlier call.
@@ -72,7 +70,7 @@ pub fn anew() -> String {
     let arguments = std::env::args_os().skip(1);
     let arguments = arguments.map(|a| path_text(Path::new(&a)));
     let command = stiction::commands::text::command(arguments.filter(|a| a != "--resume"));
-    format!("next: {command} begins anew")
+    next::after("to begin anew:", &command)
 }
 
 /// The present command, which may simulate so many samples.
@@ -90,7 +88,7 @@ pub fn with_more_samples(needed: u64) -> String {
     }
     kept.extend([OPTION.into(), rounded_up(needed)]);
     let command = stiction::commands::text::command(kept.into_iter());
-    format!("next: {command}, or make it smaller")
+    next::after("make it smaller, or allow so many samples:", &command)
 }
 
 /// A number of two digits with a power of ten that is not below it.

@@ -14,6 +14,7 @@ mod panics;
 mod progress;
 mod refused;
 mod typed;
+mod usage;
 mod wording;
 
 use arguments::Arguments;
@@ -28,17 +29,20 @@ use std::process::ExitCode;
 #[global_allocator]
 static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
-/// What leads on from arguments that are missing.
+/// What leads on from arguments that are missing or cannot be read.
 fn led_on(error: &clap::Error) -> String {
     let is_missing = error.kind() == ErrorKind::MissingRequiredArgument;
-    let Some((refused, next)) = is_missing.then(next::incomplete).flatten() else {
+    let known = is_missing.then(next::incomplete).flatten();
+    let Some((refused, next)) = known.or_else(|| Some((None, usage::unread(error)?))) else {
         return String::new();
     };
     let mut text = String::from("\n");
     for (_, line) in refused.iter().flat_map(wording::lines) {
         let _ = writeln!(text, "stiction: {}", output::line(&line));
     }
-    let _ = writeln!(text, "stiction: {}", output::line(&next));
+    for line in next.lines() {
+        let _ = writeln!(text, "stiction: {}", output::line(line));
+    }
     text
 }
 

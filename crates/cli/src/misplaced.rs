@@ -1,5 +1,6 @@
 //! What to type next where a file is given to a command that is for another: a log to export, a result to identify.
 
+use crate::next::{after, in_turn};
 use crate::typed::Typed;
 use std::path::{Path, PathBuf};
 use stiction::commands::shell::{free_folder, quoted_path, text as path_text};
@@ -44,31 +45,31 @@ pub fn next(takes: Takes, file: &Path) -> Option<String> {
     let inside = |name: &str| quoted_path(&dir.join(name));
     let identified = || format!("stiction identify {path} --out {}", quoted_path(&dir));
     Some(match (takes, looks) {
-        (Takes::Model, Looks::Log) => format!(
-            "next: {}, then: stiction export {} --target c --out {}",
-            identified(),
-            inside("model.toml"),
-            quoted_path(&free_folder(&dir.join("c")))
+        (Takes::Model, Looks::Log) => in_turn(
+            &identified(),
+            &format!(
+                "stiction export {} --target c --out {}",
+                inside("model.toml"),
+                quoted_path(&free_folder(&dir.join("c")))
+            ),
         ),
-        (Takes::Study, Looks::Log) => format!(
-            "next: {}, then: stiction simulate {} --out {}",
-            identified(),
-            inside("study.toml"),
-            inside("study")
+        (Takes::Study, Looks::Log) => in_turn(
+            &identified(),
+            &format!(
+                "stiction simulate {} --out {}",
+                inside("study.toml"),
+                inside("study")
+            ),
         ),
         (Takes::Axis, Looks::Log) => {
             let axis = quoted_path(&file.with_extension("axis.toml"));
             format!(
-                "next: stiction check {path} --init {axis}, then, with what the axis may do under [limits] of it (docs/plan.md): \
-                 stiction plan {axis} --log {path} --out {}",
+                "next: stiction check {path} --init {axis}\nwith what the axis may do under [limits] of it (docs/plan.md),\n\
+                 then: stiction plan {axis} --log {path} --out {}",
                 beside("plan")
             )
         }
-        (Takes::Table, Looks::Log) => format!(
-            "next, with every log that is to be followed: stiction batch {path} --law lugre --out {}, then: stiction drift {}",
-            beside("batch"),
-            quoted_path(&file.with_file_name("batch").join("results.parquet"))
-        ),
+        (Takes::Table, Looks::Log) => followed(&path, &file.with_file_name("batch")),
         (Takes::Logs, Looks::Model) => exported(file),
         (Takes::Logs, Looks::Result) => match file.with_file_name("model.toml") {
             model if model.is_file() => exported(&model),
@@ -79,8 +80,13 @@ pub fn next(takes: Takes, file: &Path) -> Option<String> {
         }
         (Takes::Logs, Looks::Axis) => {
             let listed = Axis::read(file).is_ok_and(|axis| !axis.logs.is_empty());
-            let log = if listed { "" } else { " LOG" };
-            format!("next: stiction check{log} --axis {path}")
+            match listed {
+                true => format!("next: stiction check --axis {path}"),
+                false => after(
+                    &format!("with the path of the log in place of {A_LOG}:"),
+                    &format!("stiction check {A_LOG} --axis {path}"),
+                ),
+            }
         }
         (Takes::Table, Looks::Result) => {
             let logs = logs_of(file).join(" ");
@@ -89,18 +95,13 @@ pub fn next(takes: Takes, file: &Path) -> Option<String> {
             }
             // Not in the folder of the result, which holds that of one log.
             let out = file.parent()?.with_file_name("batch");
-            format!(
-                "next, with every log that is to be followed beside it: stiction batch {logs} --law lugre --out {}, then: stiction \
-                 drift {}",
-                quoted_path(&out),
-                quoted_path(&out.join("results.parquet"))
-            )
+            followed(&logs, &out)
         }
         (Takes::Study, Looks::Model) => {
             let study = beside("study.toml");
-            format!(
-                "next: stiction simulate --init {study} --model {path}, then: stiction simulate {study} --out {}",
-                beside("study")
+            in_turn(
+                &format!("stiction simulate --init {study} --model {path}"),
+                &format!("stiction simulate {study} --out {}", beside("study")),
             )
         }
         _ => return None,
@@ -144,6 +145,20 @@ fn logs_of(result: &Path) -> Vec<String> {
     let paths = inputs.iter().filter_map(|input| input["path"].as_str());
     let paths = paths.map(Path::new).filter(|path| path.is_file());
     paths.map(quoted_path).collect()
+}
+
+/// What a log that was not named is called in commands.
+const A_LOG: &str = "log.csv";
+
+/// The batch that makes a table of logs, and what follows it.
+fn followed(logs: &str, out: &Path) -> String {
+    let [table, out] = [&out.join("results.parquet"), out].map(quoted_path);
+    let batch = format!("stiction batch {logs} --law lugre --out {out}");
+    let drift = format!("stiction drift {table}");
+    format!(
+        "with every log that is to be followed:\n{}",
+        in_turn(&batch, &drift)
+    )
 }
 
 fn exported(model: &Path) -> String {

@@ -13,6 +13,21 @@ use stiction::commands::{
 };
 use stiction::{Axis, Code, Error, ModelFile};
 
+/// What is to be known or done first, on a line of its own, and a command alone behind `next:`, to be pasted as it stands.
+pub fn after(first: &str, command: &str) -> String {
+    format!("{first}\nnext: {command}")
+}
+
+/// The same of two commands.
+pub fn either(first: &str, command: &str, second: &str, other: &str) -> String {
+    format!("{}\n{}", after(first, command), after(second, other))
+}
+
+/// Two commands, one after the other.
+pub fn in_turn(command: &str, then: &str) -> String {
+    format!("next: {command}\nthen: {then}")
+}
+
 /// What leads on from an input that is not there: the same command with the file that was probably meant, or a look at the folder.
 pub fn missing(error: &Error) -> Option<String> {
     let listed;
@@ -38,12 +53,14 @@ pub fn not_there(path: &Path) -> Option<String> {
     let folder = folder(path);
     if let Some(meant) = meant(path, folder) {
         if !std::env::args_os().any(|argument| Path::new(&argument) == path) {
-            let meant = quoted_path(&meant);
-            return Some(format!("next: was another file meant? {meant}"));
+            return Some(after(
+                &format!("was {} meant? Name it there, then", quoted_path(&meant)),
+                &again(),
+            ));
         }
         let arguments = with(path, &meant);
         let command = stiction::commands::text::command(arguments.into_iter());
-        return Some(format!("next: was another file meant? {command}"));
+        return Some(after("was another file meant?", &command));
     }
     shown(folder)
 }
@@ -51,9 +68,9 @@ pub fn not_there(path: &Path) -> Option<String> {
 /// The command that shows what is in a folder, or in the nearest one above it that is there.
 pub fn shown(folder: &Path) -> Option<String> {
     let there = folder.ancestors().map(or_here).find(|dir| dir.is_dir())?;
-    Some(format!(
-        "next: ls {} shows which files there are",
-        quoted_path(there)
+    Some(after(
+        "which files there are:",
+        &format!("ls {}", quoted_path(there)),
     ))
 }
 
@@ -81,7 +98,7 @@ pub fn no_folder(error: &Error) -> Option<String> {
     };
     let folder = folder(path);
     let is_missing = folder.symlink_metadata().is_err() && path.symlink_metadata().is_err();
-    is_missing.then(|| format!("next: mkdir -p {}, then: {}", quoted_path(folder), again()))
+    is_missing.then(|| format!("next: mkdir -p {} && {}", quoted_path(folder), again()))
 }
 
 /// What leads on from a batch of a folder that holds no logs, or the result of an earlier command.
@@ -117,9 +134,9 @@ pub fn table_as_log(error: &Error) -> Option<String> {
     let is_table = |file: &&Path| file.extension().is_some_and(|end| end == "parquet");
     let file = e.file.as_deref().filter(is_table)?;
     stiction::commands::drift::drift(file, &[]).ok()?;
-    Some(format!(
-        "next, since it is a table that stiction batch writes: stiction drift {}",
-        quoted_path(file)
+    Some(after(
+        "it is a table that stiction batch writes:",
+        &format!("stiction drift {}", quoted_path(file)),
     ))
 }
 
@@ -159,9 +176,9 @@ fn for_axis(file: &Path) -> Option<String> {
         .filter(|_| given && takes == misplaced::Takes::Logs)?;
     let log = path_text(log);
     let axis = stiction::commands::shell::new_axis_file(Path::new(&log));
-    Some(format!(
-        "next, for an axis file of that log: stiction check {} --init {axis}",
-        stiction::commands::shell::quoted(&log)
+    Some(after(
+        "for an axis file of that log:",
+        &format!("stiction check {} --init {axis}", quoted(&log)),
     ))
 }
 
@@ -198,10 +215,9 @@ pub fn corrected(error: &Error) -> Option<String> {
         format!("{}{place}", quoted_path(file))
     });
     let places: Vec<String> = places.collect();
-    Some(format!(
-        "next: correct {}, then: {}",
-        places.join(" and "),
-        again()
+    Some(after(
+        &format!("correct {}, then", places.join(" and ")),
+        &again(),
     ))
 }
 
@@ -221,9 +237,12 @@ pub fn another_init(error: &Error, file: &Path, log: &Path) -> Option<String> {
     if Axis::read(file).is_err() {
         return Some(format!("next: {begun}"));
     }
-    Some(format!(
-        "next, where that is the axis file of this log: stiction check {log_as_typed} --axis {}, else: {begun}",
-        quoted_path(file)
+    let own = format!("stiction check {log_as_typed} --axis {}", quoted_path(file));
+    Some(either(
+        "where that is the axis file of this log:",
+        &own,
+        "else:",
+        &begun,
     ))
 }
 
@@ -265,7 +284,7 @@ fn all_of(folder: &Path, logs: &[PathBuf]) -> Option<String> {
         false => command.extend(out),
     }
     let command = stiction::commands::text::command(command.into_iter());
-    Some(format!("next, for every log of the folder: {command}"))
+    Some(after("for every log of the folder:", &command))
 }
 
 /// What leads on from a folder without a table of results: one in a folder below it, else what makes one of the logs in it.
@@ -287,11 +306,13 @@ pub fn table(error: &Error, folder: &Path) -> Option<String> {
         return misplaced::inside(misplaced::Takes::Table, folder);
     }
     let out = beside(folder, "batch");
+    let table = out.join("results.parquet");
+    let [folder, out, table] = [folder, &out, &table].map(quoted_path);
+    let batch = format!("stiction batch {folder} --law lugre --out {out}");
+    let drift = format!("stiction drift {table}");
     Some(format!(
-        "next, where it is a folder of logs: stiction batch {} --law lugre --out {}, then: stiction drift {}",
-        quoted_path(folder),
-        quoted_path(&out),
-        quoted_path(&out.join("results.parquet"))
+        "where it is a folder of logs:\n{}",
+        in_turn(&batch, &drift)
     ))
 }
 
@@ -313,17 +334,16 @@ pub fn not_followed(error: &Error, table: &Path, has_limit: bool) -> Option<Stri
         // What is wrong is a limit that was typed.
         let limit = quoted(&format!("{parameter} > 1.3"));
         let table = quoted_path(table);
-        return Some(format!(
-            "next, as an example: stiction drift {table} --limit {limit}"
-        ));
+        let example = format!("stiction drift {table} --limit {limit}");
+        return Some(after("as an example:", &example));
     }
     let row = first?;
     let axis = row
         .axis
         .map_or(String::new(), |axis| format!(" --axis {}", quoted(&axis)));
-    Some(format!(
-        "next, to see what the first log shows: stiction check {}{axis}",
-        quoted(&row.path)
+    Some(after(
+        "what the first log shows:",
+        &format!("stiction check {}{axis}", quoted(&row.path)),
     ))
 }
 
@@ -386,12 +406,15 @@ pub fn begun(log: &Path) -> String {
     let log_as_typed = quoted_path(log);
     let file = stiction::commands::text::axis_file(&path_text(log));
     let new = stiction::commands::shell::new_axis_file(log);
-    let begin = "for an axis file with the columns that are clear filled in";
+    let begin = "for an axis file with the columns that are clear filled in:";
+    let command = format!("stiction check {log_as_typed} --init {new}");
     match file == new {
-        true => format!("next, {begin}: stiction check {log_as_typed} --init {file}"),
-        false => format!(
-            "next, where {file} is the axis file of this log: stiction check {log_as_typed} --axis {file}, else, {begin}: \
-             stiction check {log_as_typed} --init {new}"
+        true => after(begin, &command),
+        false => either(
+            &format!("where {file} is the axis file of this log:"),
+            &format!("stiction check {log_as_typed} --axis {file}"),
+            &format!("else, {begin}"),
+            &command,
         ),
     }
 }
@@ -557,10 +580,12 @@ pub fn no_room(error: &Error) -> Option<String> {
     if folders.any(has_runs) && !arguments.contains(&resume) {
         arguments.push(resume);
     }
-    Some(format!(
-        "next: make room (df -h {} shows how much there is), then {}",
-        quoted_path(there),
-        stiction::commands::text::command(arguments.into_iter())
+    Some(after(
+        &format!(
+            "make room (df -h {} shows how much there is), then",
+            quoted_path(there)
+        ),
+        &stiction::commands::text::command(arguments.into_iter()),
     ))
 }
 

@@ -68,6 +68,14 @@ pub fn line(text: &str) -> String {
     plain(text).replace('\n', "\\n")
 }
 
+/// Writes lines to standard error, each behind the name of the program.
+pub fn complain(lines: &str) {
+    for said in lines.lines() {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(std::io::stderr(), "stiction: {}", line(said));
+    }
+}
+
 fn escaped(
     text: &str,
     steers: impl Fn(char) -> bool,

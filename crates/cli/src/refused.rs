@@ -3,6 +3,7 @@
 use crate::arguments::{self, Command};
 use crate::commands::{law, method};
 use crate::large;
+use crate::next::after;
 use crate::output;
 use crate::wording;
 use std::io::Write;
@@ -66,14 +67,16 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
         });
         let rough = rough.map(|file| {
             format!(
-                "leave resolution out of [log] of {} unless it is one encoder count: what moves by less does not move. ",
+                "leave resolution out of [log] of {} unless it is one encoder count: what moves by less does not move; ",
                 typed(file)
             )
         });
-        return Some(format!(
-            "next: {}stiction check{log}{} shows what was read as position and force",
-            rough.unwrap_or_default(),
-            axis.collect::<String>()
+        return Some(after(
+            &format!(
+                "{}what was read as position and force:",
+                rough.unwrap_or_default()
+            ),
+            &format!("stiction check{log}{}", axis.collect::<String>()),
         ));
     }
     if let Command::Identify(identify) = command
@@ -84,7 +87,7 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
             looked_at(
                 std::slice::from_ref(log),
                 identify,
-                "shows which channels it has: logs that are fitted together have the same",
+                "which channels it has (logs that are fitted together have the same):",
             )
         });
     }
@@ -100,7 +103,7 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
     {
         return Some(shown(
             identify,
-            "shows how the force runs, and what else the log is good for",
+            "how the force runs, and what else the log is good for:",
         ));
     }
     if let Command::Identify(identify) = command
@@ -109,7 +112,7 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
         return Some(looked_at(
             &identify.break_away,
             identify,
-            "shows what the log is good for; what to record instead: docs/procedures.md",
+            "what to record instead is in docs/procedures.md; what the log is good for:",
         ));
     }
     if let Command::Check(check) = command
@@ -146,7 +149,12 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
     if let Some(next) = crate::next::no_file(error) {
         return Some(next);
     }
+    let first;
     let (logs, axis) = match command {
+        Command::Plan(plan) => {
+            first = (Vec::from_iter(plan.log.clone()), Some(plan.axis.clone()));
+            (&first.0, &first.1)
+        }
         Command::Check(check) if check.init.is_none() || axis_is_no_way_out(error) => {
             (&check.logs, &check.axis)
         }
@@ -171,17 +179,36 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
         .as_deref()
         .filter(|_| unclear && crate::next::corrected(error).is_none())
     {
-        return Some(format!(
-            "next, with {} in {}: {}",
-            match wording::lines(error).len() {
-                1 => "that line",
-                _ => "those lines",
-            },
-            typed(axis),
-            crate::next::again()
+        let lines = match wording::lines(error).len() {
+            1 => "that line",
+            _ => "those lines",
+        };
+        return Some(after(
+            &format!("with {lines} in {}:", typed(axis)),
+            &crate::next::again(),
         ));
     }
-    let log = faulty(logs, error).filter(|_| unclear && axis.is_none())?;
+    if let Command::Plan(plan) = command
+        && let Some(log) = plan.log.as_deref()
+        && !matches!(error, Error::File(FileError::Config { .. }))
+        && begins_with(&wording::message(error), log)
+        && error.code() != Code::Usage
+    {
+        let check = format!("stiction check {} --axis {}", typed(log), typed(&plan.axis));
+        return Some(after("what the log shows:", &check));
+    }
+    // Of a time or of values by which no axis moves the axis file gives the unit.
+    let is_scaled = matches!(error.code(), Code::LogTime | Code::LogValue);
+    if let Some(axis) = axis
+        .as_deref()
+        .filter(|_| is_scaled && crate::next::corrected(error).is_none())
+    {
+        return Some(after(
+            &format!("correct {} as said above, then", typed(axis)),
+            &crate::next::again(),
+        ));
+    }
+    let log = faulty(logs, error).filter(|_| (unclear || is_scaled) && axis.is_none())?;
     Some(crate::next::begun(log))
 }
 
@@ -217,20 +244,28 @@ fn unread(error: &stiction::commands::LogError, logs: &[PathBuf], axis: Option<&
             Settled::InText => "[text] and that line",
             Settled::Elsewhere => "that line",
         };
-        return format!("next, with {line} in {file}: {check} --axis {file}");
+        return after(
+            &format!("with {line} in {file}:"),
+            &format!("{check} --axis {file}"),
+        );
     }
     if let Some(axis) = axis {
         check.push_str(&format!(" --axis {}", typed(axis)));
     }
-    format!("next, once the file is mended: {check}")
+    after("once the file is mended:", &check)
 }
 
 /// The log that an error begins with, and else the first.
 fn faulty<'a>(logs: &'a [PathBuf], error: &Error) -> Option<&'a PathBuf> {
     let message = wording::message(error);
-    let begins = |path: String| message.starts_with(&format!("{path}:"));
-    let faulty = |log: &&PathBuf| begins(log.display().to_string()) || begins(path_text(log));
+    let faulty = |log: &&PathBuf| begins_with(&message, log);
     logs.iter().find(faulty).or(logs.first())
+}
+
+/// Whether a message is about a file.
+fn begins_with(message: &str, file: &Path) -> bool {
+    let begins = |path: String| message.starts_with(&format!("{path}:"));
+    begins(file.display().to_string()) || begins(path_text(file))
 }
 
 fn is_search(typed: arguments::Method) -> bool {
@@ -254,9 +289,11 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
         let motion = motion.unwrap_or_else(|| crate::next::motion_of_min_speed(axis));
         if let Some(line) = stiction::commands::lowered(losses, needed, decimate, motion) {
             let key = line.split(' ').next().unwrap_or_default();
-            return Some(format!(
-                "next: in {file}, under [conditioning], in place of the line {key} write {line}, or leave it out, then: {}",
-                crate::next::again()
+            return Some(after(
+                &format!(
+                    "in {file}, under [conditioning], in place of the line {key} write {line}, or leave it out, then"
+                ),
+                &crate::next::again(),
             ));
         }
     }
@@ -264,9 +301,12 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
         && Axis::read(axis).is_ok_and(|axis| axis.mapping.force_limit.is_some())
         && losses.excluded * losses.decimate.max(1) > losses.logged / 2
     {
-        return Some(format!(
-            "next: raise force_limit in [log] of {}, or leave it out: samples at or above it are saturated and not fitted",
-            typed(axis)
+        return Some(after(
+            &format!(
+                "raise force_limit in [log] of {}, or leave it out: samples at or above it are saturated and not fitted; then",
+                typed(axis)
+            ),
+            &crate::next::again(),
         ));
     }
     // A simulation drops the stretches between gaps that are too short, as filters do.
@@ -274,7 +314,7 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
     simulated(identify).filter(|_| is_long).or_else(|| {
         Some(shown(
             identify,
-            "says what the log shows, and what motion to record instead",
+            "what the log shows, and what motion to record instead:",
         ))
     })
 }
@@ -286,14 +326,14 @@ fn shown(identify: &arguments::Identify, what: &str) -> String {
 
 /// The same of some of its logs.
 fn looked_at(logs: &[PathBuf], identify: &arguments::Identify, what: &str) -> String {
-    let mut next = String::from("next: stiction check");
+    let mut check = String::from("stiction check");
     for log in logs {
-        next.push_str(&format!(" {}", typed(log)));
+        check.push_str(&format!(" {}", typed(log)));
     }
     if let Some(axis) = &identify.axis {
-        next.push_str(&format!(" --axis {}", typed(axis)));
+        check.push_str(&format!(" --axis {}", typed(axis)));
     }
-    format!("{next} {what}")
+    after(what, &check)
 }
 
 /// The same identification by simulation, which filters nothing and needs fewer samples; for a law that can be simulated.

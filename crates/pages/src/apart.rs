@@ -34,7 +34,7 @@ pub(crate) fn look(all: &[Apart]) -> Option<String> {
     let axis = found.axis.as_ref();
     let axis = axis.map_or(String::new(), |axis| format!(" --axis {}", quoted(axis)));
     Some(format!(
-        "next: compare the units of the two logs, and give the right one in an axis file of that log\n  stiction check {} {}{axis}\n",
+        "compare the units of the two logs, and give the right one in an axis file of that log:\nnext: stiction check {} {}{axis}\n",
         quoted(&found.least_log),
         quoted(&found.most_log)
     ))

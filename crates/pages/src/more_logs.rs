@@ -22,7 +22,7 @@ pub(crate) fn more_logs(batch: &BatchFile, dir: &Path) -> String {
         ),
     };
     format!(
-        "next: {} logs of one machine are followed at least, and {} were identified: {where_to}, then\n  {}\n  stiction drift {table}\n",
+        "{} logs of one machine are followed at least, and {} were identified: {where_to}, then\nnext: {}\nthen: stiction drift {table}\n",
         least_logs(),
         batch.identified,
         batch.command_with(dir, another)

@@ -47,6 +47,8 @@ pub(crate) struct Cured {
     pub line: Option<String>,
     /// The command that then takes it in.
     pub command: String,
+    /// Whether all that is worth a try has been tried, and the command is the one that uses the law.
+    pub ends: bool,
 }
 
 /// What is worth a try before a law is used: a law that holds better, which leaves something else, or what takes the cause of what
@@ -58,7 +60,7 @@ pub(crate) fn to_try(result: &ResultFile, dir: &Path) -> Option<Cured> {
 }
 
 /// Where elements were asked for and one bristle holds better: what the shape of one bristle leads to is then no better than it,
-/// and a command that leads back would go round in a circle.
+/// and a command that leads back, or to a check that leads to the same identification, would go round in a circle.
 fn tried(result: &ResultFile, dir: &Path) -> Option<Cured> {
     let better = result.trust.better.as_ref()?;
     let back = self::better(result, dir)?.command;
@@ -80,10 +82,11 @@ fn tried(result: &ResultFile, dir: &Path) -> Option<Cured> {
             "{own} holds worse than {other} ({mine} against {least} on held-out samples). Where the shape of {other} led here, both \
              are tried and neither is that of the axis: compensate with the result of {other} (without one: {back}), and look for what is left in the \
              drive train, in the instants of force and position or in forces that the log has not, rather than in another law. \
-             See what the log shows of that"
+             To compensate with this law all the same"
         ),
         line: None,
-        command: format!("stiction check{}{}", logs(result), axis_option(result)),
+        command: command(result, dir),
+        ends: true,
     })
 }
 
@@ -105,6 +108,7 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                 what: format!("{}; try the law {law}", cause.text),
                 line: None,
                 command: format!("stiction identify{logs}{axis} --law {law}{sides} --out {out}"),
+                ends: false,
             }
         }
         Cure::Line {
@@ -135,6 +139,7 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                 ),
                 line: Some(line.clone()),
                 command: format!("stiction identify{logs} --axis {file}{law} --out {out}"),
+                ends: false,
             }
         }
     })
@@ -165,6 +170,7 @@ fn better(result: &ResultFile, dir: &Path) -> Option<Cured> {
         what: format!("the law {law} holds better on held-out samples"),
         line: None,
         command: format!("stiction identify{logs}{axis} --law {law}{option} --out {out}"),
+        ends: false,
     })
 }
 

@@ -295,12 +295,13 @@ fn next_step(result: &ResultFile, folder: &Path) -> Text {
         return Text::from(format!("Next: {as_it_is}")).code(command_as_it_is);
     };
     let line = cured.line.map_or(String::new(), |line| format!(" {line}"));
+    let ends = cured.ends;
     let cured = Text::from(format!(
         "Next: {}{line}. In the folder it was identified in: ",
         cured.what
     ))
     .code(cured.command);
-    match result.trust.trustworthy {
+    match result.trust.trustworthy && !ends {
         true => cured
             .plain(format!(" Or without it: {as_it_is}"))
             .code(command_as_it_is),

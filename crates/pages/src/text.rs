@@ -240,14 +240,14 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
     }
     let (why, command) = (next::why(result.trust.next), next::command(result, dir));
     let _ = match next::to_try(result, dir) {
-        None => writeln!(out, "next: {why}\n  {command}"),
+        None => writeln!(out, "{why}\nnext: {command}"),
         Some(cured) => {
-            let _ = writeln!(out, "next: {}", cured.what);
+            let _ = writeln!(out, "{}", cured.what);
             if let Some(line) = cured.line {
-                let _ = writeln!(out, "    {line}\n  and");
+                let _ = writeln!(out, "    {line}\nand");
             }
-            let _ = writeln!(out, "  {}", cured.command);
-            match result.trust.trustworthy {
+            let _ = writeln!(out, "next: {}", cured.command);
+            match result.trust.trustworthy && !cured.ends {
                 true => writeln!(out, "or without it: {why}\n  {command}"),
                 false => Ok(()),
             }

@@ -90,7 +90,7 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
             .find_map(|none| without(none, &typed.inputs, &logs, &failed));
         if let Some(command) = left {
             output::print(&format!(
-                "next, where that is no log, to leave it out: {command}\n"
+                "where that is no log, to leave it out:\nnext: {command}\n"
             ))?;
         }
     }

@@ -30,8 +30,10 @@ pub fn run(typed: &arguments::Drift, common: &Common) -> Result<Exit, Error> {
         output::json(&outcome.file)?;
     } else if !common.quiet {
         let text = stiction::commands::text::drift(&outcome.file, typed.out.as_deref());
-        // What leads on stays the last line.
-        let (said, next) = text.split_at(text.find("next: ").unwrap_or(text.len()));
+        // What leads on stays last, with the line above it that says what for.
+        let line = |at: usize| text[..at].rfind('\n').map_or(0, |before| before + 1);
+        let at = text.find("\nnext: ").map_or(text.len(), line);
+        let (said, next) = text.split_at(at);
         output::print(&format!("{said}{written}{next}"))?;
     }
     Ok(stiction::commands::verdict::of_drift(&outcome.file).into())

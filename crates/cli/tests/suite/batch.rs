@@ -225,8 +225,8 @@ fn a_list_says_of_which_machine_and_when_a_log_is() {
     assert_eq!((code, out.as_str()), (2, ""));
     assert_eq!(
         err,
-        "stiction: [bad-config] list.csv: row 2, column time: \"noon\"; a time in ISO 8601, as 2026-03-01T06:30:00Z, or a number of seconds\n\
-         stiction: next: correct list.csv, then: stiction batch list.csv --out out\n"
+        "stiction: [bad-config] list.csv: line 2, column time: \"noon\"; a time in ISO 8601, as 2026-03-01T06:30:00Z, or a number of seconds\n\
+         stiction: correct list.csv, then\nstiction: next: stiction batch list.csv --out out\n"
     );
     for (input, said) in [
         ("nowhere", "[log-io] nowhere: cannot be read"),
@@ -298,7 +298,7 @@ fn ctrl_c_keeps_what_is_done_and_says_how_to_go_on() {
     let (_, (code, out, err)) = crate::interrupted(command);
     assert_eq!(code, 130, "{out}{err}");
     assert!(out.contains("not done"), "{out}");
-    assert!(err.ends_with("next: stiction batch logs --out out --threads 1 --resume goes on where it was stopped\n"), "{err}");
+    assert!(err.ends_with("to go on where it was stopped:\nstiction: next: stiction batch logs --out out --threads 1 --resume\n"), "{err}");
     assert!(!bench.path("out/results.parquet").exists());
     let summary = fs::read_to_string(bench.path("out/batch.json")).unwrap();
     assert!(summary.contains("\"status\": \"interrupted\""));

@@ -666,13 +666,13 @@ fn too_few_samples_lead_where_there_are_more() {
     for (asked, next) in [
         (
             &["long.csv", "--axis", "decimate.toml"][..],
-            "next: in decimate.toml, under [conditioning], in place of the line decimate write decimate = 10",
+            "in decimate.toml, under [conditioning], in place of the line decimate write decimate = 10",
         ),
         (
             &["long.csv", "--axis", "slow.toml"],
-            "next: in slow.toml, under [conditioning], in place of the line min_speed write min_speed = \"0.002 m/s\"",
+            "in slow.toml, under [conditioning], in place of the line min_speed write min_speed = \"0.002 m/s\"",
         ),
-        (&["few.csv"], "next: stiction check few.csv says"),
+        (&["few.csv"], "next: stiction check few.csv\n"),
     ] {
         let asked = [&["identify"], asked, &["--out", "out"]].concat();
         let (code, _, err) = bench.run(&asked);

@@ -100,7 +100,7 @@ fn what_is_quiet_is_said_and_ends_well() {
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
     assert!(out.contains("\nnothing changed\n"), "{out}");
     assert!(
-        out.ends_with("  stiction drift results.parquet --out drift\n"),
+        out.ends_with("next: stiction drift results.parquet --out drift\n"),
         "{out}"
     );
     table(folder.path(), 2, 9, false);

@@ -306,11 +306,13 @@ fn a_file_in_the_wrong_place_leads_to_commands_that_work() {
         }
         let err = bench.refused(arguments);
         said += &err;
-        let Some(next) = err.lines().find_map(|line| line.split_once("next")) else {
-            continue;
-        };
-        for command in next.1.split("stiction ").skip(1).filter(|_| works) {
-            let words: Vec<&str> = command.trim_end_matches(", then: ").split(' ').collect();
+        let commands = err.lines().filter_map(|line| {
+            let line = line.strip_prefix("stiction: ")?;
+            line.strip_prefix("next: stiction ")
+                .or(line.strip_prefix("then: stiction "))
+        });
+        for command in commands.filter(|_| works) {
+            let words: Vec<&str> = command.split(' ').collect();
             let (code, _, err) = bench.run(&words);
             assert!(code < 2, "{words:?}: {err}");
         }
@@ -770,6 +772,9 @@ fn a_counter_that_overflows_is_not_trusted() {
         let line = "write wrap = \"65536 counts\" under [log] in my.toml";
         assert!(format!("{out}{err}").contains(line), "{out}{err}");
         let (_, out, _) = bench.run(&["check", "counts.csv", "--axis", "my.toml"]);
-        assert!(out.contains("next: correct my.toml as said above"), "{out}");
+        assert!(
+            out.contains("  correct my.toml as said above, then\n  next: stiction "),
+            "{out}"
+        );
     }
 }

@@ -31,15 +31,15 @@ struct Lead {
 
 impl Lead {
     fn of(out: &str) -> Self {
-        let (_, next) = out.rsplit_once("\nnext: ").unwrap();
-        let command = next
-            .lines()
-            .find_map(|line| line.trim().strip_prefix("stiction "));
-        let mut lines = next.lines();
-        let line = lines.find_map(|line| line.strip_prefix("    "));
+        let (said, next) = out.rsplit_once("\nnext: stiction ").unwrap();
+        let above: Vec<&str> = said.lines().rev().take(3).collect();
+        let line = match above[0] {
+            "and" => above[1].strip_prefix("    "),
+            _ => None,
+        };
         Self {
-            command: command.unwrap().to_owned(),
-            line: line.map(|line| (line.to_owned(), next.contains("in place of the line"))),
+            command: next.lines().next().unwrap().to_owned(),
+            line: line.map(|line| (line.to_owned(), above[2].contains("in place of the line"))),
         }
     }
 
@@ -197,8 +197,8 @@ fn of_validation_on_logs_that_show_nothing() {
         assert_eq!(output.status.code(), Some(1), "{out}");
         assert!(!out.contains(['\u{1b}', '\u{10ffff}']), "{out}");
         let (_, next) = out.rsplit_once("\nnext: ").unwrap();
-        let line = next.lines().nth(1).unwrap();
-        assert!(line.trim().starts_with("stiction check "), "{out}");
+        let line = next.lines().next().unwrap();
+        assert!(line.starts_with("stiction check "), "{out}");
         pasted(dir.path(), line);
     }
 }
@@ -256,7 +256,7 @@ fn of_what_cannot_be_combined() {
         (
             "identify log.csv speed.csv --out out",
             "log.csv: a fit together with a log that has no position needs a velocity channel",
-            "next: stiction check log.csv shows which channels it has",
+            "which channels it has (logs that are fitted together have the same):\nstiction: next: stiction check log.csv\n",
         ),
     ] {
         let output = Command::new(env!("CARGO_BIN_EXE_stiction"))

@@ -16,6 +16,8 @@ mod nameplate;
 mod onward;
 mod page;
 mod paper;
+#[cfg(unix)]
+mod pasted;
 mod plan;
 mod procedures;
 #[cfg(unix)]

@@ -30,10 +30,9 @@ fn run(folder: &Path, line: &str) -> (i32, String, String) {
 
 /// The command behind the last `next`.
 fn next(said: &str) -> String {
-    let (_, next) = said.rsplit_once("next").unwrap_or_else(|| panic!("{said}"));
-    let at = next.find("stiction ").unwrap_or_else(|| panic!("{said}"));
-    let line = next[at + "stiction ".len()..].lines().next();
-    line.unwrap().to_owned()
+    let next = said.rsplit_once("next: stiction ");
+    let (_, next) = next.unwrap_or_else(|| panic!("{said}"));
+    next.lines().next().unwrap().to_owned()
 }
 
 #[test]
@@ -87,7 +86,7 @@ fn a_log_that_is_only_validated_on_leads_to_all_that_are_listed() {
     std::fs::write(at.join("alone.toml"), alone).unwrap();
     let (_, out, _) = run(at, "check --axis alone.toml");
     assert!(
-        out.contains("next: leave validate = \"all\" out of [[log]]"),
+        out.contains("  leave validate = \"all\" out of [[log]]"),
         "{out}"
     );
     let (code, _, err) = run(at, "identify --axis alone.toml --out alone");

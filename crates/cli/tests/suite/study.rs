@@ -184,7 +184,7 @@ fn a_model_by_hand_is_simulated_and_exported() {
         (
             0,
             "models/s.toml written\nto decide: the model has no mass; give that of the moving part\n\
-             next: fill in what is to decide, then stiction simulate models/s.toml --out models/s\n"
+             fill in what is to decide, then\nnext: stiction simulate models/s.toml --out models/s\n"
         )
     );
     let (code, _, err) = run(at, &["simulate", "models/s.toml", "--out", "d"]);
@@ -252,7 +252,7 @@ fn faults_of_a_model_are_lines() {
     assert_eq!(code, 2);
     let lines: Vec<_> = err.lines().collect();
     assert_eq!(lines.len(), 3, "{err}");
-    let next = "stiction: next: correct m.toml (lines 7 and 9), then: stiction export m.toml --target c --out c";
+    let next = "stiction: correct m.toml (lines 7 and 9), then\nstiction: next: stiction export m.toml --target c --out c";
     assert_eq!(lines[2], next);
     assert!(lines[0].starts_with("stiction: [bad-config] m.toml: line 7, column 33, parameter[4].value: coulomb = -12.00; "), "{err}");
     assert!(

@@ -88,7 +88,7 @@ pub fn batch(file: &BatchFile, dir: &Path) -> String {
     if let Some(failure) = file.failed.first() {
         let _ = writeln!(
             out,
-            "next: see what is wrong with the first log that failed\n  stiction check {}",
+            "what is wrong with the first log that failed:\nnext: stiction check {}",
             failure.log.arguments()
         );
     }
@@ -100,7 +100,7 @@ pub fn batch(file: &BatchFile, dir: &Path) -> String {
         let list = free_file(LIST);
         let _ = writeln!(
             out,
-            "next, where logs need axis files of their own: write them into {list}, a line for each such log\n  path,axis\n  {},AXIS.toml\n  {}",
+            "where logs need axis files of their own: write them into {list}, a line for each such log\n  path,axis\n  {},AXIS.toml\nnext: {}",
             cell(&failure.log.path),
             file.command_with(dir, Some(&list))
         );
@@ -113,7 +113,7 @@ pub fn batch(file: &BatchFile, dir: &Path) -> String {
         };
         let _ = writeln!(
             out,
-            "next: see why {which} that was identified is not trusted\n  {}",
+            "why {which} that was identified is not trusted:\nnext: {}",
             file.single(log)
         );
     }
@@ -124,7 +124,7 @@ pub fn batch(file: &BatchFile, dir: &Path) -> String {
     } else if file.status == "complete" && file.identified > 0 {
         let _ = writeln!(
             out,
-            "next: what changed over time, and on which machine\n  stiction drift {table}"
+            "what changed over time, and on which machine:\nnext: stiction drift {table}"
         );
     }
     out

@@ -191,14 +191,13 @@ pub fn started(started: &Started, logs: &[&Path], file: &Path) -> String {
     for reason in started.undecided.iter().flat_map(|all| all.lines()) {
         let _ = writeln!(out, "to decide: {reason}");
     }
-    let then = match started.undecided {
-        Some(_) => "next: fill in what is to decide, then",
-        None => "next:",
-    };
+    if started.undecided.is_some() {
+        out.push_str("fill in what is to decide, then\n");
+    }
     let logs: Vec<String> = logs.iter().map(|log| quoted_path(log)).collect();
     let _ = writeln!(
         out,
-        "{then} stiction check {} --axis {}",
+        "next: stiction check {} --axis {}",
         logs.join(" "),
         quoted_path(file)
     );
@@ -337,27 +336,38 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
     let init = format!("stiction check {path}{with} --init {}", new());
     if !log.input.assumed.is_empty() {
         out.push(format!(
-            "to write down the units that were assumed, and correct them there: {init}"
+            "to write down the units that were assumed, and correct them there:"
         ));
+        out.push(format!("  {init}"));
     }
     if log.next == Lead::Simulate {
         out.push(format!(
-            "where a fit by simulation is refused too: record what is named above, then: stiction identify {ANOTHER_LOG}{with} --out \
-             another"
+            "where a fit by simulation is refused too, record what is named above as {ANOTHER_LOG}, then"
+        ));
+        out.push(format!(
+            "  stiction identify {ANOTHER_LOG}{with} --out another"
         ));
     }
-    let last = match log.next {
-        Lead::Identify => format!("next: stiction identify {path}{with} --out result"),
+    let command = match log.next {
+        Lead::Identify => format!("stiction identify {path}{with} --out result"),
         Lead::Together => {
-            format!("next, with all logs that are listed: stiction identify{with} --out result")
+            out.push("with all logs that are listed:".into());
+            format!("stiction identify{with} --out result")
         }
-        Lead::Listed => format!(
-            "next, with the logs that are fitted: this one is validated on (validate = \"all\"): stiction identify{with} --out result"
-        ),
-        Lead::Unfitted => format!(
-            "next: leave validate = \"all\" out of [[log]] of a log that is to be fitted{}, then: stiction identify{with} --out result",
-            axis.map_or(String::new(), |file| format!(" in {}", file.display()))
-        ),
+        Lead::Listed => {
+            out.push(
+                "with the logs that are fitted; this one is validated on (validate = \"all\"):"
+                    .into(),
+            );
+            format!("stiction identify{with} --out result")
+        }
+        Lead::Unfitted => {
+            out.push(format!(
+                "leave validate = \"all\" out of [[log]] of a log that is to be fitted{}, then",
+                axis.map_or(String::new(), |file| format!(" in {}", quoted_path(file)))
+            ));
+            format!("stiction identify{with} --out result")
+        }
         Lead::AxisFile => match (&log.line, axis) {
             (
                 Some(Cure::Line {
@@ -368,10 +378,7 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
                 _,
             ) => {
                 let (place, file) = match axis {
-                    Some(file) => (
-                        format!("in {}", file.display()),
-                        quoted(&file.display().to_string()),
-                    ),
+                    Some(file) => (format!("in {}", quoted_path(file)), quoted_path(file)),
                     None => {
                         let file = new();
                         (format!("in a new file {file}"), file)
@@ -379,28 +386,33 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
                 };
                 let key = line.split(' ').next().unwrap_or_default();
                 out.push(match replaces {
-                    true => format!("next: {place}, in place of the line {key}, write"),
-                    false => format!("next: {place}, under a line [{table}], write"),
+                    true => format!("{place}, in place of the line {key}, write"),
+                    false => format!("{place}, under a line [{table}], write"),
                 });
                 out.push(format!("    {line}"));
-                format!("  then: stiction identify {path} --axis {file} --out result")
+                out.push("then".into());
+                format!("stiction identify {path} --axis {file} --out result")
             }
-            (_, Some(file)) => format!(
-                "next: correct {} as said above, then: stiction identify {path}{with} --out result",
-                file.display()
-            ),
-            (_, None) => format!("next, to correct what is said above in it: {init}"),
+            (_, Some(file)) => {
+                out.push(format!("correct {} as said above, then", quoted_path(file)));
+                format!("stiction identify {path}{with} --out result")
+            }
+            (_, None) => {
+                out.push("to correct what is said above in it:".into());
+                init
+            }
         },
         Lead::Simulate => {
-            format!("next: stiction identify {path}{with} --method output-error --out result")
+            format!("stiction identify {path}{with} --method output-error --out result")
         }
         Lead::Record => {
-            format!(
-                "next: record another log, slow and fast and both ways, with its force below its limit (what to record: docs/procedures.md), \
-                 then: stiction check {ANOTHER_LOG}{with}"
-            )
+            out.push(format!(
+                "record another log as {ANOTHER_LOG}, slow and fast and both ways, with its force below its limit (what to record: \
+                 docs/procedures.md), then"
+            ));
+            format!("stiction check {ANOTHER_LOG}{with}")
         }
     };
-    out.push(last);
+    out.push(format!("next: {command}"));
     out
 }

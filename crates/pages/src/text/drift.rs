@@ -106,7 +106,7 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
             .map_or(String::new(), |axis| format!(" --axis {}", quoted(axis)));
         let _ = writeln!(
             text,
-            "next: what the log shows with which the largest change was found\n  stiction check {}{axis}",
+            "what the log shows with which the largest change was found:\nnext: stiction check {}{axis}",
             quoted(&alarm.log)
         );
     } else if file.noise.is_empty() {
@@ -117,7 +117,8 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
             Some(batch) => write!(text, "{}", more_logs(&batch, dir)),
             None => writeln!(
                 text,
-                "next: a table with at least {} logs of one machine: stiction batch takes folders of them (docs/fleet.md)",
+                "a table with at least {} logs of one machine, here of a folder logs (docs/fleet.md):\nnext: stiction batch logs \
+                 --law lugre --out batch",
                 least_logs()
             ),
         };
@@ -125,7 +126,7 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
         let folder = Path::new(&file.input.path).with_file_name("drift");
         let _ = writeln!(
             text,
-            "next: the same with a report\n  stiction drift {} --out {}",
+            "the same with a report:\nnext: stiction drift {} --out {}",
             quoted(&file.input.path),
             quoted_path(&folder)
         );

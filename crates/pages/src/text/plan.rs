@@ -58,15 +58,24 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
     let length = units(file)[0];
     let _ = writeln!(
         out,
-        "\nnext: bring the axis to where it may go {} {length} to negative and {} {length} to positive positions; run {} first \
-         at 30 % override and look, then at 100 %, and record time, position and force at {} Hz; then\n    {}",
+        "\nbring the axis to where it may go {} {length} to negative and {} {length} to positive positions; run {} first \
+         at 30 % override and look, then at 100 %, and record time, position and force at {} Hz, as {}; then\nnext: {}",
         short(-low),
         short(high),
         folder("setpoints.csv"),
         short(file.rig.rate),
+        recorded(planned),
         next(planned, axis, written),
     );
     out
+}
+
+/// What the motion is recorded as, another file than the one that is there.
+fn recorded(planned: &Planned) -> &'static str {
+    match &planned.options.known {
+        Some(Known::Log(log)) if log == Path::new("LOG.csv") => "LOG2.csv",
+        _ => "LOG.csv",
+    }
 }
 
 /// The command for the log of the motion.
@@ -77,11 +86,7 @@ fn next(planned: &Planned, axis: &Path, written: &Path) -> String {
         Some(Known::Log(log)) => format!("{} ", typed(log)),
         _ => String::new(),
     };
-    // What the motion is recorded as, another file than the one that is there.
-    let log = match first.trim() {
-        "LOG.csv" => "LOG2.csv",
-        _ => "LOG.csv",
-    };
+    let log = recorded(planned);
     let [sides, law] = sides(&planned.file);
     if planned.options.probe {
         let out = quoted(&format!(

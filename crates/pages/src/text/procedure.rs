@@ -237,7 +237,7 @@ the truth: {}
 /// What to type for the log of a planned motion on the axis of the demo, and the parameters to find.
 pub fn planned_log(plan: &Path, log: &Path, truth: &[(String, f64)]) -> String {
     format!(
-        "{}\n\nthe truth: {}\n\nnext: what it shows, beside what was expected\n  stiction identify {} --plan {} --out {}\n",
+        "{}\n\nthe truth: {}\n\nwhat it shows, beside what was expected:\nnext: stiction identify {} --plan {} --out {}\n",
         log.display(),
         parameters(truth),
         quoted_path(log),

@@ -1,6 +1,7 @@
 //! A study on the terminal.
 
 use super::table::table;
+use crate::next::ANOTHER_LOG;
 use crate::report::study::exported::exported_rows;
 use crate::report::study::promise::{best, lacking, left, said};
 use crate::report::study::rates::columns;
@@ -22,16 +23,12 @@ const MOST_PROMISES: usize = 12;
 /// What a study file was begun with, and what to type next.
 pub fn started_study(started: &Started, file: &Path) -> String {
     let mut out = format!("{} written\n", file.display());
-    let then = match &started.undecided {
-        Some(reason) => {
-            let _ = writeln!(out, "to decide: {reason}");
-            "next: fill in what is to decide, then"
-        }
-        None => "next:",
-    };
+    if let Some(reason) = &started.undecided {
+        let _ = writeln!(out, "to decide: {reason}\nfill in what is to decide, then");
+    }
     let _ = writeln!(
         out,
-        "{then} stiction simulate {} --out {}",
+        "next: stiction simulate {} --out {}",
         quoted_path(file),
         quoted_path(&results(file))
     );
@@ -167,7 +164,10 @@ fn exported(file: &StudyFile) -> String {
 /// What compensation is promised to leave, before everything else.
 fn promised(file: &StudyFile) -> String {
     if let Some(reason) = &file.not_promised {
-        return format!("\n{}\n", lacking(reason));
+        return format!(
+            "\n{}\nwith that log recorded as {ANOTHER_LOG}:\nnext: stiction identify {ANOTHER_LOG} --out another\n",
+            lacking(reason)
+        );
     }
     let Some(draws) = file.promise.first().map(|entry| entry.draws) else {
         return String::new();

@@ -110,7 +110,7 @@ fn a_motion_shows_nothing_that_it_lacks() {
     let found = checked(&still, None);
     assert!(found.logs[0].motion.is_none() && found.logs[0].shows.is_empty());
     assert!(
-        text::check(&found).contains("next: record"),
+        text::check(&found).contains("record another log as another.csv"),
         "{}",
         text::check(&found)
     );

@@ -57,8 +57,9 @@ pub(crate) fn best(file: &StudyFile) -> Vec<&PromiseEntry> {
 /// What to do where nothing is promised.
 pub(crate) fn lacking(reason: &str) -> String {
     format!(
-        "Nothing is promised: {reason}. Identify the axis from a log of its own, stiction identify LOG --out DIR, and simulate \
-         DIR/study.toml. What follows is how it would be if the axis were exactly the model."
+        "Nothing is promised: {reason}. What follows is how it would be if the axis were exactly the model. A promise takes a log of \
+         the axis; where the model is of one, a longer one, with more motion both ways (docs/procedures.md): identify it, and simulate \
+         the study.toml beside its model."
     )
 }
 
