@@ -72,7 +72,7 @@ pub fn run(arguments: &Arguments) -> Exit {
             .or_else(|| crate::next::corrected(&e))
             .or_else(|| crate::next::not_regular(&e))
             .or_else(|| crate::usage::next(&e, &arguments.command))
-            .or_else(|| crate::usage::no_plan(&e, &arguments.command));
+            .or_else(|| crate::usage::other_file(&e, &arguments.command));
         if let Some(next) = next {
             output::complain(&next);
         }

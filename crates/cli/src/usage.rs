@@ -1,7 +1,7 @@
 //! What leads on from an option that is refused: the same command with a value that it takes, or without the option.
 
 use crate::arguments::{self, Arguments, Command};
-use crate::next::{after, again};
+use crate::next::{after, again, shown};
 use crate::wording;
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue};
@@ -31,7 +31,7 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
         }
         (Command::Identify(identify), None) => match validated_on_itself(identify) {
             true => without(&["validate"]),
-            false => Some(shown(identify)),
+            false => Some(looked_at(identify)),
         },
         (_, Some(_)) => without(&named),
         (_, None) => None,
@@ -131,7 +131,7 @@ fn of_known(plan: &arguments::Plan, message: &str) -> Option<String> {
 }
 
 /// What the logs hold that cannot be identified as it was asked for.
-fn shown(identify: &arguments::Identify) -> String {
+fn looked_at(identify: &arguments::Identify) -> String {
     let mut check = String::from("stiction check");
     for log in &identify.logs {
         check.push_str(&format!(" {}", quoted_path(log)));
@@ -170,13 +170,17 @@ fn replaced(other: impl Fn(&str, &str) -> Option<String>) -> Vec<String> {
     words
 }
 
-/// What leads on from another file where a plan of a motion is wanted: the same without it.
-pub fn no_plan(error: &Error, command: &Command) -> Option<String> {
+/// What leads on from another file than is wanted, where nothing else does: the same without it where it is a plan of a motion, which
+/// may be left out, else what there is beside it.
+pub fn other_file(error: &Error, command: &Command) -> Option<String> {
     let Error::File(FileError::OtherForm { file, .. }) = error else {
         return None;
     };
     let is_plan = |typed: &arguments::Identify| typed.plan.as_ref() == Some(file);
-    matches!(command, Command::Identify(typed) if is_plan(typed)).then(|| without(&["plan"]))?
+    match command {
+        Command::Identify(typed) if is_plan(typed) => without(&["plan"]),
+        _ => shown(file.parent()?),
+    }
 }
 
 /// The command that was typed, without options that it may be without.

@@ -335,6 +335,10 @@ pub(crate) fn argument(text: &str) -> String {
     match text.strip_prefix('-') {
         // An option stays one.
         Some(_) if text.chars().all(plain) => text.to_string(),
+        // One with its value too, which a path that begins with a dash is not.
+        Some(rest) if rest.starts_with('-') && text.contains('=') => {
+            quoted(text).replacen("./-", "-", 1)
+        }
         _ => quoted(text),
     }
 }

@@ -226,7 +226,7 @@ fn a_list_says_of_which_machine_and_when_a_log_is() {
     assert_eq!(
         err,
         "stiction: [bad-config] list.csv: line 2, column time: \"noon\"; a time in ISO 8601, as 2026-03-01T06:30:00Z, or a number of seconds\n\
-         stiction: correct list.csv, then\nstiction: next: stiction batch list.csv --out out\n"
+         stiction: correct list.csv (line 2), then\nstiction: next: stiction batch list.csv --out out\n"
     );
     for (input, said) in [
         ("nowhere", "[log-io] nowhere: cannot be read"),
@@ -408,8 +408,14 @@ fn a_folder_of_several_kinds_leads_to_a_list() {
         "path,axis\nlogs/drive.csv,AXIS.toml\n",
     )
     .unwrap();
-    let proposed = out.lines().find(|line| line.contains(" logs.csv "));
-    let proposed = proposed.unwrap().trim().strip_prefix("stiction ").unwrap();
+    let proposed = out
+        .lines()
+        .find(|line| line.starts_with("next: ") && line.contains(" logs.csv "));
+    let proposed = proposed
+        .unwrap()
+        .trim()
+        .strip_prefix("next: stiction ")
+        .unwrap();
     let (_, out, err) = bench.run(&proposed.split(' ').collect::<Vec<_>>());
     assert_eq!(err, "");
     assert!(

@@ -130,8 +130,8 @@ fn control_characters_of_files_are_written_out() {
     std::fs::write(bench.path("axis.toml"), axis).unwrap();
     let (code, _, err) = bench.run(&["check", "log.csv", "--axis", "axis.toml"]);
     assert_eq!(code, 2, "{err}");
-    // One line of what is wrong, and one of what leads on.
-    assert_eq!(err.lines().count(), 2, "{err:?}");
+    // One line of what is wrong, one of what to do about it, and one with the command.
+    assert_eq!(err.lines().count(), 3, "{err:?}");
     assert!(
         !err.lines().any(|line| line.contains(char::is_control)),
         "{err:?}"

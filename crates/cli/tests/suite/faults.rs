@@ -65,9 +65,10 @@ fn a_copy_is_no_second_log() {
     let twice = [&fit[..], &["copy.csv"]].concat();
     let said = "stiction: [usage] log.csv and copy.csv are the same recording: time, motion and force agree in all 3000 samples; give each \
                 log once, and validate on logs that are not fitted\n";
-    assert_eq!(bench.refused(&twice), said);
+    let next = "stiction: what the logs show:\nstiction: next: stiction check log.csv";
+    assert_eq!(bench.refused(&twice), format!("{said}{next} copy.csv\n"));
     let validated = [&fit[..], &["--validate", "copy.csv"]].concat();
-    assert_eq!(bench.refused(&validated), said);
+    assert_eq!(bench.refused(&validated), format!("{said}{next}\n"));
     // With one number changed it is another.
     bench.write(
         "copy.csv",

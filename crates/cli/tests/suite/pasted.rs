@@ -183,7 +183,6 @@ fn of_an_identification() {
             "identify log.csv --method ga --evaluations 0 --out r",
             "identify log.csv --method static --model axis.toml --out r",
             "identify log.csv --method ga --law coulomb-viscous --out r",
-            "identify log.csv --method presliding-step --out r",
             "identify log.csv --method output-error --law elasto-plastic --out r",
             "identify log.csv --law lurge --out r",
             "identify log.csv",
