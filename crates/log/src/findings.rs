@@ -19,7 +19,7 @@
 //! | `short-column` | a column ends before the others | all cut to the shortest; refused if that costs over 1 % |
 //! | `saturation` | force constant at its extreme for 5 samples or more and not a staircase; or at a given limit | samples excluded |
 //! | `force-spike` | single samples beyond all others by more than three times their range | interpolated linearly and excluded |
-//! | `force-dead` | force below 3 % of its usual size for 0.25 s and more while the axis moves | samples excluded |
+//! | `force-dead` | force below 3 % of its usual size for 0.25 s and more while the axis moves, and hardly any or noise | samples excluded |
 //! | `coarse-force` | force in steps of more than a fiftieth of its range | kept |
 //! | `held-position` | the position changes at every n-th row only, n up to 64 | rows between left out |
 //! | `stuck-encoder` | position frozen while the velocity, the reference or the jump after it shows motion | samples excluded |

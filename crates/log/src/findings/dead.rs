@@ -17,12 +17,18 @@ const LEAST: f64 = 0.75;
 const OFFSET: f64 = 0.01;
 /// Part of the samples that do not exceed that.
 const USUAL: f64 = 0.9;
+/// Deviation of the force over it from its mean, in parts of the median of the log, from which on it has to be noise: where the largest
+/// forces are those that a drive at its limit was asked for, friction or a spring is less than [`NONE`] of them, and follows the motion.
+const HARDLY: f64 = 0.03;
+/// What is noise changes within this time, s, by at least this part of its variance; a force that follows the motion hardly does.
+const WITHIN: f64 = 0.005;
+const CHANGES: f64 = 0.25;
 /// Shortest stretch, s and samples: a force that changes its sign passes zero sooner.
 const SHORTEST: f64 = 0.25;
 const FEWEST: usize = 50;
 /// What is excluded to either side too, s: a drive that is switched on or off takes its time.
 const BESIDE: f64 = 0.05;
-/// Least travel in it, in parts of the stroke.
+/// Least way from one end of its travel to the other, in parts of the stroke: the counts of an axis that stands add up to a long path.
 const TRAVEL: f64 = 0.02;
 
 /// Excludes stretches in which the axis moves under no force.
@@ -30,9 +36,10 @@ pub(super) fn dead(log: &mut Log) {
     let (Some(force), Some(position)) = (&log.force, &log.position) else {
         return;
     };
-    let (Some((low, high)), Some(usual)) = (extremes(position), usual(force)) else {
+    let (Some((low, high)), Some(usual)) = (extremes(position), exceeded(force, USUAL)) else {
         return;
     };
+    let half = exceeded(force, 0.5).unwrap_or(0.0);
     let is_near = |sample: &usize| force[*sample].abs() <= NEAR * usual;
     let mut runs: Vec<Range<usize>> = Vec::new();
     for segment in &log.segments {
@@ -48,14 +55,14 @@ pub(super) fn dead(log: &mut Log) {
         let force = &force[run.clone()];
         let none = force.iter().filter(|f| f.abs() <= NONE * usual).count();
         let mean = force.iter().sum::<f64>() / force.len() as f64;
-        none as f64 >= LEAST * force.len() as f64 && mean.abs() <= OFFSET * usual
+        none as f64 >= LEAST * force.len() as f64
+            && mean.abs() <= OFFSET * usual
+            && is_noise(force, mean, HARDLY * half, log.rate_hz)
     };
     let moves = |run: &Range<usize>| {
-        let path = position[run.clone()]
-            .windows(2)
-            .map(|w| (w[1] - w[0]).abs());
+        let travel = extremes(&position[run.clone()]).map_or(0.0, |(low, high)| high - low);
         let lasts = log.time[run.end - 1] - log.time[run.start];
-        run.len() >= FEWEST && lasts >= SHORTEST && path.sum::<f64>() >= TRAVEL * (high - low)
+        run.len() >= FEWEST && lasts >= SHORTEST && travel >= TRAVEL * (high - low)
     };
     runs.retain(|run| moves(run) && is_off(run));
     let Some(first) = runs.first() else { return };
@@ -78,13 +85,23 @@ pub(super) fn dead(log: &mut Log) {
     }
 }
 
-/// What most samples do not exceed in size.
-fn usual(force: &[f64]) -> Option<f64> {
+/// Whether a force is hardly any, or changes too fast to follow a motion.
+fn is_noise(force: &[f64], mean: f64, hardly: f64, rate: f64) -> bool {
+    let count = force.len() as f64;
+    let variance = force.iter().map(|f| (f - mean).powi(2)).sum::<f64>() / count;
+    let later = ((WITHIN * rate).round() as usize).max(1);
+    let changes = force.iter().zip(force.iter().skip(later));
+    let changes = changes.map(|(a, b)| (b - a).powi(2)).sum::<f64>() / count;
+    variance <= hardly * hardly || 0.5 * changes >= CHANGES * variance
+}
+
+/// What that part of the samples does not exceed in size.
+fn exceeded(force: &[f64], part: f64) -> Option<f64> {
     let mut sizes: Vec<f64> = force.iter().map(|f| f.abs()).collect();
-    let at = (USUAL * sizes.len() as f64) as usize;
+    let at = (part * sizes.len() as f64) as usize;
     if at >= sizes.len() {
         return None;
     }
-    let usual = *sizes.select_nth_unstable_by(at, f64::total_cmp).1;
-    Some(usual).filter(|usual| *usual > 0.0)
+    let size = *sizes.select_nth_unstable_by(at, f64::total_cmp).1;
+    Some(size).filter(|size| *size > 0.0)
 }

@@ -5,6 +5,7 @@
 
 #[cfg(feature = "all")]
 mod binary;
+mod dead;
 mod join;
 mod join_offset;
 mod mapping_codes;
