@@ -76,6 +76,8 @@ pub struct Misfit {
     /// How far the level of friction, without what grows with speed, differs from its mean over the stretches of time or the
     /// places, as parts of it: least and largest of the means over each.
     pub levels: (f64, f64),
+    /// Whether the log is long enough to tell a change with time from what moves on meanwhile.
+    pub is_long: bool,
     /// The wave over the position that explains a ripple, or a level along the stroke much better than a line does.
     pub ripple: Option<Ripple>,
     /// A spring or a gap between motor and load that explains it.
@@ -220,6 +222,7 @@ impl Divisions {
             share: (beyond[most] / square).min(1.0),
             shares: shares.collect(),
             levels: (0.0, 0.0),
+            is_long: self.measures.is_long(),
             ripple: None,
             coupling: None,
             clocks: None,
@@ -329,9 +332,8 @@ impl Divisions {
             Some((Some(Cause::Shape), share)) => clocks::PART_OF_MISFIT * share,
             Some((Some(_), _)) => return misfit,
         };
-        // Motion one way and at one speed has no instant at which a delay shows.
-        let turns = |way: f64| self.measures.speed.iter().any(|v| way * v > 0.0);
-        if !(turns(1.0) && turns(-1.0)) {
+        // Motion one way and at one speed has no instant at which a delay shows, and two show no course of it.
+        if !self.measures.is_long() || self.measures.reversals() < clocks::FEWEST_REVERSALS {
             return misfit;
         }
         let time = &self.measures.time;
@@ -426,6 +428,7 @@ impl Divisions {
             share: 0.0,
             shares: Divided::ALL.map(|by| (by, 0.0)).to_vec(),
             levels: (0.0, 0.0),
+            is_long: self.measures.is_long(),
             ripple: None,
             coupling: None,
             clocks: None,

@@ -42,7 +42,8 @@ pub enum Cause {
 }
 
 impl Misfit {
-    /// The most likely cause; `None` where the misfit is too small a part of the residual to be named.
+    /// The most likely cause; `None` where the misfit is too small a part of the residual to be named, or the log is too short for
+    /// what it seems to be.
     pub fn cause(&self) -> Option<Cause> {
         if self.limit.is_some() {
             return Some(Cause::Limit);
@@ -83,7 +84,7 @@ impl Misfit {
         } else if explains(Divided::LevelOverTemperature) {
             Cause::Temperature
         } else if self.by == Divided::LevelOverTime {
-            Cause::Drift
+            return self.is_long.then_some(Cause::Drift);
         } else if share(Divided::Position) >= RIPPLE_SHARE && self.by == Divided::Position {
             Cause::Ripple
         } else if explains(Divided::LevelOverPosition) && share(Divided::Position) < LEVEL_BESIDE {

@@ -13,6 +13,8 @@ const PARTS: usize = 8;
 /// `stiction_testkit::worlds` by one clock the surest has 6 and 0.06.
 const SURE: f64 = 8.0;
 const LEAST: f64 = 0.1;
+/// Fewest reversals of a log: each shows the delay at one instant.
+pub(super) const FEWEST_REVERSALS: usize = 4;
 
 /// Part of a misfit of the shape of the law that they explain where they are its cause.
 pub(super) const PART_OF_MISFIT: f64 = 0.3;

@@ -9,6 +9,10 @@ const PARTS: usize = 16;
 const PLACES: usize = 64;
 /// Decades of speed and of travel that are told apart, for each direction.
 const DECADES: f64 = 3.0;
+/// Shortest time, s, over which something is said to change with it: friction of no machine changes within less, nor do clocks come
+/// apart by what a log shows, and what moves on meanwhile looks alike. Of the demo cut into pieces, those of 2 s and more name
+/// neither, a third of those of half a second one of them.
+pub(super) const SHORTEST_COURSE: f64 = 2.0;
 /// Counts by which an axis must turn back before it counts as reversed.
 const REVERSED_COUNTS: f64 = 4.0;
 
@@ -143,6 +147,24 @@ impl Measures {
             | Divided::TravelAndPosition
             | Divided::AfterReversals => &self.travel,
         }
+    }
+
+    /// Whether the log is long enough to tell what changes with time.
+    pub fn is_long(&self) -> bool {
+        let ends = self.time.first().zip(self.time.last());
+        ends.is_some_and(|(first, last)| last - first >= SHORTEST_COURSE)
+    }
+
+    /// How often the axis turns round.
+    pub fn reversals(&self) -> usize {
+        let mut moves = self.travel.iter().filter(|x| **x != 0.0);
+        let mut way = moves.next().map_or(0.0, |x| x.signum());
+        let turns = moves.filter(|x| {
+            let turns = x.signum() != way;
+            way = x.signum();
+            turns
+        });
+        turns.count()
     }
 
     /// Whether each kept sample lies within that distance of the last reversal, m or rad.

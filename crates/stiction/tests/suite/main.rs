@@ -23,6 +23,7 @@ mod rests;
 mod saved;
 mod scale;
 mod several_logs;
+mod short_logs;
 mod simulation;
 mod stepped;
 mod study;

@@ -1,5 +1,6 @@
 //! Two clocks that run apart, in words.
 
+use super::settled::SHORTEST;
 use crate::source::Source;
 use stiction_files::result::Cure;
 use stiction_identify::Clocks;
@@ -7,9 +8,8 @@ use stiction_number::{four_digits, short};
 
 /// Deviations of a 95 % interval.
 const QUANTILE: f64 = 1.96;
-/// Growth of the delay over a part of the log that hardly matters, samples; and the shortest part that is worth fitting, s.
+/// Growth of the delay over a part of the log that hardly matters, samples.
 const HARDLY: f64 = 1.0;
-const SHORTEST: f64 = 3.0;
 
 /// The part at the beginning of the log within which the delay hardly grows, as a line; `None` where it is too short, or where a part
 /// was taken already.

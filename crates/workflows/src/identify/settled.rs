@@ -10,6 +10,9 @@ const LEFT: f64 = 0.25;
 /// Least part of the log that has to be settled: of a level that goes on changing half is never left with a quarter of the change.
 const LEAST_PART: f64 = 0.5;
 
+/// The shortest part of a log that is worth fitting by itself, s.
+pub(super) const SHORTEST: f64 = 3.0;
+
 /// The line of the axis file that keeps the settled part of a log; `None` where there is none, where there are several logs, or
 /// where a part was chosen already.
 pub(super) fn part(misfit: &Misfit, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
@@ -24,6 +27,9 @@ pub(super) fn part(misfit: &Misfit, law: &FittedLaw, sources: &[Source]) -> Opti
     let times = &law.series.time;
     let from = *times.get(first * times.len() / levels.len())?;
     let to = *log.time.last()?;
+    if to - from < SHORTEST {
+        return None;
+    }
     // In tenths of a second, the end not cut off.
     let tenth = |x: f64| short((10.0 * x).ceil() / 10.0);
     Some(Cure::Line {
