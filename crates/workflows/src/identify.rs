@@ -39,6 +39,7 @@ mod settled;
 mod simulate;
 mod trust;
 mod turn;
+mod turned;
 mod unfit;
 
 pub(crate) use condition::record_of;

@@ -171,3 +171,43 @@ fn a_level_for_each_log_is_that_of_the_only_one() {
         format!("{:?}", without.result().parameters)
     );
 }
+
+/// A log whose force has the other sign is named, and nothing else is made of it. Of trapezoids the work shows it; of fast motion,
+/// which is nearly all inertia, the mass does.
+#[test]
+fn a_log_with_the_sign_turned_is_named() {
+    for (machine, motion) in [
+        (Machine::joint(1), Motion::Trapezoid),
+        (Machine::joint(2).with_friction(0.1), Motion::Sine),
+    ] {
+        let mut logs = [1, 1 + LATER].map(|seed| record(&machine, motion, World::Faithful, seed));
+        let fit = |logs: &[_]| identified(&machine, logs, &Axis::default(), &Options::default());
+        let named = |fit: &Fit| -> Vec<String> {
+            let all = fit.warnings().iter();
+            let all = all.filter(|w| w.code == Code::ForceSign);
+            all.map(|w| w.message.clone()).collect()
+        };
+        assert_eq!(named(&fit(&logs).unwrap()), [""; 0], "{motion:?}");
+        logs[1].force.iter_mut().for_each(|force| *force = -*force);
+        let fit = fit(&logs).unwrap();
+        let [message] = &named(&fit)[..] else {
+            panic!("{motion:?}: {:#?}", fit.warnings());
+        };
+        let says = "the force of log-2.csv has the other sign than that of log-1.csv";
+        assert!(message.starts_with(says), "{motion:?}: {message}");
+        let trust = &fit.result().trust;
+        assert!(
+            !trust.trustworthy && trust.reasons[0] == *message,
+            "{trust:#?}"
+        );
+        assert!(
+            trust.next == Next::FirstLog && trust.cause.is_none(),
+            "{trust:#?}"
+        );
+        assert!(
+            trust.better.is_none() && trust.constants.is_empty(),
+            "{trust:#?}"
+        );
+        assert_eq!(disagreements(&fit), [""; 0], "{motion:?}");
+    }
+}

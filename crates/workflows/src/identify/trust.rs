@@ -5,6 +5,7 @@ use super::compensation;
 use super::disagree;
 use super::lacking;
 use super::left;
+use super::turned;
 use super::unfit;
 use crate::source::Source;
 use stiction_codes::Code;
@@ -138,6 +139,10 @@ impl Judged {
     /// another motion to be recorded first, which changes what is left.
     fn with_cause(mut self, evidence: &Evidence) -> Self {
         let first = [Next::AxisFile, Next::Again, Next::Finish];
+        // Nor where the logs have different signs, which is all that is left.
+        if turned::named(evidence.sources, &evidence.law.disagreements).is_some() {
+            return self;
+        }
         self.trust.better = match self.trust.next {
             Next::AnotherLaw => evidence.better.cloned(),
             _ => evidence.clearly_better().cloned(),
@@ -504,14 +509,24 @@ fn record(
 /// What can be said of any law that was fitted to whole records.
 fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
     let law = evidence.law;
-    if let Some(why) = disagree::of_two_axes(&law.disagreements) {
+    // All else that logs with different signs have differently, and that a law leaves of both, comes of that.
+    let turned = turned::named(evidence.sources, &law.disagreements);
+    if let Some(why) = &turned {
+        let of_another = |w: &Warning| {
+            let mut others = evidence.held_out.iter();
+            others.any(|log| w.message.contains(&*log.path.to_string_lossy()))
+        };
+        warnings.retain(|w| w.code != Code::ForceSign || of_another(w));
+        warnings.insert(0, Warning::new(Code::ForceSign, why.clone()));
+        reasons.push(why.clone(), Next::FirstLog);
+    } else if let Some(why) = disagree::of_two_axes(&law.disagreements) {
         reasons.push(why, Next::FirstLog);
     }
     overflown(evidence.sources, reasons);
     if let Some(why) = evidence.apart {
         reasons.push(why.to_string(), Next::FirstLog);
     }
-    let gravity = lacking::named(evidence, reasons);
+    let gravity = turned.is_none() && lacking::named(evidence, reasons);
     search_ended(evidence, warnings, reasons);
     explains_little(evidence, warnings, reasons);
     if !evidence.moves_both_ways {
@@ -550,6 +565,9 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         evidence.motion,
         (&evidence.options, disagree::has_one_level(law)),
     ));
+    if turned.is_some() {
+        causes.clear();
+    }
     let place = match evidence.shows_friction() {
         true => 0,
         false => warnings.len(),

@@ -1,0 +1,50 @@
+//! Logs of one axis of which some have the sign of the force turned round.
+
+use super::logs::path_of;
+use crate::source::Source;
+use stiction_codes::Code;
+use stiction_identify::Disagreement;
+use stiction_parameters::Quantity;
+
+/// Ratio of the sizes of the masses of two logs, at most, where their signs differ by that of the force alone.
+const ALIKE: f64 = 2.0;
+
+/// Says which logs have the sign turned, and what to do; `None` where none or all of them have.
+pub(super) fn named(sources: &[Source], found: &[Disagreement]) -> Option<String> {
+    let turned = braking(sources).or_else(|| lighter_than_nothing(found))?;
+    let others: Vec<usize> = (0..sources.len()).filter(|i| !turned.contains(i)).collect();
+    let names = |logs: &[usize]| {
+        let names: Vec<String> = logs.iter().map(|i| path_of(sources, *i)).collect();
+        names.join(", ")
+    };
+    let (has, column) = match turned.as_slice() {
+        [_] => ("has", "its column of the force"),
+        _ => ("have", "their column of the force"),
+    };
+    let (turned, others) = (names(&turned), names(&others));
+    Some(format!(
+        "the force of {turned} {has} the other sign than that of {others}: there it brakes where it drives here. No axis file turns it in \
+         one of the logs alone: write {column} with the sign turned and fit them together again, or fit {turned} by itself with an \
+         axis file of its own, in which invert = true stands beside the force under [columns]"
+    ))
+}
+
+/// The logs whose force brakes, where that of others does not.
+fn braking(sources: &[Source]) -> Option<Vec<usize>> {
+    let brakes = |source: &Source| {
+        let mut findings = source.log.findings.iter();
+        findings.any(|finding| finding.code == Code::ForceSign)
+    };
+    let all = 0..sources.len();
+    let braking: Vec<usize> = all.filter(|i| brakes(&sources[*i])).collect();
+    (!braking.is_empty() && braking.len() < sources.len()).then_some(braking)
+}
+
+/// The log with a negative mass, where another has one as large: of fast motions the work of friction is a small part, and does
+/// not show the sign.
+fn lighter_than_nothing(found: &[Disagreement]) -> Option<Vec<usize>> {
+    let of_mass = found.iter().find(|d| d.name.quantity == Quantity::Mass)?;
+    let [low, high] = of_mass.values;
+    let ratio = -low / high;
+    ((1.0 / ALIKE..ALIKE).contains(&ratio)).then(|| vec![of_mass.logs[0]])
+}
