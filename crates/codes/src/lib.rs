@@ -123,6 +123,7 @@ codes! {
     ForceNotGiven = "force-not-given": "the drive gave less than the force that was logged",
     ForceFiltered = "force-filtered": "the force was logged behind a low-pass",
     MotionLate = "motion-late": "the motion was logged much later than the force it belongs to",
+    MassDisagrees = "mass-disagrees": "the log shows another mass than the axis file states",
     LogsDisagree = "logs-disagree": "logs that are fitted together have a parameter differently",
     DelayOutOfRange = "delay-out-of-range": "the fitted delay between force and motion is implausibly long",
     StaticLawAtRest = "static-law-at-rest": "a static law is fitted to an axis at rest or in presliding",

@@ -37,6 +37,7 @@ mod searched;
 mod seen;
 mod settled;
 mod simulate;
+mod stated_mass;
 mod trust;
 mod turn;
 mod turned;

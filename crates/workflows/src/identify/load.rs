@@ -33,6 +33,8 @@ pub(super) struct Loaded {
     pub filter: Option<ForceFilter>,
     /// By how much the logs differ in that, in words, where no delay can be that of all.
     pub apart: Option<String>,
+    /// What the log shows of a mass that the axis file states, in words, where that is another.
+    pub mass: Option<String>,
 }
 
 impl Loaded {
@@ -94,6 +96,7 @@ pub(super) fn load(
         late: 0.0,
         filter: None,
         apart: None,
+        mass: None,
     })
 }
 

@@ -13,6 +13,7 @@ use super::outside;
 use super::planned;
 use super::procedure::{static_map, step};
 use super::simulate;
+use super::stated_mass;
 use crate::error::Error;
 use crate::source::{Source, Used, load_held_out, refuse_several, usage_at};
 use crate::wording::{Setting, TOGETHER_WITH};
@@ -213,8 +214,9 @@ fn of_the_split(asked: Asked, conditioned: &Conditioned, error: Error) -> Error 
 
 /// Fits the force of whole records.
 fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-    let loaded = aligned(asked, loaded)?;
+    let mut loaded = aligned(asked, loaded)?;
     let conditioned = condition(asked, &loaded, observer)?;
+    loaded.mass = stated_mass::named(asked, &loaded, &conditioned, observer);
     let (loaded, conditioned) = realigned(asked, loaded, conditioned, observer)?;
     let (loaded, conditioned) = unfiltered(asked, loaded, conditioned, observer)?;
     let ranges = asked.axis.search_box(&loaded.sources[0].log)?;

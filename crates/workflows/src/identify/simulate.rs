@@ -146,6 +146,7 @@ pub(super) fn run(
         can_be_simulated: false,
         motion,
         apart: None,
+        mass: None,
     };
     let mut warnings = log_warnings(sources);
     warnings.extend(validation_warnings(&loaded.held_out, sources));

@@ -184,7 +184,7 @@ enum Shown {
 #[derive(Default)]
 pub(super) struct Reasons {
     reasons: Vec<(String, Next)>,
-    /// Whether data that were not fitted contradict the law: what it holds for constants differs there.
+    /// Whether data contradict the law, some that were not fitted or a mass that was not: what it holds for constants differs there.
     elsewhere: bool,
     /// The logs that do, as far as the first of these reasons leads to them.
     other: Vec<String>,
@@ -235,6 +235,8 @@ pub(super) struct Evidence<'a> {
     pub laws: &'a [LawEntry],
     /// How the logs differ in when their force was logged, where no delay is that of all.
     pub apart: Option<&'a str>,
+    /// What the log shows of a mass that the axis file states, where that is another.
+    pub mass: Option<&'a str>,
     pub motion: Motion,
     /// Whether the data chose the law.
     pub chosen: bool,
@@ -526,6 +528,11 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     if let Some(why) = evidence.apart {
         reasons.push(why.to_string(), Next::FirstLog);
     }
+    if let Some(why) = evidence.mass {
+        warnings.insert(0, Warning::new(Code::MassDisagrees, why));
+        reasons.push(why, Next::AxisFile);
+        reasons.elsewhere = true;
+    }
     let gravity = turned.is_none() && lacking::named(evidence, reasons);
     search_ended(evidence, warnings, reasons);
     explains_little(evidence, warnings, reasons);
@@ -565,7 +572,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         evidence.motion,
         (&evidence.options, disagree::has_one_level(law)),
     ));
-    if turned.is_some() {
+    if turned.is_some() || evidence.mass.is_some() {
         causes.clear();
     }
     let place = match evidence.shows_friction() {
