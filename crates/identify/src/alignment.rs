@@ -29,9 +29,24 @@ const MOST_FITS: usize = 12;
 /// beside each other already, any less is better.
 const LEFT: f64 = 0.5;
 const LEFT_BESIDE: f64 = 1.0;
+/// The same of a later force, which counts where nothing else explains more: a delay that is a row or two beyond its range leaves about
+/// as much at the end of it.
+const LEFT_BEYOND: f64 = 0.97;
+
+/// Rows by which a force has to be taken later (earlier where negative), so that it belongs to the motion beside it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Alignment {
+    /// These.
+    pub rows: isize,
+    /// What is left of the square of the force there, in parts of what is left as logged.
+    pub left: f64,
+    /// Whether that is so little that nothing else needs to be looked for.
+    pub is_sure: bool,
+}
 
 /// Rows by which the force of these logs of one axis has to be taken later (earlier where negative), so that it belongs to the
-/// motion beside it; `None` where the delay is within its range as logged, or no other rows explain the force much better. Where
+/// motion beside it; `None` where the delay is within its range as logged, or no other rows explain the force better, or of an earlier
+/// one much better. Where
 /// it was taken `laid` rows later before, since [`lateness`](crate::lateness()) said so, the rows beyond these, and `-laid` where
 /// the law explains the force as well as logged.
 ///
@@ -44,7 +59,7 @@ pub fn alignment(
     terms: &Terms,
     settings: &Settings,
     observer: &mut dyn Observer,
-) -> Option<isize> {
+) -> Option<Alignment> {
     let law = near.map_or(Law::new(LawKind::LuGre), |(law, _)| *law);
     let near = near.map(|(_, end)| end.as_slice()).unwrap_or_default();
     let (start, delay) = near.split_at_checked(law.nonlinear()).unwrap_or_default();
@@ -72,7 +87,11 @@ pub fn alignment(
     };
     let (found, logged) = fit(0)?;
     if laid != 0 && fit(-laid).is_some_and(|(_, own)| own <= logged) {
-        return Some(-laid);
+        return Some(Alignment {
+            rows: -laid,
+            left: 1.0,
+            is_sure: true,
+        });
     }
     let record = condition(logs, conditioning).ok()?;
     let step = record.step() / median_step(&logs.first()?.time);
@@ -82,17 +101,23 @@ pub fn alignment(
         None if laid == 0 => return None,
         None => Some((0, logged)),
         Some(way) => {
-            let mut rows = likely(logs, way).unwrap_or(way * stride);
-            let mut within = None;
-            while !seen.contains(&rows) && rows.unsigned_abs() < MOST && seen.len() < MOST_FITS {
-                let (found, own) = fit(rows)?;
-                seen.push(rows);
-                match beyond(&found) {
-                    None => {
-                        within = Some((rows, own));
-                        break;
+            let mut within: Option<(isize, f64)> = None;
+            // Where force and motion go best without a law may be far off: what lies next to the rows as logged is tried as well.
+            let starts = likely(logs, way).into_iter().chain([way * stride]);
+            for start in starts {
+                let mut rows = start;
+                while !seen.contains(&rows) && rows.unsigned_abs() < MOST && seen.len() < MOST_FITS
+                {
+                    let (found, own) = fit(rows)?;
+                    seen.push(rows);
+                    match beyond(&found) {
+                        None => {
+                            let is_better = within.is_none_or(|(_, least)| own < least);
+                            within = if is_better { Some((rows, own)) } else { within };
+                            break;
+                        }
+                        Some(way) => rows += way * stride,
                     }
-                    Some(way) => rows += way * stride,
                 }
             }
             within
@@ -116,9 +141,15 @@ pub fn alignment(
         }
         within = better;
     }
-    let left = if laid == 0 { LEFT } else { LEFT_BESIDE };
-    let (rows, _) = within.filter(|(rows, own)| *rows != 0 && *own < left * logged)?;
-    Some(rows)
+    let most = if laid == 0 { LEFT } else { LEFT_BESIDE };
+    let (rows, own) = within.filter(|(rows, _)| *rows != 0)?;
+    let is_sure = own < most * logged;
+    let is_beyond = laid == 0 && rows > 0 && own < LEFT_BEYOND * logged;
+    (is_sure || is_beyond).then_some(Alignment {
+        rows,
+        left: (own / logged).powi(2),
+        is_sure,
+    })
 }
 
 /// A log whose force is taken so many rows later, within each stretch.

@@ -509,6 +509,40 @@ fn a_force_beside_other_motion_is_taken_as_it_belongs() {
     }
 }
 
+/// A force that is a few rows later than a fit reaches: what the law takes up of it leaves a delay within its range, or a low-pass, a
+/// resonance and another shape seem to explain it.
+#[test]
+fn a_force_that_is_some_rows_late_is_no_other_cause() {
+    let others = [
+        "law-shape",
+        "resonance",
+        "backlash",
+        "force-filtered",
+        "delay-out-of-range",
+    ];
+    let cases = [
+        ("joint", Motion::Trapezoid, 5),
+        ("joint", Motion::Trapezoid, 6),
+        ("joint", Motion::Trapezoid, 8),
+        ("joint", Motion::Sine, 6),
+        ("screw", Motion::Trapezoid, 5),
+        ("screw", Motion::Sine, 6),
+        ("screw", Motion::Sine, 8),
+        ("stage", Motion::Commissioning, 7),
+    ];
+    let wrong: Vec<String> = cases
+        .par_iter()
+        .filter_map(|&(axis, motion, rows)| {
+            let found = of(axis, motion, World::Late(rows));
+            let blamed = others.iter().any(|code| found.codes.contains(code));
+            let is_named = found.codes.contains(&"force-late") && !blamed;
+            let is_right = is_named && found.claims.len() >= 4 && !found.is_silent();
+            (!is_right).then(|| format!("{axis}, {motion:?}, {rows} rows: {found}"))
+        })
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
 /// No delay is that of two logs, of which one is late and the other is not.
 #[test]
 fn logs_that_are_late_by_different_amounts_are_not_fitted_together() {

@@ -9,7 +9,8 @@ use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::{Axis, Warning, shell};
 use stiction_identify::{
-    Delay, FittedLaw, ForceFilter, Observer, alignment, force_filter, lateness,
+    Alignment, Delay, Estimate, FittedLaw, ForceFilter, Misfit, Observer, alignment, force_filter,
+    lateness,
 };
 use stiction_log::{Offset, Role};
 use stiction_number::{four_digits, full};
@@ -54,19 +55,24 @@ fn apart(sources: &[Source], each: &[usize]) -> Option<String> {
     })
 }
 
-/// The same where the fits that choose the cut-offs found the delay at the end of its range: by fits further on.
+/// Why bristle and mass are open where a force was taken as late as the rest of the law has it, and something is left all the same.
+const LATE_OR_ELSE: &str = "the force is taken later than fits look for, and what is left all the same has another cause, of which that \
+                            delay may be a part";
+
+/// The same where the fits that choose the cut-offs found the delay at the end of its range: by fits further on. Gives the rows
+/// that explain the force better, where they are not sure to be its cause.
 pub(super) fn realigned(
     asked: Asked,
     mut loaded: Loaded,
     conditioned: Conditioned,
     observer: &mut dyn Observer,
-) -> Result<(Loaded, Conditioned), Error> {
+) -> Result<(Loaded, Conditioned, Option<Alignment>), Error> {
     if loaded.apart.is_some() || !is_sought(asked, &loaded) {
-        return Ok((loaded, conditioned));
+        return Ok((loaded, conditioned, None));
     }
     let near = conditioned.settings.near.as_ref();
     let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
-    let rows = alignment(
+    let found = alignment(
         &samples?,
         &conditioned.conditioning,
         (near, loaded.rows_late()),
@@ -74,19 +80,18 @@ pub(super) fn realigned(
         &conditioned.settings,
         observer,
     );
-    let Some(rows) = rows else {
-        return Ok((loaded, conditioned));
+    let Some(found) = found.filter(|found| found.is_sure) else {
+        return Ok((loaded, conditioned, found));
     };
-    loaded.take_force_from(rows);
+    loaded.take_force_from(found.rows);
     let conditioned = condition(asked, &loaded, observer)?;
-    Ok((loaded, conditioned))
+    Ok((loaded, conditioned, None))
 }
 
-/// The same where the force was logged behind a low-pass, which is undone.
+/// The same where the force was logged behind a low-pass, which is undone, or later by rows that explain more than a low-pass does.
 pub(super) fn unfiltered(
     asked: Asked,
-    mut loaded: Loaded,
-    conditioned: Conditioned,
+    (mut loaded, conditioned, further): (Loaded, Conditioned, Option<Alignment>),
     observer: &mut dyn Observer,
 ) -> Result<(Loaded, Conditioned), Error> {
     if loaded.apart.is_some() || !is_sought(asked, &loaded) {
@@ -112,7 +117,15 @@ pub(super) fn unfiltered(
         &conditioned.settings,
         observer,
     );
-    let Some(found) = found.filter(ForceFilter::is_certain) else {
+    let found = found.filter(ForceFilter::is_certain);
+    let least = found.map_or(f64::INFINITY, |filter| filter.left);
+    if let Some(further) = further.filter(|further| further.left < least) {
+        loaded.take_force_from(further.rows);
+        loaded.is_late_or_else = true;
+        let conditioned = condition(asked, &loaded, observer)?;
+        return Ok((loaded, conditioned));
+    }
+    let Some(found) = found else {
         return Ok((loaded, conditioned));
     };
     for source in loaded.sources.iter_mut().chain(&mut loaded.held_out) {
@@ -122,6 +135,15 @@ pub(super) fn unfiltered(
     loaded.take_force_from(found.rows);
     let conditioned = condition(asked, &loaded, observer)?;
     Ok((loaded, conditioned))
+}
+
+/// Leaves bristle and mass open where the force may be as late as it was taken, or something else is wrong, which a law would show.
+pub(super) fn doubted(loaded: &Loaded, estimate: &mut Estimate) {
+    let left = estimate.misfit.as_ref().and_then(Misfit::cause);
+    if loaded.is_late_or_else && left.is_some() {
+        let moved = [Quantity::Sigma0, Quantity::Sigma1, Quantity::Mass];
+        estimate.leave_open(&moved, LATE_OR_ELSE);
+    }
 }
 
 /// Whether a delay is looked for.

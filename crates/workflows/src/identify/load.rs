@@ -33,6 +33,8 @@ pub(super) struct Loaded {
     pub filter: Option<ForceFilter>,
     /// By how much the logs differ in that, in words, where no delay can be that of all.
     pub apart: Option<String>,
+    /// Whether the force was taken later since nothing else that was looked for explains more, by which little is left or much.
+    pub is_late_or_else: bool,
     /// What the log shows of a mass that the axis file states, in words, where that is another.
     pub mass: Option<String>,
 }
@@ -96,6 +98,7 @@ pub(super) fn load(
         late: 0.0,
         filter: None,
         apart: None,
+        is_late_or_else: false,
         mass: None,
     })
 }

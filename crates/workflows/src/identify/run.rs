@@ -4,7 +4,7 @@ use super::assemble::{self, Parts};
 use super::condition::{Conditioned, condition};
 use super::fit::fit;
 use super::judge::judge;
-use super::late::{aligned, realigned, unfiltered};
+use super::late::{aligned, doubted, realigned, unfiltered};
 use super::load::{Asked, Loaded, load};
 use super::method::Method;
 use super::options::{Files, Options};
@@ -217,11 +217,12 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     let mut loaded = aligned(asked, loaded)?;
     let conditioned = condition(asked, &loaded, observer)?;
     loaded.mass = stated_mass::named(asked, &loaded, &conditioned, observer);
-    let (loaded, conditioned) = realigned(asked, loaded, conditioned, observer)?;
-    let (loaded, conditioned) = unfiltered(asked, loaded, conditioned, observer)?;
+    let realigned = realigned(asked, loaded, conditioned, observer)?;
+    let (loaded, conditioned) = unfiltered(asked, realigned, observer)?;
     let ranges = asked.axis.search_box(&loaded.sources[0].log)?;
     let fitted = fit(asked, &loaded, &conditioned, observer);
-    let fitted = fitted.map_err(|e| of_the_split(asked, &conditioned, e))?;
+    let mut fitted = fitted.map_err(|e| of_the_split(asked, &conditioned, e))?;
+    doubted(&loaded, &mut fitted.choice.estimate);
     let names = conditioned.unseen_names.iter().cloned();
     let validation: Vec<(String, Series)> = names
         .zip(&conditioned.unseen)
