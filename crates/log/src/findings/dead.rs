@@ -15,12 +15,13 @@ const NEAR: f64 = 4.0 * NONE;
 const LEAST: f64 = 0.75;
 /// Largest mean of the force over it, in those parts: an offset of the sensor, where friction has the sign of the speed.
 const OFFSET: f64 = 0.01;
-/// Part of the samples that do not exceed that.
+/// Part of the samples that do not exceed that, and half of them.
 const USUAL: f64 = 0.9;
-/// Deviation of the force over it from its mean, in parts of the median of the log, from which on it has to be noise: where the largest
+const HALF: f64 = 0.5;
+/// Root mean square of the force over it, in parts of the median of the log, from which on it has to be noise: where the largest
 /// forces are those that a drive at its limit was asked for, friction or a spring is less than [`NONE`] of them, and follows the motion.
 const HARDLY: f64 = 0.03;
-/// What is noise changes within this time, s, by at least this part of its variance; a force that follows the motion hardly does.
+/// What is noise changes within this time, s, by at least this part of its mean square; a force that follows the motion hardly does.
 const WITHIN: f64 = 0.005;
 const CHANGES: f64 = 0.25;
 /// Shortest stretch, s and samples: a force that changes its sign passes zero sooner.
@@ -33,38 +34,13 @@ const TRAVEL: f64 = 0.02;
 
 /// Excludes stretches in which the axis moves under no force.
 pub(super) fn dead(log: &mut Log) {
-    let (Some(force), Some(position)) = (&log.force, &log.position) else {
+    let Some(force) = &log.force else { return };
+    // Beside the largest forces, and where these are far above all others beside those.
+    let sizes = [exceeded(force, USUAL), exceeded(force, HALF)].map(Option::unwrap_or_default);
+    let found = sizes.map(|usual| stretches(log, usual, sizes[1]));
+    let Some(runs) = found.into_iter().find(|runs| !runs.is_empty()) else {
         return;
     };
-    let (Some((low, high)), Some(usual)) = (extremes(position), exceeded(force, USUAL)) else {
-        return;
-    };
-    let half = exceeded(force, 0.5).unwrap_or(0.0);
-    let is_near = |sample: &usize| force[*sample].abs() <= NEAR * usual;
-    let mut runs: Vec<Range<usize>> = Vec::new();
-    for segment in &log.segments {
-        let mut from = segment.start;
-        while let Some(start) = (from..segment.end).find(is_near) {
-            let end = (start..segment.end).find(|i| !is_near(i));
-            let end = end.unwrap_or(segment.end);
-            runs.push(start..end);
-            from = end;
-        }
-    }
-    let is_off = |run: &Range<usize>| {
-        let force = &force[run.clone()];
-        let none = force.iter().filter(|f| f.abs() <= NONE * usual).count();
-        let mean = force.iter().sum::<f64>() / force.len() as f64;
-        none as f64 >= LEAST * force.len() as f64
-            && mean.abs() <= OFFSET * usual
-            && is_noise(force, mean, HARDLY * half, log.rate_hz)
-    };
-    let moves = |run: &Range<usize>| {
-        let travel = extremes(&position[run.clone()]).map_or(0.0, |(low, high)| high - low);
-        let lasts = log.time[run.end - 1] - log.time[run.start];
-        run.len() >= FEWEST && lasts >= SHORTEST && travel >= TRAVEL * (high - low)
-    };
-    runs.retain(|run| moves(run) && is_off(run));
     let Some(first) = runs.first() else { return };
     let samples: usize = runs.iter().map(Range::len).sum();
     let message = format!(
@@ -85,14 +61,50 @@ pub(super) fn dead(log: &mut Log) {
     }
 }
 
+/// Those stretches beside a usual size of the force, `half` being that of half of the samples.
+fn stretches(log: &Log, usual: f64, half: f64) -> Vec<Range<usize>> {
+    let (Some(force), Some(position)) = (&log.force, &log.position) else {
+        return Vec::new();
+    };
+    let Some((low, high)) = extremes(position).filter(|_| usual > 0.0) else {
+        return Vec::new();
+    };
+    let is_near = |sample: &usize| force[*sample].abs() <= NEAR * usual;
+    let mut runs: Vec<Range<usize>> = Vec::new();
+    for segment in &log.segments {
+        let mut from = segment.start;
+        while let Some(start) = (from..segment.end).find(is_near) {
+            let end = (start..segment.end).find(|i| !is_near(i));
+            let end = end.unwrap_or(segment.end);
+            runs.push(start..end);
+            from = end;
+        }
+    }
+    let is_off = |run: &Range<usize>| {
+        let force = &force[run.clone()];
+        let none = force.iter().filter(|f| f.abs() <= NONE * usual).count();
+        let mean = force.iter().sum::<f64>() / force.len() as f64;
+        none as f64 >= LEAST * force.len() as f64
+            && mean.abs() <= OFFSET * usual
+            && is_noise(force, HARDLY * half, log.rate_hz)
+    };
+    let moves = |run: &Range<usize>| {
+        let travel = extremes(&position[run.clone()]).map_or(0.0, |(low, high)| high - low);
+        let lasts = log.time[run.end - 1] - log.time[run.start];
+        run.len() >= FEWEST && lasts >= SHORTEST && travel >= TRAVEL * (high - low)
+    };
+    runs.retain(|run| moves(run) && is_off(run));
+    runs
+}
+
 /// Whether a force is hardly any, or changes too fast to follow a motion.
-fn is_noise(force: &[f64], mean: f64, hardly: f64, rate: f64) -> bool {
+fn is_noise(force: &[f64], hardly: f64, rate: f64) -> bool {
     let count = force.len() as f64;
-    let variance = force.iter().map(|f| (f - mean).powi(2)).sum::<f64>() / count;
+    let square = force.iter().map(|f| f * f).sum::<f64>() / count;
     let later = ((WITHIN * rate).round() as usize).max(1);
     let changes = force.iter().zip(force.iter().skip(later));
     let changes = changes.map(|(a, b)| (b - a).powi(2)).sum::<f64>() / count;
-    variance <= hardly * hardly || 0.5 * changes >= CHANGES * variance
+    square <= hardly * hardly || 0.5 * changes >= CHANGES * square
 }
 
 /// What that part of the samples does not exceed in size.
