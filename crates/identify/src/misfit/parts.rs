@@ -155,16 +155,9 @@ impl Measures {
         ends.is_some_and(|(first, last)| last - first >= SHORTEST_COURSE)
     }
 
-    /// How often the axis turns round.
+    /// How often the axis turns back.
     pub fn reversals(&self) -> usize {
-        let mut moves = self.travel.iter().filter(|x| **x != 0.0);
-        let mut way = moves.next().map_or(0.0, |x| x.signum());
-        let turns = moves.filter(|x| {
-            let turns = x.signum() != way;
-            way = x.signum();
-            turns
-        });
-        turns.count()
+        turns(&self.travel)
     }
 
     /// Whether each kept sample lies within that distance of the last reversal, m or rad.
@@ -237,15 +230,19 @@ fn travel(record: &Record) -> Vec<f64> {
 
 /// How often the axis turns back.
 pub(crate) fn reversals(record: &Record) -> usize {
-    let least = REVERSED_COUNTS * record.resolution.unwrap_or(0.0);
-    let turned = |segment: &Segment| {
-        let travel = along(segment, least);
-        travel
-            .windows(2)
-            .filter(|pair| pair[0] * pair[1] < 0.0)
-            .count()
-    };
-    record.segments.iter().map(turned).sum()
+    turns(&travel(record))
+}
+
+/// How often a signed distance from the last reversal changes its sign.
+fn turns(travel: &[f64]) -> usize {
+    let mut moves = travel.iter().filter(|x| **x != 0.0);
+    let mut way = moves.next().map_or(0.0, |x| x.signum());
+    let turned = moves.filter(|x| {
+        let turned = x.signum() != way;
+        way = x.signum();
+        turned
+    });
+    turned.count()
 }
 
 /// The same at the full rate; a reversal is a way back of more than `least`.
