@@ -74,7 +74,7 @@ pub struct Place {
     /// What `row` counts.
     pub counted: Counted,
     /// Column by its name, or its number counted from 1.
-    pub column: Option<String>,
+    pub column: Option<Box<str>>,
     /// Byte offset from the start of the file.
     pub byte: Option<u64>,
 }
@@ -235,7 +235,7 @@ impl Error {
     /// The same problem, in this column.
     #[must_use]
     pub fn in_column(mut self, column: impl Into<String>) -> Self {
-        self.place.column = Some(column.into());
+        self.place.column = Some(column.into().into_boxed_str());
         self
     }
 

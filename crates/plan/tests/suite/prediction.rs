@@ -446,6 +446,7 @@ fn elements_of_maxwell_slip_beside_a_delay_are_known_as_predicted() {
 }
 
 #[test]
+#[ignore = "soak: a minute, a level that falls and a delay are each above"]
 fn elements_whose_level_falls_beside_a_delay_are_known_as_predicted() {
     are_elements_realised(true, true);
 }
