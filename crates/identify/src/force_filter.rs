@@ -37,7 +37,7 @@ const SETTLED: f64 = 0.1;
 /// without it, and by how much the delay beside it may differ from that of a force which is held, samples. What only looks like a
 /// low-pass, a force that was logged later than fits reach, leaves another delay.
 const SURE: f64 = 3.0;
-const NO_MORE: f64 = 1.05;
+const NO_MORE: f64 = 1.0;
 const BESIDE: f64 = 0.75;
 
 /// A low-pass of first order behind which the force was logged.
@@ -96,7 +96,7 @@ pub fn force_filter(
         true => BEYOND,
         false => 0.0,
     };
-    let late = laid as f64 + delay - HELD_DELAY;
+    let mut late = laid as f64 + delay - HELD_DELAY;
     if late < LEAST_LATE {
         return None;
     }
@@ -135,6 +135,15 @@ pub fn force_filter(
         let change = (square - best.lag * best.lag).abs();
         if change < SETTLED * variance.sqrt() {
             break;
+        }
+        // A force that was taken too late, since nobody knew how late it was, is early beside the low-pass.
+        let beside = best
+            .optimum
+            .p
+            .last()
+            .map_or(0.0, |delay| delay - HELD_DELAY);
+        if beside.abs() >= BESIDE {
+            late += beside;
         }
         let start = best.optimum.p.clone();
         best = fit(square.sqrt(), &start, late.max(square.sqrt()))?;

@@ -175,6 +175,12 @@ impl Record {
             .sum()
     }
 
+    /// Whether any sample of a log, counted from 0, counts.
+    pub fn has_samples_of(&self, log: usize) -> bool {
+        let mut own = self.segments.iter().filter(|s| s.log == log);
+        own.any(|s| s.keep.contains(&true))
+    }
+
     /// Number of samples of the regression, kept or not.
     pub fn len(&self) -> usize {
         self.segments.iter().map(|s| s.keep.len()).sum()

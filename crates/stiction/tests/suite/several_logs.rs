@@ -211,3 +211,30 @@ fn a_log_with_the_sign_turned_is_named() {
         assert_eq!(disagreements(&fit), [""; 0], "{motion:?}");
     }
 }
+
+/// A log too short for any sample of it to be fitted is not passed over: what it holds is compared with nothing.
+#[test]
+fn a_log_of_which_nothing_is_fitted_is_no_part_of_a_result() {
+    let machine = Machine::joint(1);
+    let whole = record(&machine, Motion::Commissioning, World::Faithful, 1);
+    let mut short = record(&machine, Motion::Commissioning, World::Faithful, 1 + LATER);
+    let rows = 350;
+    short.time.truncate(rows);
+    short.force.truncate(rows);
+    if let Some(position) = &mut short.position {
+        position.truncate(rows);
+    }
+    for (k, force) in short.force.iter_mut().enumerate() {
+        *force = 100.0 * (k as f64).sin();
+    }
+    let fit = |logs: &[_]| identified(&machine, logs, &Axis::default(), &Options::default());
+    let alone = fit(std::slice::from_ref(&whole)).unwrap();
+    assert!(alone.result().trust.trustworthy);
+    let both = fit(&[whole, short]).unwrap();
+    let trust = &both.result().trust;
+    let says = |reason: &String| reason.starts_with("no sample of log-2.csv is fitted");
+    assert!(
+        !trust.trustworthy && trust.reasons.iter().any(says),
+        "{trust:#?}"
+    );
+}

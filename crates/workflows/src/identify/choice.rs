@@ -27,7 +27,7 @@ const SURELY: f64 = 3.0;
 /// Why bristle and mass are open where no delay that is looked for fits: what is late, and how, decides most about the slopes of
 /// reversals, and viscous friction of a late force looks like a part of the inertia.
 const BEYOND_ALL_DELAYS: &str = "the delay of the force came out at the end of those that are looked for, and it moves stiffness \
-                                 and damping of the bristles and the mass more than all else";
+                                 and damping of the bristles, viscous friction and the mass more than all else";
 
 /// Why static friction is open there too, where the Stribeck velocity is.
 const AN_END_BESIDE_IT: &str = "is where a curve ends whose Stribeck velocity is open, and the delay of the force came out at the end \
@@ -529,7 +529,12 @@ fn stated(
     }
     let sought = ladder.usual(estimate.law).terms.delay == Delay::Fitted;
     if sought && estimate.terms.delay == Delay::NONE {
-        let moved = [Quantity::Sigma0, Quantity::Sigma1, Quantity::Mass];
+        let moved = [
+            Quantity::Sigma0,
+            Quantity::Sigma1,
+            Quantity::Sigma2,
+            Quantity::Mass,
+        ];
         estimate.doubt(|p| {
             moved
                 .contains(&p.name.quantity)

@@ -5,7 +5,7 @@ use super::disagree;
 use super::fit::Fitted;
 use super::late;
 use super::load::{Asked, Loaded};
-use super::logs::{log_warnings, validation_warnings};
+use super::logs::{log_warnings, path_of, validation_warnings};
 use super::mixed;
 use super::trust::{self, Judged};
 use stiction_codes::Code;
@@ -43,6 +43,7 @@ pub(super) fn judge(
         warnings.push(Warning::new(Code::Interrupted, text));
     }
     late::stated(asked, loaded, law, &mut warnings);
+    let unused = unused(loaded, conditioned);
     let evidence = trust::Evidence {
         law,
         signal: "force",
@@ -52,6 +53,7 @@ pub(super) fn judge(
         motion: loaded.motion(),
         apart: loaded.apart.as_deref(),
         mass: loaded.mass.as_deref(),
+        unused: unused.as_deref(),
         chosen: fitted.choice.by != "user",
         held_back: fitted.choice.held_back.as_deref(),
         better: fitted.choice.better.as_ref(),
@@ -70,6 +72,20 @@ pub(super) fn judge(
             judged
         }
     }
+}
+
+/// Which of several logs have no sample that is fitted, in words: nothing compares them with the others.
+fn unused(loaded: &Loaded, conditioned: &Conditioned) -> Option<String> {
+    let all = 0..loaded.sources.len();
+    let idle = all.filter(|log| !conditioned.record.has_samples_of(*log));
+    let names: Vec<String> = idle.map(|log| path_of(&loaded.sources, log)).collect();
+    (!names.is_empty()).then(|| {
+        format!(
+            "no sample of {} is fitted: it is too short beside the ends that filters drop and the way after which what was before no \
+             longer counts; leave it out, or record a longer one",
+            names.join(", ")
+        )
+    })
 }
 
 /// Whether the position of every log can be compared with that of a simulated axis.

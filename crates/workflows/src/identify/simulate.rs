@@ -147,6 +147,7 @@ pub(super) fn run(
         motion,
         apart: None,
         mass: None,
+        unused: None,
     };
     let mut warnings = log_warnings(sources);
     warnings.extend(validation_warnings(&loaded.held_out, sources));

@@ -237,6 +237,8 @@ pub(super) struct Evidence<'a> {
     pub apart: Option<&'a str>,
     /// What the log shows of a mass that the axis file states, where that is another.
     pub mass: Option<&'a str>,
+    /// Which of several logs have no sample that is fitted.
+    pub unused: Option<&'a str>,
     pub motion: Motion,
     /// Whether the data chose the law.
     pub chosen: bool,
@@ -526,6 +528,9 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     }
     overflown(evidence.sources, reasons);
     if let Some(why) = evidence.apart {
+        reasons.push(why.to_string(), Next::FirstLog);
+    }
+    if let Some(why) = evidence.unused {
         reasons.push(why.to_string(), Next::FirstLog);
     }
     if let Some(why) = evidence.mass {
