@@ -218,7 +218,7 @@ fn a_log_of_which_nothing_is_fitted_is_no_part_of_a_result() {
     let machine = Machine::joint(1);
     let whole = record(&machine, Motion::Commissioning, World::Faithful, 1);
     let mut short = record(&machine, Motion::Commissioning, World::Faithful, 1 + LATER);
-    let rows = 350;
+    let rows = 150;
     short.time.truncate(rows);
     short.force.truncate(rows);
     if let Some(position) = &mut short.position {
