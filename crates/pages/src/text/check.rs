@@ -335,9 +335,7 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
     let new = || new_axis_file(Path::new(&log.input.path));
     let init = format!("stiction check {path}{with} --init {}", new());
     if !log.input.assumed.is_empty() {
-        out.push(format!(
-            "to write down the units that were assumed, and correct them there:"
-        ));
+        out.push("to write down the units that were assumed, and correct them there:".into());
         out.push(format!("  {init}"));
     }
     if log.next == Lead::Simulate {
