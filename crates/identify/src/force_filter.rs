@@ -96,7 +96,7 @@ pub fn force_filter(
         true => BEYOND,
         false => 0.0,
     };
-    let mut late = laid as f64 + delay - HELD_DELAY;
+    let late = laid as f64 + delay - HELD_DELAY;
     if late < LEAST_LATE {
         return None;
     }
@@ -135,15 +135,6 @@ pub fn force_filter(
         let change = (square - best.lag * best.lag).abs();
         if change < SETTLED * variance.sqrt() {
             break;
-        }
-        // A force that was taken too late, since nobody knew how late it was, is early beside the low-pass.
-        let beside = best
-            .optimum
-            .p
-            .last()
-            .map_or(0.0, |delay| delay - HELD_DELAY);
-        if beside.abs() >= BESIDE {
-            late += beside;
         }
         let start = best.optimum.p.clone();
         best = fit(square.sqrt(), &start, late.max(square.sqrt()))?;

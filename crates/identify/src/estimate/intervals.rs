@@ -308,14 +308,15 @@ fn flag_what_the_residual_doubts(fitted: &mut FittedLaw) {
             Quantity::CoulombPosition | Quantity::CoulombPitch(..)
         )
     };
-    let described =
+    let undescribed =
         cause == Some(Cause::Position) && fitted.parameters.iter().any(along_the_stroke);
     let differing = &fitted.disagreements;
     let claimed = |p: &&mut Parameter| p.identified && p.identifiable;
     for p in fitted.parameters.iter_mut().filter(claimed) {
         let shape = cause.and_then(|cause| cause.against(p.name.quantity));
         // On strokes the speed goes with the place.
-        let instead = [Quantity::Coulomb, Quantity::Sigma2].contains(&p.name.quantity) && described;
+        let instead =
+            [Quantity::Coulomb, Quantity::Sigma2].contains(&p.name.quantity) && undescribed;
         let place = instead.then_some(
             "takes up part of how friction changes along the stroke, which its terms do not describe",
         );
