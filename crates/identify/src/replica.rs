@@ -6,22 +6,23 @@
 //! effect of conditioning and noise on the parameters: the parametric bootstrap (Efron and Tibshirani
 //! 1993, ISBN 0-412-04231-2, section 6.5) with the recorded motion in place of resampled data.
 
+mod beside;
+
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::conditioning::shift::Shift;
 use crate::drive::Drive;
 use crate::estimate::Estimate;
-use crate::law::dependence::{Factor, product};
-use crate::law::terms::{ColumnKind, Delay, FirstDelay, LinearTerm, Terms};
+use crate::law::terms::{Delay, FirstDelay, Terms};
 use crate::reaction::{AS_MEAN, Logging, Reaction, is_logged_as_mean};
 use crate::repeats::Repeats;
 use crate::state_space::rests_much;
+use beside::{Beside, Stepped};
 use std::borrow::Cow;
 use stiction_friction::{Damping, Direction, LuGre, Stribeck};
 use stiction_parameters::Quantity;
 use stiction_servo::encoder::Encoder;
-use stiction_servo::integrator::{Integrator, Quick};
 use stiction_servo::noise::Noise;
-use stiction_servo::plant::{Load, Motion, Plant};
+use stiction_servo::plant::{Motion, Plant};
 
 /// Delay of a force that is logged where it is held, from its sample to the next, samples.
 pub(crate) const HELD_DELAY: f64 = -0.5;
@@ -78,8 +79,8 @@ pub(crate) struct Axis<'a> {
     drive: Drive,
     stroke: f64,
     substeps: u32,
-    /// Segment by segment the force beside friction and inertia.
-    others: Vec<Vec<f64>>,
+    /// Segment by segment what acts beside the law and inertia.
+    others: Vec<Beside>,
     /// The response of the controller, and segment by segment the force that then acted on the axis.
     answered: Option<(Reaction, Vec<Vec<f64>>)>,
     /// Whether it repeats its motion as the log does.
@@ -137,7 +138,7 @@ impl<'a> Axis<'a> {
         let others = segments
             .iter()
             .zip(&plants)
-            .map(|(segment, plant)| other(segment, plant.law(), beside.clone()))
+            .map(|(segment, plant)| Beside::of(segment, plant.law(), beside.clone()))
             .collect::<Option<_>>()?;
         let answered = Reaction::of(record, logging).and_then(|reaction| {
             let felt = segments.iter().zip(&repeats);
@@ -207,14 +208,15 @@ impl<'a> Axis<'a> {
     fn run(
         &self,
         (segment, plant): (&Segment, &Plant),
-        other: &[f64],
+        other: &Beside,
         answered: Option<(&Reaction, &[f64])>,
         force_noise: f64,
         noise: &mut Noise,
     ) -> Option<(Samples, Vec<f64>)> {
         let record = self.record;
         let h = segment.step;
-        let mut integrator = Quick::new(self.drive.substeps(self.substeps)).ok()?;
+        let steps = self.drive.substeps(self.substeps);
+        let mut axis = Stepped::new(plant, other, steps)?;
         let n = segment.position.len();
         let tracking = match answered {
             Some(_) if self.repeats => REPEATED_TRACKING_FREQUENCY,
@@ -254,7 +256,7 @@ impl<'a> Axis<'a> {
         };
         let (mut position, mut force) = (Vec::<f64>::with_capacity(n), Vec::with_capacity(n));
         let mut quiet = Vec::with_capacity(n);
-        for (k, other) in other.iter().enumerate() {
+        for k in 0..n {
             let error = segment.position[k] - motion.position;
             let slip = segment.velocity[k] - motion.velocity;
             if error.is_nan() || error.abs() > self.stroke {
@@ -282,8 +284,7 @@ impl<'a> Axis<'a> {
             force.push(logged + force_noise * noise.normal());
             commands.push(applied);
             let acts = |part: f64, force: f64| {
-                let load = Load::force(force - other);
-                motion = integrator.advance(plant, motion, part * h, load, 0.0);
+                motion = axis.advance(k, motion, part * h, force);
             };
             self.drive
                 .sample(&commands, self.substeps, &mut behind, acts);
@@ -381,78 +382,6 @@ pub(crate) fn first_delay(fitted: &Estimate, step: f64) -> Option<FirstDelay> {
 pub(crate) fn deviation(fitted: &Estimate, step: f64) -> Option<f64> {
     let delay = fitted.parameter(Quantity::Delay)?;
     delay.std.map(|std| std / step)
-}
-
-/// The force beside the friction of the law and inertia along a segment; `None` where a term cannot be simulated. What load,
-/// temperature or place add to friction is taken along the recorded motion, which the simulated one follows.
-fn other<'t>(
-    segment: &Segment,
-    law: &LuGre<f64>,
-    terms: impl Iterator<Item = (&'t LinearTerm, &'t f64)> + Clone,
-) -> Option<Vec<f64>> {
-    let mut out = vec![0.0; segment.position.len()];
-    let changes = |term: &LinearTerm| matches!(term.column, ColumnKind::LevelTimes(factor, _) if !matches!(factor, Factor::Log(_)));
-    let eta = match terms.clone().any(|(term, _)| changes(term)) {
-        true => level(segment, law),
-        false => Vec::new(),
-    };
-    for (term, c) in terms {
-        match term.column {
-            ColumnKind::Level
-            | ColumnKind::Rate
-            | ColumnKind::Speed(_)
-            | ColumnKind::Acceleration
-            | ColumnKind::LevelTimes(Factor::Log(_), _)
-            | ColumnKind::RateTimes(Factor::Log(_))
-            | ColumnKind::SpeedTimes(Factor::Log(_), _) => {}
-            ColumnKind::One => out.iter_mut().for_each(|y| *y += c),
-            ColumnKind::Sine(k) => {
-                for (y, x) in out.iter_mut().zip(&segment.position) {
-                    *y += c * libm::sin(k * x);
-                }
-            }
-            ColumnKind::Cosine(k) => {
-                for (y, x) in out.iter_mut().zip(&segment.position) {
-                    *y += c * libm::cos(k * x);
-                }
-            }
-            ColumnKind::LevelTimes(factor, side) => {
-                let column = product(&eta, (&factor, &factor.along(segment)), side);
-                for (y, x) in out.iter_mut().zip(column) {
-                    *y += c * x;
-                }
-            }
-            ColumnKind::SpeedTimes(factor, side) => {
-                let along = factor.along(segment);
-                for ((y, f), &v) in out.iter_mut().zip(along).zip(&segment.velocity) {
-                    if side.is_none_or(|side| side.selects(v)) {
-                        *y += c * f * v;
-                    }
-                }
-            }
-            ColumnKind::Element(_)
-            | ColumnKind::Sign(_)
-            | ColumnKind::Square(_)
-            | ColumnKind::RateTimes(_) => return None,
-        }
-    }
-    Some(out)
-}
-
-/// Force of the bristles over the Coulomb level along a segment.
-fn level(segment: &Segment, law: &LuGre<f64>) -> Vec<f64> {
-    let scale = law.stiffness() / law.curve().positive().coulomb;
-    let mut z = 0.0;
-    let mut before = segment.velocity.first().copied().unwrap_or(0.0);
-    segment
-        .velocity
-        .iter()
-        .map(|&v| {
-            z = law.step_record(z, segment.step, before, v);
-            before = v;
-            scale * z
-        })
-        .collect()
 }
 
 /// Plant steps in a sample: the implicit midpoint has a relative error of a twelfth of `(h omega)^2` in
