@@ -124,6 +124,7 @@ codes! {
     ForceFiltered = "force-filtered": "the force was logged behind a low-pass",
     MotionLate = "motion-late": "the motion was logged much later than the force it belongs to",
     MassDisagrees = "mass-disagrees": "the log shows another mass than the axis file states",
+    DelayDisagrees = "delay-disagrees": "the log shows another delay of the force than the axis file states",
     LogsDisagree = "logs-disagree": "logs that are fitted together have a parameter differently",
     DelayOutOfRange = "delay-out-of-range": "the fitted delay between force and motion is implausibly long",
     StaticLawAtRest = "static-law-at-rest": "a static law is fitted to an axis at rest or in presliding",

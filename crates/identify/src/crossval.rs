@@ -78,10 +78,8 @@ pub fn cross_validate(
     blocks: usize,
     observer: &mut dyn Observer,
 ) -> LawScore {
-    let total = record.kept();
-    // What is left of the record must still be enough for a fit.
-    let enough = total - total / blocks.max(1) >= 10 * fitted.fitted_unknowns();
-    if blocks < 2 || !enough {
+    let folds = Folds::of(record, blocks);
+    if !folds.leave_enough(fitted.fitted_unknowns()) {
         return LawScore::of(fitted, &[], Vec::new(), &[]);
     }
     let objective = Objective::new(record, fitted.law, &fitted.terms);
@@ -97,7 +95,7 @@ pub fn cross_validate(
         at: &at,
         steps: REFIT_STEPS,
     };
-    match whole.residuals(&Folds::of(record, blocks), &mut watch) {
+    match whole.residuals(&folds, &mut watch) {
         Some(residual) => {
             let speed = record.pick(|s| &s.velocity);
             LawScore::of(fitted, objective.force(), residual, &speed)

@@ -37,7 +37,7 @@ mod searched;
 mod seen;
 mod settled;
 mod simulate;
-mod stated_mass;
+mod stated;
 mod trust;
 mod turn;
 mod turned;

@@ -8,6 +8,9 @@ const STRETCHES: usize = 16;
 /// Fewest kept samples of a stretch. The common filter correlates two or three of them.
 const SHORTEST_STRETCH: usize = 24;
 
+/// Samples that a fit needs for each of its unknowns.
+const FOR_EACH_UNKNOWN: usize = 10;
+
 /// Which fold each kept sample belongs to.
 #[derive(Clone, Debug)]
 pub(crate) struct Folds {
@@ -34,6 +37,12 @@ impl Folds {
             of: (0..kept).map(fold).collect(),
             count,
         }
+    }
+
+    /// Whether what is left without a fold is enough for a fit of so many unknowns.
+    pub fn leave_enough(&self, unknowns: usize) -> bool {
+        let kept = self.of.len();
+        self.count > 1 && kept - kept / self.count >= FOR_EACH_UNKNOWN * unknowns
     }
 
     /// The record with only those samples of the regression that are (`inside`) or are not in a fold.

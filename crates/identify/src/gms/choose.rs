@@ -39,18 +39,22 @@ pub(super) fn scores(
     out
 }
 
-/// The rung with the fewest elements among those with equal held-out error; the one with the fewest where
-/// nothing could be held out.
-pub(super) fn best(scores: &[ElementsScore]) -> usize {
-    let error = |s: &ElementsScore| s.held_out_error_percent;
-    let least = scores
-        .iter()
-        .filter_map(error)
-        .fold(f64::INFINITY, f64::min);
-    let alike = |s: &ElementsScore| error(s).is_some_and(|e| e <= EQUAL_ERROR_RATIO * least);
-    let any = scores.iter().any(alike);
+/// The fewest elements among those with equal held-out error; those with the least BIC where something could not be held out
+/// for all of them, as for laws ([`choose`](crate::choice::choose())). `rungs` has the fits behind the scores.
+pub(super) fn best(scores: &[ElementsScore], rungs: &[Rung], record: &Record) -> usize {
+    let held_out: Option<Vec<f64>> = scores.iter().map(|s| s.held_out_error_percent).collect();
+    let Some(errors) = held_out else {
+        let n = record.kept() as f64;
+        let bic = |i: usize| {
+            let unknowns = rungs[i].law.nonlinear() + rungs[i].law.elements;
+            2.0 * n * libm::log(scores[i].fitted_error_percent) + unknowns as f64 * libm::log(n)
+        };
+        let all = 0..scores.len();
+        return all.min_by(|&a, &b| bic(a).total_cmp(&bic(b))).unwrap_or(0);
+    };
+    let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
     (0..scores.len())
-        .filter(|&i| !any || alike(&scores[i]))
+        .filter(|&i| errors[i] <= EQUAL_ERROR_RATIO * least)
         .min_by_key(|&i| scores[i].elements)
         .unwrap_or(0)
 }
@@ -64,7 +68,7 @@ fn held_out(
     watch: &mut Watch,
 ) -> Option<f64> {
     let unknowns = rung.law.nonlinear() + full.linear().len();
-    if watch.stopped || folds.of.len() < HELD_OUT_BLOCKS * 10 * unknowns {
+    if watch.stopped || !folds.leave_enough(unknowns) {
         return None;
     }
     let whole = Whole {

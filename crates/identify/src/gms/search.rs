@@ -89,7 +89,7 @@ pub(crate) fn search(
         Vec::new()
     };
     let at = match wanted {
-        0 => choose::best(&scores),
+        0 => choose::best(&scores, &rungs, record),
         _ => rungs.len() - 1,
     };
     let rung = rungs.into_iter().nth(at).expect("a ladder has a rung");

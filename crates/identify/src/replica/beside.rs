@@ -127,3 +127,52 @@ impl<'a> Stepped<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use stiction_friction::{Damping, Direction, Shape, Stribeck};
+
+    fn plant(level: f64) -> Plant {
+        let side = Direction {
+            coulomb: 9.0 * level,
+            static_friction: 12.0 * level,
+            stribeck_velocity: 0.03,
+            viscous: 14.0,
+        };
+        let curve = Stribeck::symmetric(Shape::Gaussian, side, 0.0).unwrap();
+        let law = LuGre::new(12_000.0 * level, Damping::Constant(60.0), curve).unwrap();
+        Plant::new(1.2, law).unwrap()
+    }
+
+    /// A level that is a quarter higher everywhere is a bristle that is as much stiffer and stronger.
+    #[test]
+    fn a_level_multiplies_the_bristles_of_the_axis_itself() {
+        const SAMPLES: usize = 400;
+        let [nothing, higher] = [Vec::new(), vec![[1.25; 2]; SAMPLES]].map(|level| Beside {
+            force: vec![0.0; SAMPLES],
+            level,
+        });
+        let (as_it_is, stronger) = (plant(1.0), plant(1.25));
+        let mut own = Stepped::new(&as_it_is, &higher, 20).unwrap();
+        let mut other = Stepped::new(&stronger, &nothing, 20).unwrap();
+        let start = Motion {
+            position: 0.0,
+            velocity: 0.0,
+            deflection: 0.0,
+        };
+        let (mut a, mut b) = (start, start);
+        let mut fastest = 0.0_f64;
+        for k in 0..SAMPLES {
+            let force = 20.0 * libm::sin(0.05 * k as f64);
+            a = own.advance(k, a, 1e-3, force);
+            b = other.advance(k, b, 1e-3, force);
+            fastest = fastest.max(b.velocity.abs());
+            assert!(
+                (a.velocity - b.velocity).abs() < 1e-4,
+                "sample {k}: {a:?} {b:?}"
+            );
+        }
+        assert!(fastest > 0.1, "{fastest}");
+    }
+}

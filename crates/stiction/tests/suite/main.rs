@@ -25,6 +25,7 @@ mod scale;
 mod several_logs;
 mod short_logs;
 mod simulation;
+mod stated;
 mod stepped;
 mod study;
 mod study_axis;

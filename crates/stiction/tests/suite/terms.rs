@@ -2,6 +2,7 @@
 
 use crate::common;
 use crate::common::{Asked, Bench, both_ways, noise, options};
+use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction::commands::Outcome;
@@ -353,4 +354,84 @@ fn a_constant_load_is_flagged() {
         "{:?}",
         outcome.result.trust
     );
+}
+
+/// A joint under a cascade at 1 kHz whose level rises by a quarter over .8 rad, along sines from the whole stroke to presliding. The
+/// command that is logged is held from its sample to the next.
+fn level_along_the_stroke() -> String {
+    const SINES: [(f64, f64, f64); 7] = [
+        (0.8, 0.398, 3.0),
+        (0.356, 0.358, 3.0),
+        (0.009_55, 1.0, 3.0),
+        (0.003_82, 1.0, 3.0),
+        (0.001_91, 1.0, 3.0),
+        (0.006, 1.5, 3.0),
+        (0.56, 0.239, 4.0),
+    ];
+    let (step, fine, count) = (1e-3, 1e-5, TAU / 524_288.0);
+    let wanted = |mut t: f64| {
+        for (amplitude, frequency, periods) in SINES {
+            let ends = periods / frequency;
+            if t < ends {
+                let near = (2.0 * frequency * t.min(ends - t)).min(1.0);
+                let begun = 0.5 - 0.5 * (0.5 * TAU * near).cos();
+                return begun * amplitude * (TAU * frequency * t).sin();
+            }
+            t -= ends;
+        }
+        0.0
+    };
+    let duration: f64 = SINES.iter().map(|(_, f, n)| n / f).sum();
+    let gain = MASS * TAU * 20.0;
+    let (mut x, mut v, mut z) = (0.0_f64, 0.0_f64, 0.0_f64);
+    let (mut before, mut integral) = (0.0, 0.0);
+    let mut text = String::from("Time [s],Position [rad],Torque [Nm]\n");
+    for k in 0..(duration / step) as usize {
+        let t = k as f64 * step;
+        let read = (x / count).floor() * count;
+        let ahead = (wanted(t) - wanted((t - step).max(0.0))) / step;
+        let error = 0.25 * TAU * 20.0 * (wanted(t) - read) + 0.9 * ahead - (read - before) / step;
+        before = read;
+        integral += gain * TAU * 5.0 * error * step;
+        let force = gain * error + integral;
+        let logged = force + 0.14 * noise(3, k);
+        let _ = writeln!(text, "{t:.3},{read:.9},{logged:.5}");
+        for _ in 0..(step / fine).round() as usize {
+            let level = 9.0 + 3.0 * (-(v / 0.03) * (v / 0.03)).exp();
+            let rate = v - STIFFNESS * v.abs() * z / level;
+            let spring = (1.0 + 0.25 * x / 0.8) * STIFFNESS * z;
+            v += fine * (force - spring - SIGMA1 * rate - 14.0 * v) / MASS;
+            z += fine * rate;
+            x += fine * v;
+        }
+    }
+    text
+}
+
+const MASS: f64 = 1.2;
+const STIFFNESS: f64 = 12e3;
+const SIGMA1: f64 = 60.0;
+
+/// A replica whose level follows the recorded motion instead of its own bristles shows a delay that is half a sample beside the
+/// true one, and micro-damping that makes up for it.
+#[test]
+fn a_level_along_the_stroke_moves_no_delay() {
+    let bench = Bench::new();
+    let file = bench.write("log.csv", &level_along_the_stroke());
+    let declared = "[terms]\ncoulomb_position = true\n";
+    let result = run(&with_axis(&bench, &file, declared, LawKind::LuGre)).result;
+    assert!(result.trust.trustworthy, "{:?}", result.trust);
+    for (name, truth) in [
+        ("delay", -5e-4),
+        ("sigma0", STIFFNESS),
+        ("sigma1", SIGMA1),
+        ("mass", MASS),
+    ] {
+        let p = result.parameters.iter().find(|p| p.name == name).unwrap();
+        let [low, high] = p.ci95.unwrap().map(|x| x.expect("a closed interval"));
+        let off = (p.value - truth).abs() / (0.5 * (high - low));
+        assert!(off < 1.5, "{name}: {low} .. {high}, {off:.2} half-widths");
+        let narrow = name == "delay" || high - low < 0.05 * truth;
+        assert!(narrow, "{name}: {low} .. {high}");
+    }
 }

@@ -30,7 +30,7 @@ pub(super) fn judge(
     // A search by itself looks for no delay and compares no laws.
     let finishes = !asked.options.searching.no_finish;
     let asks_delay = asked.axis.terms.delay == Delay::Fitted && finishes;
-    if asks_delay && law.terms.delay == Delay::NONE && loaded.mass.is_none() {
+    if asks_delay && law.terms.delay == Delay::NONE && loaded.contradicted.is_none() {
         warnings.push(Warning::new(Code::DelayOutOfRange, DELAY_OUT_OF_RANGE));
     }
     if let Some(error) = &fitted.not_kept {
@@ -52,7 +52,7 @@ pub(super) fn judge(
         laws: &fitted.choice.laws,
         motion: loaded.motion(),
         apart: loaded.apart.as_deref(),
-        mass: loaded.mass.as_deref(),
+        contradicted: loaded.contradicted.as_ref(),
         unused: unused.as_deref(),
         chosen: fitted.choice.by != "user",
         held_back: fitted.choice.held_back.as_deref(),

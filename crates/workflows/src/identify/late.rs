@@ -155,7 +155,7 @@ fn is_sought(asked: Asked, loaded: &Loaded) -> bool {
     };
     asked.axis.terms.delay == Delay::Fitted
         && asked.options.procedures.method.fits_force()
-        && loaded.mass.is_none()
+        && loaded.contradicted.is_none()
         && !loaded.sources.iter().any(is_inverted)
 }
 

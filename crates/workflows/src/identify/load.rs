@@ -4,6 +4,7 @@ use super::beside::Beside;
 use super::method::Method;
 use super::options::Options;
 use super::searched;
+use super::stated::Contradicted;
 use crate::error::Error;
 use crate::source::Source;
 use crate::wording::Setting;
@@ -35,8 +36,8 @@ pub(super) struct Loaded {
     pub apart: Option<String>,
     /// Whether the force was taken later since nothing else that was looked for explains more, by which little is left or much.
     pub is_late_or_else: bool,
-    /// What the log shows of a mass that the axis file states, in words, where that is another.
-    pub mass: Option<String>,
+    /// What the axis file states and the log contradicts.
+    pub contradicted: Option<Contradicted>,
 }
 
 impl Loaded {
@@ -99,7 +100,7 @@ pub(super) fn load(
         filter: None,
         apart: None,
         is_late_or_else: false,
-        mass: None,
+        contradicted: None,
     })
 }
 

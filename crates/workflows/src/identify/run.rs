@@ -13,7 +13,7 @@ use super::outside;
 use super::planned;
 use super::procedure::{static_map, step};
 use super::simulate;
-use super::stated_mass;
+use super::stated;
 use crate::error::Error;
 use crate::source::{Source, Used, load_held_out, refuse_several, usage_at};
 use crate::wording::{Setting, TOGETHER_WITH};
@@ -216,7 +216,7 @@ fn of_the_split(asked: Asked, conditioned: &Conditioned, error: Error) -> Error 
 fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Result<Outcome, Error> {
     let mut loaded = aligned(asked, loaded)?;
     let conditioned = condition(asked, &loaded, observer)?;
-    loaded.mass = stated_mass::named(asked, &loaded, &conditioned, observer);
+    loaded.contradicted = stated::named(asked, &loaded, &conditioned, observer);
     let realigned = realigned(asked, loaded, conditioned, observer)?;
     let (loaded, conditioned) = unfiltered(asked, realigned, observer)?;
     let ranges = asked.axis.search_box(&loaded.sources[0].log)?;

@@ -146,7 +146,7 @@ pub(super) fn run(
         can_be_simulated: false,
         motion,
         apart: None,
-        mass: None,
+        contradicted: None,
         unused: None,
     };
     let mut warnings = log_warnings(sources);

@@ -5,6 +5,7 @@ use super::compensation;
 use super::disagree;
 use super::lacking;
 use super::left;
+use super::stated::Contradicted;
 use super::turned;
 use super::unfit;
 use crate::source::Source;
@@ -184,7 +185,7 @@ enum Shown {
 #[derive(Default)]
 pub(super) struct Reasons {
     reasons: Vec<(String, Next)>,
-    /// Whether data contradict the law, some that were not fitted or a mass that was not: what it holds for constants differs there.
+    /// Whether data contradict the law, some that were not fitted or a mass or delay that was not: what it holds for constants differs there.
     elsewhere: bool,
     /// The logs that do, as far as the first of these reasons leads to them.
     other: Vec<String>,
@@ -235,8 +236,8 @@ pub(super) struct Evidence<'a> {
     pub laws: &'a [LawEntry],
     /// How the logs differ in when their force was logged, where no delay is that of all.
     pub apart: Option<&'a str>,
-    /// What the log shows of a mass that the axis file states, where that is another.
-    pub mass: Option<&'a str>,
+    /// What the axis file states and the log contradicts.
+    pub contradicted: Option<&'a Contradicted>,
     /// Which of several logs have no sample that is fitted.
     pub unused: Option<&'a str>,
     pub motion: Motion,
@@ -533,9 +534,9 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     if let Some(why) = evidence.unused {
         reasons.push(why.to_string(), Next::FirstLog);
     }
-    if let Some(why) = evidence.mass {
-        warnings.insert(0, Warning::new(Code::MassDisagrees, why));
-        reasons.push(why, Next::AxisFile);
+    if let Some(stated) = evidence.contradicted {
+        warnings.insert(0, Warning::new(stated.code, &*stated.message));
+        reasons.push(&*stated.message, Next::AxisFile);
         reasons.elsewhere = true;
     }
     let gravity = turned.is_none() && lacking::named(evidence, reasons);
@@ -577,7 +578,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         evidence.motion,
         (&evidence.options, disagree::has_one_level(law)),
     ));
-    if turned.is_some() || evidence.mass.is_some() {
+    if turned.is_some() || evidence.contradicted.is_some() {
         causes.clear();
     }
     let place = match evidence.shows_friction() {
