@@ -178,7 +178,7 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
                 let arguments = std::env::args_os().skip(1);
                 let arguments = arguments.map(|a| path_text(Path::new(&a)));
                 let kept = arguments.filter(|a| next == Next::Again || a != "--no-finish");
-                let command = stiction::commands::text::command(kept);
+                let command = stiction::commands::text::command(going_on(next, kept).into_iter());
                 let why = stiction::commands::text::why(next);
                 format!("{why}\nnext: {command}\n")
             }
@@ -195,6 +195,23 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
         return Ok(Exit::Interrupted);
     }
     Ok(outcome.verdict().into())
+}
+
+/// The same arguments, from the state that was kept where a search was stopped.
+fn going_on(next: Next, arguments: impl Iterator<Item = String>) -> Vec<String> {
+    let mut all: Vec<String> = arguments.collect();
+    let of = |option: &str| {
+        let (apart, joined) = (format!("--{option}"), format!("--{option}="));
+        let value = |at: usize| match all[at].strip_prefix(&joined) {
+            Some(value) => Some(value.to_string()),
+            None => (all[at] == apart).then(|| all.get(at + 1).cloned())?,
+        };
+        (0..all.len()).find_map(value)
+    };
+    if let (Next::Again, Some(kept), None) = (next, of("checkpoint"), of("resume")) {
+        all.extend(["--resume".to_string(), kept]);
+    }
+    all
 }
 
 /// The line that says which files are where.

@@ -68,6 +68,10 @@ impl Estimate {
     }
 }
 
+/// Why static friction is open beside a Stribeck velocity that another exponent moves.
+const END_OF_A_SHAPE: &str =
+    "is the end of a Stribeck curve whose shape the log leaves open: it moves with the exponent";
+
 impl Deref for Estimate {
     type Target = FittedLaw;
 
@@ -91,7 +95,7 @@ impl Estimate {
     }
 
     /// Flags parameters that a law which holds less has elsewhere, by more than half of their interval: they depend on what is
-    /// held. `before` is this estimate as its search left it, as `freer` is: the corrections of both would be the same.
+    /// held, and static friction with a Stribeck velocity that depends on the shape of its curve. `before` is this estimate as its search left it, as `freer` is: the corrections of both would be the same.
     pub fn doubt_beside(&mut self, before: &FittedLaw, freer: &FittedLaw) {
         let (own, other) = (&before.law, &freer.law);
         let freed: Vec<&str> = [
@@ -115,6 +119,7 @@ impl Estimate {
             true => "static friction may be above all forces of the log".into(),
             false => format!("{} is fitted too", freed.join(" and ")),
         };
+        let mut unknown = Vec::new();
         for parameter in &mut self.fitted.parameters {
             let Some((low, high)) = parameter.ci95.filter(|_| parameter.identifiable) else {
                 continue;
@@ -130,7 +135,16 @@ impl Estimate {
                     "depends on what the law holds fixed: {} where {freed}",
                     stiction_number::four_digits(parameter.value + other - mine)
                 );
+                if parameter.name.quantity == Quantity::StribeckVelocity {
+                    unknown.push(parameter.name.side);
+                }
             }
+        }
+        if other.exponent_fitted && !own.exponent_fitted {
+            self.doubt(|p| {
+                let ends = p.name.quantity == Quantity::Static && unknown.contains(&p.name.side);
+                ends.then_some(END_OF_A_SHAPE)
+            });
         }
     }
 

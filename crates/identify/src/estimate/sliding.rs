@@ -53,20 +53,57 @@ pub(crate) fn flag_one_direction(
     }
 }
 
-/// Flags the parameters of sliding where the axis does not slide.
+/// Flags the parameters of sliding where the axis does not slide, or not far enough to show them.
 fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
-    if !is_presliding(stroke, parameters) {
+    never_turned_over(stroke, parameters);
+    // Elements slip at their yield, bristles never quite.
+    let has_elements = parameters.iter().any(is_yield);
+    let reaches = if has_elements { 1.0 } else { REACHES };
+    let Some(ways) = ways(stroke, parameters).filter(|ways| *ways < reaches) else {
         return;
-    }
-    for p in parameters
-        .iter_mut()
-        .filter(|p| p.identifiable && SLIDING.contains(&p.name.quantity))
-    {
+    };
+    let reason = match ways < 1.0 {
+        true => "the stroke is shorter than the travel of the bristles from one side to the other"
+            .to_string(),
+        false => format!(
+            "the stroke is {ways:.1} times the travel of the bristles from one side to the other, of which they need {REACHES} to come \
+             within a twentieth of the level"
+        ),
+    };
+    let levels = |p: &Parameter| {
+        SLIDING.contains(&p.name.quantity) || p.name.quantity == Quantity::Offset && ways >= 1.0
+    };
+    let open = parameters.iter_mut();
+    for p in open.filter(|p| p.identified && p.identifiable && levels(p)) {
         p.identifiable = false;
-        p.reason =
-            "the stroke is shorter than the travel of the bristles from one side to the other"
-                .into();
+        p.reason.clone_from(&reason);
     }
+}
+
+/// Strokes in travels of the bristles from one side to the other from which on these come within a twentieth of their level: from
+/// the other side they are at `1 - 2 exp(-2 n)` of it after n such travels (LuGre, eq. 1 and 2 of Canudas de Wit et al. 1995).
+const REACHES: f64 = 1.85;
+
+/// Flags the elements that never slip from one side to the other, and what they take part in: such an element is a spring as far
+/// as the motion shows.
+fn never_turned_over(stroke: f64, parameters: &mut [Parameter]) {
+    let is_beyond = |p: &&mut Parameter| is_yield(p) && p.identified && 2.0 * p.value > stroke;
+    let mut never = false;
+    for p in parameters.iter_mut().filter(is_beyond) {
+        p.identifiable = false;
+        p.reason = "the stroke is shorter than its travel from one side to the other: as far as the motion shows it is a spring".into();
+        never = true;
+    }
+    let levels = [Quantity::Coulomb, Quantity::Static];
+    let levels = |p: &&mut Parameter| p.identifiable && levels.contains(&p.name.quantity);
+    for p in parameters.iter_mut().filter(|p| never && levels(p)) {
+        p.identifiable = false;
+        p.reason = "an element never slips from one side to the other".into();
+    }
+}
+
+fn is_yield(p: &Parameter) -> bool {
+    matches!(p.name.quantity, Quantity::ElementYield(_))
 }
 
 /// Ways of the bristles from one side to the other within which an axis that never reached its static level may have crept.
@@ -120,21 +157,21 @@ pub(crate) fn flag_what_never_breaks_away(
 /// Whether the stroke (m or rad) is shorter than the travel that turns the bristles from one side to the other, which is the
 /// sum of the Coulomb levels divided by sigma0.
 pub(crate) fn is_presliding(stroke: f64, parameters: &[Parameter]) -> bool {
+    ways(stroke, parameters).is_some_and(|ways| ways < 1.0)
+}
+
+/// The stroke in such travels; `None` for a law without a bristle.
+fn ways(stroke: f64, parameters: &[Parameter]) -> Option<f64> {
     let of = |quantity: Quantity, side| {
         let mut known = parameters.iter();
         let found = known.find(|p| p.name.quantity == quantity && p.name.side == side);
         found.map(|p| p.value)
     };
     let coulomb = |side| of(Quantity::Coulomb, side);
-    let levels = match (
-        coulomb(Side::Both),
-        coulomb(Side::Positive),
-        coulomb(Side::Negative),
-    ) {
-        (Some(level), ..) => 2.0 * level,
-        (_, Some(positive), Some(negative)) => positive + negative,
-        _ => return false,
+    let levels = match coulomb(Side::Both) {
+        Some(level) => 2.0 * level,
+        None => coulomb(Side::Positive)? + coulomb(Side::Negative)?,
     };
-    let stiffness = of(Quantity::Sigma0, Side::Both);
-    stiffness.is_some_and(|stiffness| stroke * stiffness < levels)
+    let stiffness = of(Quantity::Sigma0, Side::Both)?;
+    Some(stroke * stiffness / levels)
 }

@@ -63,6 +63,29 @@ impl Optimum {
         start
     }
 
+    /// Where descents of a richer law may start from here, whose own search ended at `other`: the unknowns that both have as they
+    /// are here, the rest as they are there, and in the middle of their ranges.
+    pub fn starts_within(&self, other: &Optimum) -> [Vec<f64>; 2] {
+        let (own, law) = (self.law.layout(), other.law.layout());
+        let known = self.start_for(&other.law);
+        let lacks = |i: usize| {
+            let pairs = [
+                (law.excess[0], own.excess[0]),
+                (law.velocity[0], own.velocity[0]),
+                (law.excess[1], own.excess[1]),
+                (law.velocity[1], own.velocity[1]),
+            ];
+            pairs.contains(&(Some(i), None))
+        };
+        let with = |value: &dyn Fn(usize) -> f64| {
+            let each = known.iter().enumerate();
+            each.map(|(i, &x)| if lacks(i) { value(i) } else { x })
+                .collect()
+        };
+        let middle = |i: usize| 0.5 * (other.bounds.low(i) + other.bounds.high(i));
+        [with(&|i| other.p[i]), with(&middle)]
+    }
+
     /// The box that was searched, with static friction at most `force` where Coulomb friction stays as it is, `coulomb` in
     /// positive and negative direction: for the law alone, without the delay.
     pub fn bounds_with_static_below(&self, coulomb: [f64; 2], force: f64) -> SearchBox {

@@ -9,6 +9,9 @@ use stiction_parameters::{Name, Quantity};
 /// Parameters that need a feedforward of their own, beside that of friction.
 const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
 
+/// Constant force in Coulomb levels from which on it may be a weight: what friction differs between directions is less.
+const WEIGHT: f64 = 0.5;
+
 /// What should not be used, what the log leaves open, and what the code leaves out.
 pub(super) fn doubts(
     file: &ModelFile,
@@ -50,9 +53,32 @@ pub(super) fn doubts(
             ),
         ));
     }
+    found.extend(of_weight(file, beside));
     let lacking = beside.map_or(&[][..], |b| &b.lacking);
     found.extend(at_reference(file, taken, lacking));
     found
+}
+
+/// Says where a constant force as large as a weight is among the friction, which a watchdog switches off.
+fn of_weight(file: &ModelFile, beside: Option<&terms::Beside>) -> Option<Warning> {
+    if beside.is_some_and(|b| b.terms.weight.is_some()) {
+        return None;
+    }
+    let of = |name: &str| file.parameter.iter().find(|p| p.name == name);
+    let offset = of("offset")?;
+    let coulomb = of("coulomb").or_else(|| of("coulomb_positive"))?;
+    (offset.value.abs() >= WEIGHT * coulomb.value).then(|| {
+        let [value, level] = [offset.value, coulomb.value].map(stiction_number::four_digits);
+        let unit = &offset.unit;
+        Warning::new(
+            Code::ExportTerms,
+            format!(
+                "a constant force of {value} {unit} stands beside {level} {unit} of Coulomb friction, and the code feeds it forward with the \
+                 friction: gain and ramp act on it, and where the watchdog switches off an axis that it holds falls. If it is a weight, use \
+                 --feedforward friction,mass,gravity (targets with a feedforward beside friction), which holds it whatever the watchdog does"
+            ),
+        )
+    })
 }
 
 /// How the compensator would feed forward what it leaves out.

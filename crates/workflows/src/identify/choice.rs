@@ -201,7 +201,7 @@ fn is_of_the_shape(quantity: Quantity) -> bool {
 /// In rounds, so that only laws are fitted that may turn out best: the symmetric ones; what these leave open held at
 /// nothing, and asymmetric laws of the families that hold best; the same of the best asymmetric one; the best of all with
 /// its static friction kept below what the log shows, where it is above that; the best of all with its Stribeck exponent
-/// fitted.
+/// fitted. A law that leaves more than the same with something held is fitted again from there after each round.
 pub(super) fn auto(
     base: Law,
     ladder: &Ladder,
@@ -219,7 +219,7 @@ pub(super) fn auto(
         }
         let next = round(&climb, ladder);
         let more = ladder.climb(&next, &[], settings, observer);
-        climb = climb.and(more);
+        climb = caught_up(climb.and(more), ladder, settings, observer);
     }
     let mut unsure = None;
     // A fit of the force sees another curve in every rest, and must not choose by it.
@@ -507,6 +507,49 @@ fn held<'a>(climb: &Climb, ladder: &'a Ladder, asymmetric: bool) -> Vec<Candidat
         next.push(ladder.usual(law.undamped()).from(&[lugre]));
     }
     next
+}
+
+/// Cost of a law that holds something, in parts of that of the same law without it, from which on the search of the latter has ended
+/// beside the best: with one more unknown no less can be explained.
+const MISSED: f64 = 0.99;
+
+/// Laws that leave more than the same law with something held, fitted again from there.
+fn caught_up(
+    mut climb: Climb,
+    ladder: &Ladder,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Climb {
+    let cost = |rung: &Rung| rung.optimum.evaluation.cost;
+    let mut missed = Vec::new();
+    for (at, rung) in climb.rungs.iter().enumerate() {
+        let law = rung.estimate.law;
+        let holds_more = |other: &&Rung| {
+            let own = other.estimate.law;
+            let is_held = own.flat && own == law.flat() || own.undamped && own == law.undamped();
+            is_held && cost(other) < MISSED * cost(rung)
+        };
+        let nearest = climb.rungs.iter().filter(holds_more);
+        let nearest = nearest.min_by(|a, b| cost(a).total_cmp(&cost(b)));
+        if let Some(nearest) = nearest.filter(|_| !rung.capped) {
+            let mut again = ladder.usual(law);
+            again.starts = nearest.optimum.starts_within(&rung.optimum).into();
+            missed.push((at, again));
+        }
+    }
+    let (places, again): (Vec<usize>, Vec<Candidate>) = missed.into_iter().unzip();
+    if again.is_empty() || climb.stopped {
+        return climb;
+    }
+    let more = ladder.climb(&again, &[], settings, observer);
+    climb.stopped |= more.stopped;
+    for (at, rung) in places.into_iter().zip(more.rungs) {
+        let is_of_it = rung.estimate.law == climb.rungs[at].estimate.law;
+        if is_of_it && cost(&rung) < cost(&climb.rungs[at]) {
+            climb.rungs[at] = rung;
+        }
+    }
+    climb
 }
 
 /// The estimate with its intervals in full, unless the search was interrupted.
