@@ -16,7 +16,7 @@ use crate::estimate::filtered::flag_what_a_filter_hides;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::least::no_surer_than_any_log;
 use crate::estimate::profile::{End, Held, Profile};
-use crate::estimate::sliding::flag_what_the_motion_hides;
+use crate::estimate::sliding::{self, flag_what_the_motion_hides};
 use crate::estimate::{Estimate, advice, levels, optimal, pressed};
 use crate::held_delay;
 use crate::lag;
@@ -79,6 +79,7 @@ pub fn intervals(
     }
     flag_what_the_residual_doubts(fitted);
     flag_what_the_motion_hides(record, &mut fitted.parameters);
+    sliding::flag_yields_of_open_elements(&mut fitted.parameters);
     flag_parts_of_an_open_weight(&fitted.terms, &mut fitted.parameters);
     rises_unseen(&fitted.law, &mut fitted.parameters);
     spans_all_speeds(&fitted.law, record.top_speed(), &mut fitted.parameters);

@@ -102,6 +102,26 @@ fn never_turned_over(stroke: f64, parameters: &mut [Parameter]) {
     }
 }
 
+/// Flags the yields of elements whose stiffness the data leave open: where an element that may be none slips says nothing.
+pub(super) fn flag_yields_of_open_elements(parameters: &mut [Parameter]) {
+    let open: Vec<u32> = parameters
+        .iter()
+        .filter(|p| p.identified && !p.identifiable)
+        .filter_map(|p| match p.name.quantity {
+            Quantity::ElementStiffness(k) => Some(k),
+            _ => None,
+        })
+        .collect();
+    let is_of_them = |p: &&mut Parameter| match p.name.quantity {
+        Quantity::ElementYield(k) => p.identifiable && open.contains(&k),
+        _ => false,
+    };
+    for p in parameters.iter_mut().filter(is_of_them) {
+        p.identifiable = false;
+        p.reason = "is that of an element whose stiffness the data leave open".into();
+    }
+}
+
 fn is_yield(p: &Parameter) -> bool {
     matches!(p.name.quantity, Quantity::ElementYield(_))
 }

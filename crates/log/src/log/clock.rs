@@ -145,6 +145,17 @@ fn stamped(
             before = now;
         }
     }
+    if let Some((at, [from, to])) = two_units(&time) {
+        let found = format!(
+            "time steps of {} s at the beginning and of {} s at the end, from here on: as far apart as two units",
+            short(from),
+            short(to)
+        );
+        let allowed = "time stamps in one unit; or, under [log], crop = [\"FROM s\", \"TO s\"] around the rows in one of them";
+        let kept = range.clone().filter(|row| !dropped.contains(row));
+        let row = kept.clone().nth(at).unwrap_or(range.start);
+        return Err(Error::new(Kind::Time, found, allowed).at_data_row(row as u64 + 1));
+    }
     let share = |rows: &[usize]| rows.len() as f64 / range.len() as f64;
     if let Some(&first) = stampless.first() {
         let found = format!("{} without a time stamp", count(stampless.len(), "row"));
@@ -256,6 +267,33 @@ fn stamped(
         range,
         dropped,
     })
+}
+
+/// The first stamp behind which steps are those of the end, and the steps at beginning and end, s, where these are as far apart as
+/// units of time are, such as milliseconds in one part of a file and seconds in the other.
+fn two_units(time: &[f64]) -> Option<(usize, [f64; 2])> {
+    /// Part of the record at each end, and fewest steps there.
+    const END: usize = 20;
+    const FEWEST: usize = 20;
+    const UNITS: [f64; 2] = [1e3, 1e6];
+    const SAME: f64 = 0.02;
+    let steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
+    let many = steps.len() / END;
+    if many < FEWEST {
+        return None;
+    }
+    let of = |part: &[f64]| median(&mut part.to_vec());
+    let (from, to) = (of(&steps[..many])?, of(&steps[steps.len() - many..])?);
+    let ratio = (to / from).max(from / to);
+    UNITS
+        .iter()
+        .any(|unit| (ratio / unit - 1.0).abs() < SAME)
+        .then_some(())?;
+    let middle = (from * to).sqrt();
+    let is_of_the_end = |step: &f64| (*step > middle) == (to > from);
+    // The longest stretch of them that reaches the end.
+    let at = steps.iter().rposition(|step| !is_of_the_end(step))? + 1;
+    Some((at + 1, [from, to]))
 }
 
 /// Says that rows are at one rate, which the stamps of a coarse clock do not show one by one.

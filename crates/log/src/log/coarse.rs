@@ -17,6 +17,8 @@ const FEWEST_ROWS: usize = 200;
 /// Least tick, of the step, that is worth a word.
 const LEAST: f64 = 0.01;
 
+/// Part of the steps, at most, that may be twice as long as the others because a row is lost in each.
+const LOST: f64 = 0.15;
 /// Least part of the stamps that have all of their rows, where others are missing.
 const FULL: f64 = 0.02;
 
@@ -133,7 +135,16 @@ fn tick(time: &[f64], step: f64) -> Option<f64> {
         && steps().all(|s| same(s, least) || same(s, most));
     let long = steps().filter(|s| same(*s, most)).count();
     let short = time.len() - 1 - long;
-    (is_rounded && long.min(short) >= FEWEST_EACH).then_some(tick)
+    // Every hundredth step twice as long as the others: of rows of which every hundredth is lost, or of a rate a hundredth below the
+    // ticks of a clock. Clocks that round tick in tenths, hundredths or thousandths.
+    let is_decimal = is_power_of_ten(tick);
+    let may_be_lost = multiple == 1.0 && (long as f64) < LOST * steps().count() as f64;
+    (is_rounded && (is_decimal || !may_be_lost) && long.min(short) >= FEWEST_EACH).then_some(tick)
+}
+
+fn is_power_of_ten(x: f64) -> bool {
+    let exponent = libm::log10(x);
+    (exponent - exponent.round()).abs() < SAME
 }
 
 /// The number with the fewest digits between two above zero.
@@ -169,6 +180,16 @@ mod tests {
         let found = Coarse::of(&stamps(700.0, 1e-3, 20_000)).unwrap();
         assert_eq!(found.rate_hz, 700.0);
         assert!((found.tick - 1e-3).abs() < 1e-9);
+    }
+
+    /// Of 4000 rows in a second every hundredth is lost: no clock ticks at 4 kHz and rounds 3960 rows to it.
+    #[test]
+    fn rows_that_are_lost_one_by_one_are_no_rounding() {
+        for every in [10, 50, 100] {
+            let kept = (0..20_000).filter(|k| k % every != every - 1);
+            let stamps: Vec<f64> = kept.map(|k| k as f64 * 2.5e-4).collect();
+            assert_eq!(Coarse::of(&stamps), None, "one in {every}");
+        }
     }
 
     #[test]

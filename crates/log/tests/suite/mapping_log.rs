@@ -155,6 +155,28 @@ fn backward_time_is_refused_unless_cropped_away() {
     assert_eq!(Log::from_table(&table, &mapping).unwrap().time.len(), 1301);
 }
 
+/// From a row on the stamps are milliseconds where seconds were before.
+#[test]
+fn time_in_two_units_is_refused_where_the_second_begins() {
+    for from in [500, 1500] {
+        let mut table = axis(2000).table();
+        let stamps = &mut table.columns[0].values;
+        let step = stamps[1] - stamps[0];
+        for t in &mut stamps[from..] {
+            *t *= 1e3;
+        }
+        let error = Log::from_table(&table, &Mapping::default()).unwrap_err();
+        let place = (error.kind, error.place.row);
+        assert_eq!(place, (Kind::Time, Some(from as u64 + 1)));
+        let text = error.to_string();
+        let said = format!(
+            "time steps of {step} s at the beginning and of {} s",
+            1e3 * step
+        );
+        assert!(text.contains(&said), "{text}");
+    }
+}
+
 #[test]
 fn a_counter_that_overflows_is_counted_on() {
     for size in [65_536.0, 2_147_483_648.0, 4_294_967_296.0_f64] {
