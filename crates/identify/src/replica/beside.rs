@@ -96,6 +96,10 @@ pub(super) struct Stepped<'a> {
     mover: Mover<'a>,
 }
 
+#[expect(
+    clippy::large_enum_variant,
+    reason = "one of a run, on its stack: a box would be read in every step"
+)]
 enum Mover<'a> {
     Steady(&'a Plant, Quick),
     Levelled(Plant<Levelled<LuGre<f64>>>, Mid),
