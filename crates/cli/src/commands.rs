@@ -19,6 +19,7 @@ use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;
 use crate::progress::{self};
+use crate::typed::Typed;
 use crate::{refused, wording};
 use clap::ValueEnum;
 use std::io::Write;
@@ -200,16 +201,12 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
 /// The same arguments, from the state that was kept where a search was stopped.
 fn going_on(next: Next, arguments: impl Iterator<Item = String>) -> Vec<String> {
     let mut all: Vec<String> = arguments.collect();
-    let of = |option: &str| {
-        let (apart, joined) = (format!("--{option}"), format!("--{option}="));
-        let value = |at: usize| match all[at].strip_prefix(&joined) {
-            Some(value) => Some(value.to_string()),
-            None => (all[at] == apart).then(|| all.get(at + 1).cloned())?,
-        };
-        (0..all.len()).find_map(value)
-    };
-    if let (Next::Again, Some(kept), None) = (next, of("checkpoint"), of("resume")) {
-        all.extend(["--resume".to_string(), kept]);
+    if next == Next::Again
+        && let Some(typed) = Typed::new()
+        && typed.values("resume").is_empty()
+        && let Some(kept) = typed.values("checkpoint").first()
+    {
+        all.extend(["--resume".to_string(), path_text(Path::new(kept))]);
     }
     all
 }

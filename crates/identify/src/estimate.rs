@@ -95,7 +95,8 @@ impl Estimate {
     }
 
     /// Flags parameters that a law which holds less has elsewhere, by more than half of their interval: they depend on what is
-    /// held, and static friction with a Stribeck velocity that depends on the shape of its curve. `before` is this estimate as its search left it, as `freer` is: the corrections of both would be the same.
+    /// held, and static friction with a Stribeck velocity that depends on the shape of its curve. `before` is this estimate as its
+    /// search left it, as `freer` is: the corrections of both would be the same.
     pub fn doubt_beside(&mut self, before: &FittedLaw, freer: &FittedLaw) {
         let (own, other) = (&before.law, &freer.law);
         let freed: Vec<&str> = [

@@ -4,12 +4,11 @@ use super::beside::Beside;
 use super::method::Method;
 use super::options::Options;
 use super::searched;
-use super::stated::Contradicted;
 use crate::error::Error;
 use crate::source::Source;
 use crate::wording::Setting;
 use std::time::Instant;
-use stiction_files::Axis;
+use stiction_files::{Axis, Warning};
 use stiction_identify::{ForceFilter, LawKind};
 use stiction_log::{Limits, Log, Motion, Role, Understood};
 
@@ -37,7 +36,7 @@ pub(super) struct Loaded {
     /// Whether the force was taken later since nothing else that was looked for explains more, by which little is left or much.
     pub is_late_or_else: bool,
     /// What the axis file states and the log contradicts.
-    pub contradicted: Option<Contradicted>,
+    pub contradicted: Option<Warning>,
 }
 
 impl Loaded {

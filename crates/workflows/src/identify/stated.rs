@@ -6,7 +6,7 @@
 use super::condition::Conditioned;
 use super::load::{Asked, Loaded};
 use stiction_codes::Code;
-use stiction_files::symbols;
+use stiction_files::{Warning, symbols};
 use stiction_identify as engine;
 use stiction_identify::{
     Delay, Law, LawKind, Mass, Observer, Parameter, Record, Settings, Status, Terms,
@@ -21,21 +21,13 @@ const DELAY_APART: f64 = 0.1;
 /// Part of the square of what is left beside what is stated, at most, that is left beside the other.
 const LEFT: f64 = 0.7;
 
-/// What is stated and contradicted.
-pub(super) struct Contradicted {
-    /// Its name.
-    pub code: Code,
-    /// What is stated, what the log shows, and what to do.
-    pub message: String,
-}
-
-/// Says what the log shows; `None` where it is what is stated, nothing is stated, or the log does not tell.
+/// Says what is stated, what the log shows, and what to do; `None` where it is what is stated, nothing is stated, or the log does not tell.
 pub(super) fn named(
     asked: Asked,
     loaded: &Loaded,
     conditioned: &Conditioned,
     observer: &mut dyn Observer,
-) -> Option<Contradicted> {
+) -> Option<Warning> {
     let record = &conditioned.record;
     if !(asked.options.procedures.method.fits_force() && record.moves_both_ways()) {
         return None;
@@ -52,7 +44,7 @@ pub(super) fn named(
     mass(loaded, stated, &mut fits).or_else(|| delay(stated, &mut fits))
 }
 
-fn mass(loaded: &Loaded, stated: &Terms, fits: &mut Fits) -> Option<Contradicted> {
+fn mass(loaded: &Loaded, stated: &Terms, fits: &mut Fits) -> Option<Warning> {
     let log = &loaded.sources[0].log;
     let Mass::Given(mass) = stated.mass else {
         return None;
@@ -71,18 +63,18 @@ fn mass(loaded: &Loaded, stated: &Terms, fits: &mut Fits) -> Option<Contradicted
     let (low, high) = found.ci95?;
     let unit = symbols::unit(found.name.dimension(), log.motion, &log.force_unit, "");
     let [stated, value, low, high] = [mass, found.value, low, high].map(four_digits);
-    Some(Contradicted {
-        code: Code::MassDisagrees,
-        message: format!(
+    Some(Warning::new(
+        Code::MassDisagrees,
+        format!(
             "the axis file states a mass of {stated} {unit}, and the log shows {value} {unit} ({low} to {high}): with that {} of what the law \
              leaves beside the stated one is left, and what is fitted beside the stated one is of no machine. Write mass = \"fit\" in its \
              place in the axis file; a mass that is known surely is a force in another scale or unit",
             Percent::error(100.0 * left).digits(2)
         ),
-    })
+    ))
 }
 
-fn delay(stated: &Terms, fits: &mut Fits) -> Option<Contradicted> {
+fn delay(stated: &Terms, fits: &mut Fits) -> Option<Warning> {
     let Delay::Given(delay) = stated.delay else {
         return None;
     };
@@ -96,15 +88,15 @@ fn delay(stated: &Terms, fits: &mut Fits) -> Option<Contradicted> {
     let (low, high) = found.ci95?;
     let [stated, value, low, high] =
         [delay, found.value, low, high].map(|seconds| four_digits(1e3 * seconds));
-    Some(Contradicted {
-        code: Code::DelayDisagrees,
-        message: format!(
+    Some(Warning::new(
+        Code::DelayDisagrees,
+        format!(
             "the axis file states a delay of {stated} ms, and the log shows {value} ms ({low} to {high}): with that {} of what the law leaves \
              beside the stated one is left, and micro-damping that is fitted beside the stated one makes up for it. Write delay = \"fit\" \
              in its place under [terms] in the axis file",
             Percent::error(100.0 * left).digits(2)
         ),
-    })
+    ))
 }
 
 /// Fits of laws to one record.

@@ -5,7 +5,6 @@ use super::compensation;
 use super::disagree;
 use super::lacking;
 use super::left;
-use super::stated::Contradicted;
 use super::turned;
 use super::unfit;
 use crate::source::Source;
@@ -185,7 +184,8 @@ enum Shown {
 #[derive(Default)]
 pub(super) struct Reasons {
     reasons: Vec<(String, Next)>,
-    /// Whether data contradict the law, some that were not fitted or a mass or delay that was not: what it holds for constants differs there.
+    /// Whether data contradict the law, some that were not fitted or a mass or delay that was not: what it holds for constants differs
+    /// there.
     elsewhere: bool,
     /// The logs that do, as far as the first of these reasons leads to them.
     other: Vec<String>,
@@ -237,7 +237,7 @@ pub(super) struct Evidence<'a> {
     /// How the logs differ in when their force was logged, where no delay is that of all.
     pub apart: Option<&'a str>,
     /// What the axis file states and the log contradicts.
-    pub contradicted: Option<&'a Contradicted>,
+    pub contradicted: Option<&'a Warning>,
     /// Which of several logs have no sample that is fitted.
     pub unused: Option<&'a str>,
     pub motion: Motion,
@@ -535,7 +535,7 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         reasons.push(why.to_string(), Next::FirstLog);
     }
     if let Some(stated) = evidence.contradicted {
-        warnings.insert(0, Warning::new(stated.code, &*stated.message));
+        warnings.insert(0, stated.clone());
         reasons.push(&*stated.message, Next::AxisFile);
         reasons.elsewhere = true;
     }
