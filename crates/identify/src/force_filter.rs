@@ -1,4 +1,4 @@
-//! A force that was logged behind a low-pass, as drives smooth the torque that they show.
+//! A force that was logged behind a low-pass or as a mean over rows, as drives smooth the torque that they show.
 //!
 //! To first order that is a delay of its time constant, which a fit finds. To second order the force is smaller too, by half of
 //! the square of frequency and time constant, and around reversals the step of friction is smeared: taken for a delay, the
@@ -6,6 +6,7 @@
 //! held, the low-pass is undone with time constants up to that lateness, and the law fitted behind each. What is left of the
 //! force, passed through the same low-pass again so that its noise counts alike, is least where the time constant is that of the
 //! drive. From there it is found as the lag of a current loop is: its square is what a force shows of it (see [`lag`](crate::lag)).
+//! A mean over rows is late by half of them, so that one number of rows has to be tried beside.
 
 use crate::alignment::moved;
 use crate::conditioning::record::{Record, Samples};
@@ -19,7 +20,7 @@ use crate::separable::optimum::Optimum;
 use crate::separable::search_box::MOST_DELAY;
 use crate::separable::settings::Settings;
 use stiction_search::{Observer, Status};
-use stiction_signal::undo_low_pass;
+use stiction_signal::{of_mean, undo_low_pass, undo_mean};
 
 /// Least time by which a force is later than one that is held, samples, from which on a low-pass is looked for.
 const LEAST_LATE: f64 = 0.3;
@@ -39,12 +40,32 @@ const SETTLED: f64 = 0.1;
 const SURE: f64 = 3.0;
 const NO_MORE: f64 = 1.0;
 const BESIDE: f64 = 0.75;
+/// What a low-pass leaves, at most, in parts of what is left without it, beside which the force may be later by some rows, and by how
+/// many.
+const SURELY_LEFT: f64 = 0.3;
+const MOST_FURTHER: f64 = 2.0;
+/// What a mean over rows leaves, at most, in parts of what is left without it, and of what a low-pass leaves beside the delay of a force
+/// which is held; beside another one it may leave as much more. Fewest of its rows.
+const LEFT_OF_MEAN: f64 = 0.8;
+const LEFT_OF_LOW_PASS: f64 = 0.95;
+const FEWEST_ROWS: f64 = 3.0;
 
-/// A low-pass of first order behind which the force was logged.
+/// What the force was logged behind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Smoothing {
+    /// A low-pass of first order with that time constant, s.
+    LowPass(f64),
+    /// A mean over that many rows.
+    Mean(usize),
+}
+
+/// A low-pass of first order behind which the force was logged, or a mean over rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceFilter {
-    /// Its time constant, s.
-    pub time: f64,
+    /// What it is.
+    pub what: Smoothing,
+    /// Square of the time constant that a low-pass has, s^2.
+    square: f64,
     /// Variance of the square of the time constant, s^4.
     pub variance: f64,
     /// Rows by which the force has to be taken later (earlier where negative) once the low-pass is undone.
@@ -58,14 +79,27 @@ pub struct ForceFilter {
 impl ForceFilter {
     /// Whether there surely is one.
     pub fn is_certain(&self) -> bool {
-        let square = self.time * self.time;
-        square > SURE * self.variance.sqrt()
-            && self.left < NO_MORE
-            && (self.delay - HELD_DELAY).abs() < BESIDE
+        let shows = match self.what {
+            Smoothing::LowPass(_) => {
+                self.square > SURE * self.variance.sqrt() && self.left < NO_MORE
+            }
+            Smoothing::Mean(_) => true,
+        };
+        shows && (self.delay - HELD_DELAY).abs() < BESIDE
     }
 }
 
-/// A fit behind a low-pass that was undone.
+/// What is undone before a fit.
+#[derive(Clone, Copy)]
+enum Undone {
+    Nothing,
+    /// A low-pass of that time constant, samples.
+    LowPass(f64),
+    /// A mean over that many rows.
+    Mean(f64),
+}
+
+/// A fit behind what was undone.
 struct Tried {
     /// Time constant, samples of the record.
     lag: f64,
@@ -101,22 +135,22 @@ pub fn force_filter(
         return None;
     }
     let most = late + beyond + ROUGHLY;
-    let mut fit = |lag: f64, start: &[f64], late: f64| {
+    let mut fit = |undone: Undone, start: &[f64], late: f64| {
         fitted(
             logs,
             conditioning,
             (law, start),
-            (lag, laid, late),
+            (undone, laid, late),
             terms,
             settings,
             observer,
         )
     };
-    let without = fit(0.0, start, late)?;
+    let without = fit(Undone::Nothing, start, late)?;
     let mut best: Option<Tried> = None;
     let mut from = without.optimum.p.clone();
     for lag in TRIED.into_iter().filter(|lag| *lag <= most) {
-        let Some(tried) = fit(lag, &from, late.max(lag)) else {
+        let Some(tried) = fit(Undone::LowPass(lag), &from, late.max(lag)) else {
             continue;
         };
         from.clone_from(&tried.optimum.p);
@@ -137,43 +171,102 @@ pub fn force_filter(
             break;
         }
         let start = best.optimum.p.clone();
-        best = fit(square.sqrt(), &start, late.max(square.sqrt()))?;
+        let lag = square.sqrt();
+        let undone = if lag > 0.0 {
+            Undone::LowPass(lag)
+        } else {
+            Undone::Nothing
+        };
+        best = fit(undone, &start, late.max(lag))?;
     }
+    let mean = mean(&mut fit, &without, late);
+    let own = best.optimum.p.last().copied().unwrap_or(0.0);
+    let of_low_pass = match (own - HELD_DELAY).abs() < BESIDE {
+        true => LEFT_OF_LOW_PASS,
+        false => 1.0 / LEFT_OF_LOW_PASS,
+    };
+    // What is later than the fit without it said may be anything that leaves less.
+    let least = |rows: f64| match (0.5 * (rows - 1.0) - late).abs() <= ROUGHLY {
+        true => LEFT_OF_MEAN,
+        false => SURELY_LEFT,
+    };
+    let shows = |(rows, mean): &(f64, Tried)| {
+        mean.left < of_low_pass * best.left && mean.left < least(*rows) * without.left
+    };
+    if let Some((rows, mean)) = mean.filter(shows) {
+        return Some(ForceFilter {
+            what: Smoothing::Mean(rows as usize),
+            square: 0.0,
+            variance: 0.0,
+            rows: mean.rows,
+            delay: mean.optimum.p.last().copied().unwrap_or(0.0),
+            left: mean.left / without.left,
+        });
+    }
+    let left = best.left / without.left;
+    // A low-pass that leaves next to nothing is one, also where a drive logs a row or two later still.
+    let further = match left < SURELY_LEFT {
+        true => (own - HELD_DELAY).round().clamp(0.0, MOST_FURTHER),
+        false => 0.0,
+    };
     Some(ForceFilter {
-        time: best.lag * step,
+        what: Smoothing::LowPass(best.lag * step),
+        square: best.lag * best.lag * unit,
         variance: variance * unit * unit,
-        rows: best.rows,
-        delay: best.optimum.p.last().copied().unwrap_or(0.0),
-        left: best.left / without.left,
+        rows: best.rows + further as isize,
+        delay: own - further,
+        left,
     })
 }
 
-/// A fit of the logs without a low-pass of a time constant of `lag` samples, of which the force was `late` in all.
+/// The mean over rows, and a fit with it undone, that is late by as much as the force is; `None` where that is by less than a row.
+fn mean(
+    fit: &mut impl FnMut(Undone, &[f64], f64) -> Option<Tried>,
+    without: &Tried,
+    mut late: f64,
+) -> Option<(f64, Tried)> {
+    let mut found: Option<(f64, Tried)> = None;
+    for _ in 0..MOST_FITS {
+        let rows = (2.0 * late + 1.0).round();
+        if rows < FEWEST_ROWS || found.as_ref().is_some_and(|(before, _)| *before == rows) {
+            break;
+        }
+        let start = found.as_ref().map_or(without, |(_, tried)| tried);
+        let tried = fit(Undone::Mean(rows), &start.optimum.p.clone(), late)?;
+        // Where the delay was at the end of its range the force is later.
+        let own = tried.optimum.p.last().copied().unwrap_or(HELD_DELAY);
+        late = (late + own - HELD_DELAY - (late - late.round())).max(0.0);
+        found = Some((rows, tried));
+    }
+    found
+}
+
+/// A fit of the logs with something undone, `late` being by how many samples their force was late in all.
 fn fitted(
     logs: &[Samples],
     conditioning: &Conditioning,
     (law, start): (&Law, &[f64]),
-    (lag, laid, late): (f64, isize, f64),
+    (undone, laid, late): (Undone, isize, f64),
     terms: &Terms,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Option<Tried> {
-    let own = delay_of(lag);
+    let own = undone.delay();
     // As near to a force that is held as whole rows allow.
-    let rows = match lag > 0.0 {
-        true => (late - own).round() as isize - laid,
-        false => 0,
+    let rows = match undone {
+        Undone::Nothing => 0,
+        _ => (late - own).round() as isize - laid,
     };
     let logs: Vec<Samples> = logs
         .iter()
-        .map(|log| moved(&without_filter(log, lag), rows))
+        .map(|log| moved(&undone.of(log), rows))
         .collect();
     let record = condition_as(&logs, conditioning, 0.0).ok()?;
     let conditioning = lag::asked(conditioning, &record);
     let record = condition_as(&logs, &conditioning, 0.0).ok()?;
     let terms = terms.about(&record);
     let mut start = start.to_vec();
-    if let (Some(delay), true) = (start.last_mut(), lag > 0.0) {
+    if let (Some(delay), false) = (start.last_mut(), matches!(undone, Undone::Nothing)) {
         *delay = late - own - (laid + rows) as f64 + HELD_DELAY;
     }
     let optimum = follow(&start, &record, *law, &terms, settings, observer).ok()?;
@@ -181,20 +274,23 @@ fn fitted(
         return None;
     }
     let thinned = record.decimate as f64;
-    let kept = if lag > 0.0 {
-        libm::exp(-thinned / lag)
-    } else {
-        0.0
-    };
-    let mut behind = 0.0;
-    let residual = optimum.evaluation.residual();
-    let square = residual.iter().map(|r| {
-        behind = r + (behind - r) * kept;
-        behind * behind
-    });
+    let mut residual = optimum.evaluation.residual().to_vec();
+    match undone {
+        Undone::Nothing => {}
+        Undone::LowPass(lag) => pass(residual.iter_mut(), lag / thinned),
+        Undone::Mean(rows) => {
+            let lag = of_mean(rows) / thinned;
+            pass(residual.iter_mut(), lag);
+            pass(residual.iter_mut().rev(), lag);
+        }
+    }
+    let square = residual.iter().map(|r| r * r);
     let left = square.sum::<f64>() / residual.len().max(1) as f64;
     left.is_finite().then_some(Tried {
-        lag,
+        lag: match undone {
+            Undone::LowPass(lag) => lag,
+            _ => 0.0,
+        },
         rows,
         record,
         optimum,
@@ -202,27 +298,50 @@ fn fitted(
     })
 }
 
-/// How much later a slow force is behind a low-pass, samples, both rows being those of the same instants.
-fn delay_of(lag: f64) -> f64 {
-    match lag > 0.0 {
-        true => 1.0 / libm::expm1(1.0 / lag),
-        false => 0.0,
+/// Passes samples through a low-pass of first order with that time constant, samples.
+fn pass<'a>(samples: impl Iterator<Item = &'a mut f64>, lag: f64) {
+    let kept = if lag > 0.0 {
+        libm::exp(-1.0 / lag)
+    } else {
+        0.0
+    };
+    let mut behind = 0.0;
+    for x in samples {
+        behind = *x + (behind - *x) * kept;
+        *x = behind;
     }
 }
 
-/// A log whose force is what a low-pass of first order of that time constant, samples, has made into the logged one, within each
-/// stretch.
-fn without_filter(log: &Samples, lag: f64) -> Samples {
-    let mut out = log.clone();
-    if lag <= 0.0 {
-        return out;
+impl Undone {
+    /// By how many samples less the force is late once it is undone, both rows being those of the same instants.
+    fn delay(self) -> f64 {
+        match self {
+            Undone::LowPass(lag) => 1.0 / libm::expm1(1.0 / lag),
+            Undone::Nothing | Undone::Mean(_) => 0.0,
+        }
     }
-    out.valid.resize(log.force.len(), true);
-    for stretch in stretches(log, median_step(&log.time)) {
-        undo_low_pass(&mut out.force[stretch.clone()], lag);
-        out.valid[stretch.start] = false;
+
+    /// A log whose force is what it has made into the logged one, within each stretch.
+    fn of(self, log: &Samples) -> Samples {
+        let mut out = log.clone();
+        if matches!(self, Undone::Nothing) {
+            return out;
+        }
+        out.valid.resize(log.force.len(), true);
+        for stretch in stretches(log, median_step(&log.time)) {
+            let force = &mut out.force[stretch.clone()];
+            match self {
+                Undone::Nothing => {}
+                Undone::LowPass(lag) => undo_low_pass(force, lag),
+                Undone::Mean(rows) => {
+                    undo_mean(force, rows);
+                    out.valid[stretch.end - 1] = false;
+                }
+            }
+            out.valid[stretch.start] = false;
+        }
+        out
     }
-    out
 }
 
 #[cfg(test)]
@@ -273,12 +392,25 @@ mod tests {
         for time in [1.7e-3, 3e-3] {
             let filter = found(World::Filtered(time)).unwrap();
             assert!(filter.is_certain(), "{filter:?}");
-            assert!((filter.time / time - 1.0).abs() < 0.05, "{filter:?}");
+            let Smoothing::LowPass(found) = filter.what else {
+                panic!("{filter:?}");
+            };
+            assert!((found / time - 1.0).abs() < 0.05, "{filter:?}");
             assert!(filter.left < 0.5, "{filter:?}");
         }
         for world in [World::Late(1), World::Faithful] {
             let filter = found(world).filter(ForceFilter::is_certain);
             assert_eq!(filter, None, "{world:?}");
+        }
+    }
+
+    #[test]
+    fn a_mean_over_rows_is_told_from_a_low_pass() {
+        // Of fewer rows a low-pass is as good.
+        for rows in [9, 16] {
+            let filter = found(World::Averaged(rows)).unwrap();
+            assert!(filter.is_certain(), "{filter:?}");
+            assert_eq!(filter.what, Smoothing::Mean(rows), "{filter:?}");
         }
     }
 
@@ -291,9 +423,9 @@ mod tests {
                 .collect(),
             ..Samples::default()
         };
-        let before = without_filter(&log, 2.5);
+        let before = Undone::LowPass(2.5).of(&log);
         assert!(before.force[1..].iter().all(|u| (u - 1.0).abs() < 1e-9));
         assert!(!before.valid[0] && before.valid[1..].iter().all(|valid| *valid));
-        assert!((delay_of(2.5) - 2.0332).abs() < 1e-3);
+        assert!((Undone::LowPass(2.5).delay() - 2.0332).abs() < 1e-3);
     }
 }

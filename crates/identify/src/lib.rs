@@ -107,7 +107,7 @@ pub use estimate::searched::NO_INTERVAL;
 pub use estimate::series::Series;
 pub use estimate::{Estimate, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
-pub use force_filter::{ForceFilter, force_filter};
+pub use force_filter::{ForceFilter, Smoothing, force_filter};
 pub use gms::score::ElementsScore;
 pub use gms::settled::run_through;
 pub use gms::{FEWEST as GMS_FEWEST, MOST as GMS_MOST};
@@ -119,7 +119,8 @@ pub use law::dependence::Dependence;
 pub use law::terms::{Delay, DelayFrom, FirstDelay, Lag, Mass, Terms};
 pub use law::transmitted::Transmitted;
 pub use misfit::{
-    Between, Cause, Clocks, Coupling, Divided, Encoder, Held, Limit, Misfit, Repeats, Ripple,
+    Between, Cause, Clocks, Coupling, Divided, Dynamics, Encoder, Held, Limit, Misfit, Repeats,
+    Ripple, SpringForce,
 };
 pub use output_error::controller::Controller;
 pub use output_error::outcome::{Short, SimulationFit};

@@ -12,23 +12,27 @@
 mod cause;
 mod clocks;
 mod coupling;
+pub(crate) mod dynamics;
 mod held;
 mod limit;
 mod parts;
 mod reversals;
 mod ripple;
+mod spring_force;
 mod visits;
 mod waves;
 
 pub use cause::Cause;
 pub use clocks::Clocks;
 pub use coupling::{Between, Coupling, Encoder};
+pub use dynamics::Dynamics;
 pub use held::Held;
 pub use limit::Limit;
 pub use parts::Divided;
 use parts::Measures;
 pub(crate) use parts::reversals;
 pub use ripple::{Repeats, Ripple};
+pub use spring_force::SpringForce;
 
 use self::coupling::beside::Beside;
 use self::reversals::Reversals;
@@ -58,6 +62,8 @@ pub(crate) struct Divisions {
     /// The part of it that grows with speed, without which a level is stated.
     viscous: Vec<f64>,
     measures: Measures,
+    /// Length over which a bristle is bent, m or rad; none for a law without one.
+    length: f64,
     /// Where a bristle turns round; `None` for a law without one.
     reversals: Option<Reversals>,
 }
@@ -80,8 +86,12 @@ pub struct Misfit {
     pub is_long: bool,
     /// The wave over the position that explains a ripple, or a level along the stroke much better than a line does.
     pub ripple: Option<Ripple>,
+    /// A force that grows with the position that explains it.
+    pub spring_force: Option<SpringForce>,
     /// A spring or a gap between motor and load that explains it.
     pub coupling: Option<Coupling>,
+    /// Dynamics between force and motion that law and delay lack.
+    pub dynamics: Option<Dynamics>,
     /// Clocks of force and motion that run apart.
     pub clocks: Option<Clocks>,
     /// The most that the drive gave, where more was logged.
@@ -109,6 +119,7 @@ impl Divisions {
             friction: friction(objective, at),
             viscous: viscous(objective, at),
             reversals: length.map(|length| Reversals::of(&measures, length)),
+            length: length.unwrap_or(0.0),
             measures,
         }
     }
@@ -224,7 +235,9 @@ impl Divisions {
             levels: (0.0, 0.0),
             is_long: self.measures.is_long(),
             ripple: None,
+            spring_force: None,
             coupling: None,
+            dynamics: None,
             clocks: None,
             limit: None,
             held: None,
@@ -308,8 +321,7 @@ impl Divisions {
         if !matches!(cause, None | Some(Cause::Shape)) {
             return misfit;
         }
-        let springs = cause.is_some();
-        let Some(found) = coupling::sought(self, objective, terms, at, residual, springs) else {
+        let Some(found) = coupling::sought(self, objective, terms, at, residual) else {
             return misfit;
         };
         let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Acceleration, residual));
@@ -344,6 +356,31 @@ impl Divisions {
         let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::AfterReversals, residual));
         misfit.count(found.share, residual);
         misfit.clocks = Some(found);
+        Some(misfit)
+    }
+
+    /// The misfit with dynamics between force and motion where they show, `replicas` being what fits of replicas show of them. They
+    /// are looked for where the misfit has no other cause than the shape of the law, of which they explain a good part, or none.
+    pub fn dynamic(
+        &self,
+        misfit: Option<Misfit>,
+        objective: &Objective,
+        at: (&Evaluation, &[f64]),
+        residual: &[f64],
+        replicas: &[f64],
+    ) -> Option<Misfit> {
+        let least = match misfit.as_ref().map(|misfit| (misfit.cause(), misfit.share)) {
+            None | Some((None, _)) => 0.0,
+            Some((Some(Cause::Shape), share)) => dynamics::PART_OF_MISFIT * share,
+            Some((Some(_), _)) => return misfit,
+        };
+        let found = dynamics::sought(objective, at, residual, replicas);
+        let Some(found) = found.filter(|found| found.share >= least) else {
+            return misfit;
+        };
+        let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Acceleration, residual));
+        misfit.count(found.share, residual);
+        misfit.dynamics = Some(found);
         Some(misfit)
     }
 
@@ -430,7 +467,9 @@ impl Divisions {
             levels: (0.0, 0.0),
             is_long: self.measures.is_long(),
             ripple: None,
+            spring_force: None,
             coupling: None,
+            dynamics: None,
             clocks: None,
             limit: None,
             held: None,

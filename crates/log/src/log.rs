@@ -49,7 +49,7 @@ pub use chosen::NotEnabled;
 use std::borrow::Cow;
 use std::ops::Range;
 use stiction_codes::Code;
-use stiction_signal::undo_low_pass;
+use stiction_signal::{undo_low_pass, undo_mean};
 
 /// Samples missing between two time stamps.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -553,19 +553,36 @@ impl Log {
     /// first row of each, whose force from before is not known, is excluded.
     pub fn undo_force_filter(&mut self, time: f64) {
         let ms = stiction_number::short(1e3 * time);
+        let samples = time * self.rate_hz;
+        self.undo_smoothing(
+            &format!("behind a low-pass of first order with a time constant of about {ms} ms"),
+            |force| undo_low_pass(force, samples),
+        );
+    }
+
+    /// Undoes a mean over so many rows that the logged force is, within each segment; the first and the last row of each are
+    /// excluded.
+    pub fn undo_force_mean(&mut self, rows: usize) {
+        self.undo_smoothing(&format!("as a mean over about {rows} rows"), |force| {
+            undo_mean(force, rows as f64)
+        });
+        for segment in self.segments.clone() {
+            self.exclude(segment.end - 1..segment.end, Code::ForceFiltered);
+        }
+    }
+
+    fn undo_smoothing(&mut self, how: &str, undo: impl Fn(&mut [f64])) {
         let message = format!(
-            "the force was logged behind a low-pass of first order with a time constant of about {ms} ms, which smears it at every \
-             reversal; the force before it is computed and used"
+            "the force was logged {how}, which smears it at every reversal; the force before it is computed and used"
         );
         self.findings.push(Finding::new(
             Code::ForceFiltered,
             Severity::Warning,
             message,
         ));
-        let samples = time * self.rate_hz;
         for segment in self.segments.clone() {
             if let Some(force) = &mut self.force {
-                undo_low_pass(&mut force[segment.clone()], samples);
+                undo(&mut force[segment.clone()]);
             }
             self.exclude(segment.start..segment.start + 1, Code::ForceFiltered);
         }

@@ -294,7 +294,9 @@ fn next_step(result: &ResultFile, folder: &Path) -> Text {
     let Some(cured) = next::to_try(result, folder) else {
         return Text::from(format!("Next: {as_it_is}")).code(command_as_it_is);
     };
-    let line = cured.line.map_or(String::new(), |line| format!(" {line}"));
+    let line = cured.line.map_or(String::new(), |line| {
+        format!(" {}", line.replace('\n', " and "))
+    });
     let ends = cured.ends;
     let cured = Text::from(format!(
         "Next: {}{line}. In the folder it was identified in: ",

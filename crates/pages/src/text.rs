@@ -244,7 +244,10 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
         Some(cured) => {
             let _ = writeln!(out, "{}", cured.what);
             if let Some(line) = cured.line {
-                let _ = writeln!(out, "    {line}\nand");
+                for line in line.lines() {
+                    let _ = writeln!(out, "    {line}");
+                }
+                let _ = writeln!(out, "and");
             }
             let _ = writeln!(out, "next: {}", cured.command);
             match result.trust.trustworthy && !cured.ends {

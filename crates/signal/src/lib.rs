@@ -48,7 +48,7 @@ pub use correlation::{EffectiveSize, autocorrelation, effective_sample_size};
 pub use decimate::{anti_alias, decimate};
 pub use derivative::{gradient, gradient_irregular, gradient_sixth_order, second_derivative};
 pub use error::SignalError;
-pub use first_order::undo_low_pass;
+pub use first_order::{of_mean, undo_low_pass, undo_mean};
 pub use fourier::{Lags, Spectrum};
 pub use gaps::{Gaps, fill_gaps};
 pub use noise::noise_deviation;

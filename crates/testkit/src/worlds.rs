@@ -65,6 +65,10 @@ pub enum World {
     Driven(Drive),
     /// The force is logged behind a low-pass of first order of that time constant, s; the axis feels the one before it.
     Filtered(f64),
+    /// The force is logged as the mean over that many rows.
+    Averaged(usize),
+    /// A spring that holds the axis in the middle of its stroke, with the Coulomb level at either end, not declared.
+    Spring,
     /// A weight on a lever, of eight tenths of the Coulomb level where it is level, not declared; on a linear axis a constant force.
     Weight,
     /// The log holds the force that the controller asks for, and the drive gives eight tenths of the largest at most.
@@ -118,7 +122,7 @@ impl World {
     ];
 
     /// Further ones, each named after what an identification should name.
-    pub const OTHERS: [World; 3] = [World::Weight, World::Limited, World::Brake];
+    pub const OTHERS: [World; 4] = [World::Spring, World::Weight, World::Limited, World::Brake];
 
     /// Logged forces behind low-passes of 0.5 to 5 ms.
     pub const FILTERS: [World; 4] = [
@@ -149,6 +153,8 @@ impl World {
             World::CoarseForce => "coarse force".into(),
             World::Dropped => "dropped, jitter".into(),
             World::Driven(drive) => drive.name(),
+            World::Averaged(rows) => format!("force over {rows} rows"),
+            World::Spring => "spring".into(),
             World::Weight => "weight".into(),
             World::Limited => "limited drive".into(),
             World::Brake => "brake".into(),

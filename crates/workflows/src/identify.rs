@@ -13,6 +13,7 @@ mod condition;
 mod conditioning;
 mod coupled;
 mod disagree;
+mod dynamics;
 mod fit;
 mod judge;
 mod lacking;

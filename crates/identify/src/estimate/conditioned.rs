@@ -43,6 +43,8 @@ pub(super) struct Shift {
     windows: Vec<f64>,
     /// What comes back of the residuals of the replicas.
     pub energies: Vec<Energies>,
+    /// The squares of the times of dynamics between force and motion that they show, samples.
+    pub squares: Vec<f64>,
     /// What the logs of each replica tell, where there are several.
     pub told: Vec<Told>,
 }
@@ -100,7 +102,7 @@ pub(super) fn shift(
     let mut alike = Shifts::default();
     let mut second = Shifts::default();
     let (mut stated, mut by_noise) = (vec![0.0; raw.len()], vec![0.0; raw.len()]);
-    let (mut energies, mut told) = (Vec::new(), Vec::new());
+    let (mut energies, mut squares, mut told) = (Vec::new(), Vec::new(), Vec::new());
     for i in 0..REPLICA_COUNT {
         let (found, replica) = once(
             record,
@@ -121,6 +123,7 @@ pub(super) fn shift(
         });
         asked(watch)?;
         energies.push(returns.unwrap_or(all.energies));
+        squares.extend(all.square);
         told.extend(all.told.clone());
         let of = (record, fitted);
         let quiet = replica.without_noise();
@@ -166,6 +169,7 @@ pub(super) fn shift(
         change: all.map(|i| second.change(&alike, i)).collect(),
         windows: windows.variance(raw.len()),
         energies,
+        squares,
         told,
     })
 }

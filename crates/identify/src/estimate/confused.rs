@@ -1,4 +1,5 @@
-//! Whether a Coulomb level is more than its sum with viscous friction, and a constant force more than its sum with inertia.
+//! Whether a Coulomb level is more than its sum with viscous friction, and a constant force more than its sum with inertia or with a
+//! wave that is longer than the stroke.
 //!
 //! Where an axis slides at hardly more than one speed, a log shows the force there, and Coulomb and viscous friction share it
 //! in many ways. Viscous friction is never negative: an estimate that is pressed against zero, by noise or by anything that
@@ -6,6 +7,7 @@
 
 use crate::conditioning::record::Record;
 use crate::estimate::uncertainty;
+use crate::law::terms::Terms;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
@@ -22,6 +24,8 @@ const WORTH_OF_CHANCE: f64 = 0.01;
 /// Standard deviations within which viscous friction cannot be told from none.
 const CHANCE: f64 = 2.0;
 
+/// Pitch over stroke from which a wave is a line on it, and a constant.
+const LONG: f64 = 4.0;
 /// Part of the mean square of the acceleration that is constant from which inertia and constant force share one force.
 const CONSTANT: f64 = 0.9;
 
@@ -41,6 +45,25 @@ pub(super) fn flag_a_force_that_takes_the_inertia(record: &Record, parameters: &
         own.identifiable = false;
         own.reason =
             "takes the place of what inertia does where the acceleration hardly changes".into();
+    }
+}
+
+/// Flags a constant force beside a wave over the position of which the stroke is a small part: the two share one force.
+pub(super) fn flag_a_force_that_takes_a_long_wave(
+    record: &Record,
+    terms: &Terms,
+    parameters: &mut [Parameter],
+) {
+    let stroke = record.stroke();
+    if !terms.cogging.iter().any(|pitch| *pitch > LONG * stroke) {
+        return;
+    }
+    let constant =
+        |p: &&mut Parameter| p.name == Quantity::Offset && p.identified && p.identifiable;
+    if let Some(own) = parameters.iter_mut().find(constant) {
+        own.identifiable = false;
+        own.reason =
+            "shares one force with a wave over the position that is longer than the stroke".into();
     }
 }
 

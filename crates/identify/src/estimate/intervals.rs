@@ -6,7 +6,8 @@ use crate::conditioning::record::Record;
 use crate::estimate::along::Along;
 use crate::estimate::conditioned::shift;
 use crate::estimate::confused::{
-    flag_a_force_that_takes_the_inertia, flag_levels_that_take_viscous_friction,
+    flag_a_force_that_takes_a_long_wave, flag_a_force_that_takes_the_inertia,
+    flag_levels_that_take_viscous_friction,
 };
 use crate::estimate::curve::{
     end_of_an_open_curve, missing, rises_unseen, spans_all_speeds, stays_within,
@@ -86,6 +87,7 @@ pub fn intervals(
     let at = &optimum.evaluation;
     flag_levels_that_take_viscous_friction(&objective, at, &raw, &mut fitted.parameters);
     flag_a_force_that_takes_the_inertia(record, &mut fitted.parameters);
+    flag_a_force_that_takes_a_long_wave(record, &fitted.terms, &mut fitted.parameters);
     let doubted = fitted.misfit.as_ref().and_then(Misfit::cause).is_some();
     end_of_an_open_curve(
         &fitted.law,
@@ -191,9 +193,9 @@ fn conditioned(
     let divisions = Divisions::of(objective, at, &optimum.p);
     let shift = shift(objective.record(), estimate, raw, logs.as_ref(), &mut watch);
     estimate.fitted.counts.add(&watch.counts);
-    let (energies, replicas) = match &shift {
-        Some(shift) => (&shift.energies[..], &shift.told[..]),
-        None => (&[][..], &[][..]),
+    let (energies, squares, replicas) = match &shift {
+        Some(shift) => (&shift.energies[..], &shift.squares[..], &shift.told[..]),
+        None => (&[][..], &[][..], &[][..]),
     };
     // Levels that logs have differently are no misfit of the law; they are counted beside it.
     let within = logs.as_ref().and_then(|logs| logs.within(at));
@@ -203,6 +205,7 @@ fn conditioned(
     let misfit = divisions.waved(misfit, objective, &estimate.terms, at, left);
     let misfit = divisions.coupled(misfit, objective, &estimate.terms, fit, left);
     let misfit = divisions.clocked(misfit, objective, at, left);
+    let misfit = divisions.dynamic(misfit, objective, fit, left, squares);
     let misfit = divisions.limited(misfit, (objective, &estimate.terms), at, left);
     let misfit = divisions.held(misfit, (objective, &estimate.terms), at, &optimum.p);
     let misfit = divisions.swung(misfit, objective, at, left);

@@ -27,10 +27,14 @@ pub enum Cause {
     Temperature,
     /// A force that repeats with the position.
     Ripple,
+    /// A force that grows with the position.
+    SpringForce,
     /// A load on a spring.
     Resonance,
     /// A load behind a gap.
     Backlash,
+    /// Dynamics between force and motion that a rigid mass and a delay do not have.
+    Dynamics,
     /// Force and motion stamped by two clocks that run apart.
     Clocks,
     /// A drive that gave less than was logged.
@@ -76,6 +80,12 @@ impl Misfit {
         {
             return Some(Cause::Ripple);
         }
+        if self.spring_force.is_some() {
+            return Some(Cause::SpringForce);
+        }
+        if self.dynamics.is_some() {
+            return Some(Cause::Dynamics);
+        }
         let share = |by| self.share_by(by);
         let explains = |by| share(by) >= LEVEL_PART * self.share;
         // What is measured beside the motion says more than time or place, with which it changes.
@@ -115,8 +125,10 @@ impl Cause {
             Cause::Load => Some(Divided::LevelOverLoad),
             Cause::Temperature => Some(Divided::LevelOverTemperature),
             Cause::Ripple
+            | Cause::SpringForce
             | Cause::Resonance
             | Cause::Backlash
+            | Cause::Dynamics
             | Cause::Clocks
             | Cause::Limit
             | Cause::Held
@@ -138,6 +150,16 @@ impl Cause {
             }
             Cause::Backlash => {
                 "takes up part of what backlash between motor and load does at reversals"
+            }
+            Cause::SpringForce => {
+                let moved = quantity == Quantity::Mass || quantity.is_of_the_shape();
+                return moved.then_some("takes up part of a force that grows with the position");
+            }
+            Cause::Dynamics => {
+                let reason =
+                    "takes up part of dynamics between force and motion that the law does not have";
+                let moved = quantity == Quantity::Delay || quantity.is_of_the_shape();
+                return moved.then_some(reason);
             }
             Cause::Clocks => {
                 let moved = [Quantity::Mass, Quantity::Delay].contains(&quantity)

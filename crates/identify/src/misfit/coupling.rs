@@ -92,14 +92,13 @@ pub(super) struct Fitted<'a> {
     beside: Beside,
 }
 
-/// Looks for a spring, if `springs` says so, and for a gap; `None` where neither shows surely.
+/// Looks for a spring and for a gap; `None` where neither shows surely.
 pub(super) fn sought(
     divisions: &Divisions,
     objective: &Objective,
     terms: &Terms,
     (at, p): (&Evaluation, &[f64]),
     left: &[f64],
-    springs: bool,
 ) -> Option<Coupling> {
     objective.law().layout().kappa?;
     let coefficients = &at.solution.coefficients;
@@ -108,9 +107,6 @@ pub(super) fn sought(
     // What a gap explains of the kept samples alone says whether to look closely.
     let drag = viscous(objective, coefficients) / mass;
     let suspected = gap::suspected(divisions, objective.record(), &beside, mass, drag);
-    if suspected.is_none() && !springs {
-        return None;
-    }
     let record = objective.record();
     let mut acceleration: Vec<Vec<f64>> = record
         .segments
@@ -132,12 +128,10 @@ pub(super) fn sought(
     };
     let of_motor = spring::behind_the_motor(&fitted);
     let bend = fitted.bend();
-    if springs {
-        let at_motor = of_motor.as_ref().and_then(|found| found.named(&fitted));
-        let found = at_motor.or_else(|| spring::before_the_encoder(&fitted, &bend));
-        if found.is_some() {
-            return found;
-        }
+    let at_motor = of_motor.as_ref().and_then(|found| found.named(&fitted));
+    let found = at_motor.or_else(|| spring::before_the_encoder(&fitted, &bend));
+    if found.is_some() {
+        return found;
     }
     // A gap is what no spring explains, wherever its encoder is.
     let mut springs = fitted.beside.with(&bend);

@@ -2,7 +2,7 @@
 
 use super::coupling::beside::Beside;
 use super::ripple::{Along, Repeats, Ripple};
-use super::{Cause, Divided, Divisions, Misfit};
+use super::{Cause, Divided, Divisions, Misfit, spring_force};
 use crate::law::terms::{ColumnKind, Terms};
 use crate::separable::objective::{Evaluation, Objective};
 use stiction_parameters::{Quantity, Wave};
@@ -11,6 +11,11 @@ use stiction_parameters::{Quantity, Wave};
 /// of a wave by which it is then off over the stroke.
 const MOVED_SHARE: f64 = 0.3;
 const MOVED_BY: f64 = 0.001;
+/// Pitch over stroke from which a wave is a line on it, whose pitch says nothing.
+const STRAIGHT: f64 = 4.0;
+/// Part of what a wave explains that a line does where a force grows with the position: a wave that is hardly shorter than the stroke
+/// goes nearly as one.
+const OF_A_WAVE: f64 = 0.5;
 /// What a wave leaves of a residual, over what a line over the position leaves, up to which the level has the wave.
 const OF_A_LINE: f64 = 0.5;
 
@@ -47,6 +52,7 @@ impl Divisions {
         let moved = waves.iter().filter_map(|wave| {
             let found = along(wave.what).moved(wave.pitch, wave.factors, &beside)?;
             let named = found.share >= MOVED_SHARE
+                && wave.pitch <= STRAIGHT * found.stroke
                 && found.pitch > 0.0
                 && found.off_by(wave.pitch) >= MOVED_BY;
             named.then_some(Ripple {
@@ -63,11 +69,21 @@ impl Divisions {
             let sharp = along(Repeats::Force).best(residual, &beside);
             return Some(match sharp.filter(Ripple::is_sharp) {
                 Some(found) => self.of_a_wave(misfit, found, residual),
-                None => misfit,
+                None => self.sprung(misfit, 0.0, &beside, residual),
+            });
+        }
+        if cause == Some(Cause::Ripple) {
+            let wave = along(Repeats::Force).best(residual, &beside);
+            let sharp = wave.filter(Ripple::is_sharp);
+            misfit.ripple = sharp.or(wave);
+            return Some(match (sharp, wave) {
+                (None, Some(wave)) => {
+                    self.sprung(misfit, OF_A_WAVE * wave.share, &beside, residual)
+                }
+                _ => misfit,
             });
         }
         misfit.ripple = match cause {
-            Some(Cause::Ripple) => along(Repeats::Force).best(residual, &beside),
             Some(Cause::Position) => {
                 let own = along(Repeats::Level);
                 let line: Vec<f64> = own
@@ -83,6 +99,21 @@ impl Divisions {
             _ => None,
         };
         Some(misfit)
+    }
+
+    /// The misfit with a force that grows with the position, where that explains it and at least a part of the residual.
+    fn sprung(&self, mut misfit: Misfit, least: f64, beside: &Beside, residual: &[f64]) -> Misfit {
+        let found = spring_force::sought(&self.measures.position, self.length, beside);
+        misfit.spring_force = found.filter(|found| found.share >= least);
+        if let Some(found) = misfit.spring_force {
+            misfit.ripple = None;
+            misfit.count(found.share, residual);
+            misfit.by = Divided::Position;
+            misfit.shown_by = Divided::Position;
+            let place = Divided::ALL.iter().position(|own| *own == misfit.by);
+            misfit.course = place.map_or_else(Vec::new, |i| self.course(i, residual));
+        }
+        misfit
     }
 
     /// The misfit with a wave that is its cause.

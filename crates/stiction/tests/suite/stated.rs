@@ -120,3 +120,35 @@ fn a_wrong_delay_in_the_axis_file_is_named() {
         assert!(trust.reasons[0] == message, "{trust:#?}");
     }
 }
+
+/// A stated Stribeck exponent that is not the true one is named with the true one; a true one is not.
+#[test]
+fn a_wrong_exponent_in_the_axis_file_is_named() {
+    let cases = [
+        ("stage", Motion::Commissioning, World::Faithful, 10.0),
+        ("screw", Motion::Commissioning, World::Faithful, 4.0),
+        ("joint", Motion::Commissioning, World::Faithful, 1.0),
+        ("joint", Motion::Commissioning, World::Faithful, 2.0),
+        ("stage", Motion::Trapezoid, World::Faithful, 2.0),
+    ];
+    for (name, motion, world, stated) in cases {
+        let mut machines = Machine::all(SEED).into_iter();
+        let machine = machines.find(|(own, _)| *own == name).unwrap().1;
+        let truth = 2.0;
+        let log = record(&machine, motion, world, SEED);
+        let axis = Axis::parse(&format!("[terms]\nstribeck_exponent = {stated}\n")).unwrap();
+        let fit = identified(&machine, &[log], &axis, &Options::default()).unwrap();
+        let mut warnings = fit.warnings().iter();
+        let found = warnings.find(|w| w.code.as_str() == "exponent-disagrees");
+        let found = found.map(|w| w.message.clone());
+        if stated == truth {
+            assert_eq!(found, None, "{name}, {motion:?}, {world:?}");
+            continue;
+        }
+        let message = found.unwrap_or_else(|| panic!("{name}: {:#?}", fit.warnings()));
+        let shown = message.split("the log shows ").nth(1).unwrap();
+        let shown: f64 = shown.split(' ').next().unwrap().parse().unwrap();
+        assert!((shown / truth - 1.0).abs() < 0.2, "{name}: {message}");
+        assert!(!fit.result().trust.trustworthy, "{name}");
+    }
+}

@@ -749,3 +749,52 @@ fn a_stretch_of_dead_force_moves_nothing() {
         assert!(off < 1.0, "{}: {off:.2} half-widths", p.name());
     }
 }
+
+/// Filters in front of the logged force are no friction of another shape: undone where they are known, what they move is open else.
+#[test]
+fn a_smoothed_force_is_no_other_cause() {
+    let cases = [
+        ("joint", Motion::Trapezoid, World::Averaged(9)),
+        ("joint", Motion::Commissioning, World::Averaged(16)),
+        ("screw", Motion::Commissioning, World::Averaged(16)),
+        ("stage", Motion::Trapezoid, World::Averaged(16)),
+        ("stage", Motion::Commissioning, World::Filtered(5e-3)),
+    ];
+    let names = ["force-filtered", "unmodelled-dynamics"];
+    let mut named = 0;
+    for (axis, motion, world) in cases {
+        let found = of(axis, motion, world);
+        named += usize::from(found.codes.iter().any(|code| names.contains(code)));
+        assert!(!found.is_silent(), "{axis}, {world:?}: {found}");
+    }
+    assert!(named >= 4, "{named}");
+}
+
+/// A spring is named, and the line that is proposed describes it.
+#[test]
+fn a_spring_is_named_and_its_line_describes_it() {
+    for (axis, motion) in [
+        ("screw", Motion::Commissioning),
+        ("stage", Motion::Trapezoid),
+    ] {
+        let mut machines = Machine::all(SEED).into_iter();
+        let machine = machines.find(|(name, _)| *name == axis).unwrap().1;
+        let log = record(&machine, motion, World::Spring, SEED);
+        let fit = |file: &str| {
+            let asked = Axis::parse(file).unwrap();
+            let log = std::slice::from_ref(&log);
+            identified(&machine, log, &asked, &Options::default()).unwrap()
+        };
+        let before = fit("");
+        let mut warnings = before.warnings().iter();
+        let warning = warnings.find(|w| w.code.as_str() == "spring-force");
+        let warning = warning.unwrap_or_else(|| panic!("{axis}: {:#?}", before.warnings()));
+        let line = warning.message.split("Set ").nth(1).unwrap();
+        let line = line.split(" under").next().unwrap().replace(" and ", "\n");
+        let after = judged(&[machine], Ok(fit(&format!("[terms]\n{line}\n"))));
+        let causes = ["spring-force", "law-shape"];
+        let left = after.codes.iter().find(|code| causes.contains(code));
+        let enough = after.claims.len() >= 5 && !after.is_silent();
+        assert!(enough && left.is_none(), "{axis}: {line} {after}");
+    }
+}

@@ -170,6 +170,7 @@ impl Fine {
             World::Cogging => 0.2 * m.coulomb * (TAU * PITCHES * x / m.top_speed).sin(),
             World::Weight if m.kind == "rotary" => WEIGHT * m.coulomb * (x + 0.3).cos(),
             World::Weight => WEIGHT * m.coulomb,
+            World::Spring => m.coulomb * x / self.reach,
             _ => 0.0,
         };
         let (mass, coupling) = match self.world {

@@ -99,6 +99,13 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
             *u = behind;
         }
     }
+    if let World::Averaged(rows) = world {
+        let whole = force.clone();
+        for (k, u) in force.iter_mut().enumerate() {
+            let some = &whole[k.saturating_sub(rows - 1)..=k];
+            *u = some.iter().sum::<f64>() / some.len() as f64;
+        }
+    }
     for u in &mut force {
         *u += machine.noise * random.normal();
     }

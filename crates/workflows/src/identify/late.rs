@@ -9,8 +9,8 @@ use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::{Axis, Warning, shell};
 use stiction_identify::{
-    Alignment, Delay, Estimate, FittedLaw, ForceFilter, Misfit, Observer, alignment, force_filter,
-    lateness,
+    Alignment, Delay, Estimate, FittedLaw, ForceFilter, Misfit, Observer, Smoothing, alignment,
+    force_filter, lateness,
 };
 use stiction_log::{Offset, Role};
 use stiction_number::{four_digits, full};
@@ -55,6 +55,8 @@ fn apart(sources: &[Source], each: &[usize]) -> Option<String> {
     })
 }
 
+/// What rows that are late leave, in parts of what a filter leaves, up to which they are believed: a filter has one number more.
+const LATE_AS_GOOD: f64 = 1.3;
 /// Why bristle and mass are open where a force was taken as late as the rest of the law has it, and something is left all the same.
 const LATE_OR_ELSE: &str = "the force is taken later than fits look for, and what is left all the same has another cause, of which that \
                             delay may be a part";
@@ -119,7 +121,8 @@ pub(super) fn unfiltered(
     );
     let found = found.filter(ForceFilter::is_certain);
     let least = found.map_or(f64::INFINITY, |filter| filter.left);
-    if let Some(further) = further.filter(|further| further.left < least) {
+    let is_as_good = |further: &Alignment| further.left < LATE_AS_GOOD * least;
+    if let Some(further) = further.filter(is_as_good) {
         loaded.take_force_from(further.rows);
         loaded.is_late_or_else = true;
         let conditioned = condition(asked, &loaded, observer)?;
@@ -129,7 +132,10 @@ pub(super) fn unfiltered(
         return Ok((loaded, conditioned));
     };
     for source in loaded.sources.iter_mut().chain(&mut loaded.held_out) {
-        source.log.undo_force_filter(found.time);
+        match found.what {
+            Smoothing::LowPass(time) => source.log.undo_force_filter(time),
+            Smoothing::Mean(rows) => source.log.undo_force_mean(rows),
+        }
     }
     loaded.filter = Some(found);
     loaded.take_force_from(found.rows);

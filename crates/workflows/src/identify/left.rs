@@ -1,10 +1,10 @@
 //! What a law leaves systematically, and what to do about it, in words.
 
-use super::{clocks, coupled, pitch, settled};
+use super::{clocks, coupled, dynamics, pitch, settled};
 use crate::source::Source;
 use stiction_codes::Code;
-use stiction_files::Warning;
 use stiction_files::result::{CauseEntry, Cure, MisfitEntry};
+use stiction_files::{Warning, symbols};
 use stiction_identify::{Cause, Dependence, Divided, FittedLaw, LawKind, Misfit, Ripple};
 use stiction_number::{Percent, four_digits};
 
@@ -56,8 +56,10 @@ fn code(cause: Cause) -> Code {
         Cause::Load => Code::LoadDependence,
         Cause::Temperature => Code::TemperatureDependence,
         Cause::Ripple => Code::PositionRipple,
+        Cause::SpringForce => Code::SpringForce,
         Cause::Resonance => Code::Resonance,
         Cause::Backlash => Code::Backlash,
+        Cause::Dynamics => Code::UnmodelledDynamics,
         Cause::Clocks => Code::ClocksApart,
         Cause::Limit => Code::ForceNotGiven,
         Cause::Held => Code::HeldAtRest,
@@ -138,8 +140,12 @@ fn words(cause: Cause) -> &'static str {
         Cause::Load => "friction changes with the load",
         Cause::Temperature => "friction changes with the temperature",
         Cause::Ripple => "a force repeats with the position",
+        Cause::SpringForce => "a force grows with the position, as that of a spring does",
         Cause::Resonance => "motor and load vibrate against each other",
         Cause::Backlash => "a gap lies between motor and load",
+        Cause::Dynamics => {
+            "between force and motion are dynamics that a rigid mass and a delay do not have"
+        }
         Cause::Clocks => "force and motion were stamped by two clocks that run apart",
         Cause::Held => "something else than friction holds the axis where it rests",
         Cause::Limit => "the drive gave less than the force that was logged",
@@ -187,6 +193,9 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, sources: &[Source]) -> O
             Dependence::ViscousTemperature(0.0),
         ]),
         Cause::Ripple => wave(),
+        Cause::SpringForce => {
+            pitch::straight(misfit.spring_force.as_ref()?, law, log.motion).map(of_terms)
+        }
         // Where the level changes with two things, neither explains it by itself.
         Cause::Drift => {
             let beside = [
@@ -221,7 +230,12 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, sources: &[Source]) -> O
             })
         }
         Cause::Clocks => clocks::stretch(misfit.clocks.as_ref()?, sources),
-        Cause::Resonance | Cause::Backlash | Cause::Limit | Cause::Held | Cause::Shape => None,
+        Cause::Resonance
+        | Cause::Backlash
+        | Cause::Dynamics
+        | Cause::Limit
+        | Cause::Held
+        | Cause::Shape => None,
     }
 }
 
@@ -260,7 +274,8 @@ fn message(
                     true => format!(" in place of the line {key}"),
                     false => String::new(),
                 };
-                format!("Set {line} under [{table}] in the axis file{instead}")
+                let lines = line.replace('\n', " and ");
+                format!("Set {lines} under [{table}] in the axis file{instead}")
             }
             Cure::Law { law } => format!("Try the law {law}"),
         },
@@ -339,6 +354,9 @@ fn message(
         Cause::Clocks => misfit.clocks.as_ref().map_or_else(String::new, |found| {
             clocks::message(found, what, cured.then_some(&to_do))
         }),
+        Cause::Dynamics => misfit.dynamics.map_or_else(String::new, |found| {
+            dynamics::message(&found, (what, &left), log, options)
+        }),
         Cause::Held => misfit.held.map_or_else(String::new, |held| {
             let [rests, all] = held.rests;
             format!(
@@ -366,6 +384,15 @@ fn message(
             });
             format!("{what}: {left}{line}. {counted}")
         }
+        Cause::SpringForce => misfit.spring_force.map_or_else(String::new, |found| {
+            format!(
+                "{what}: {left} goes with it, {} {}/{} beside what the law has taken of it, as a cable chain, a bellows or a balancing \
+                 spring does. {counted}. {to_do}: a wave so long is straight over the stroke",
+                four_digits(found.stiffness),
+                log.force_unit,
+                symbols::length_unit(log.motion)
+            )
+        }),
         Cause::Shape => format!(
             "{what}: {left} {}. {counted}, and what describes that shape is no constant of the machine.{} \
                  Neither a load on a spring nor one behind a gap explains it surely; a force logged \

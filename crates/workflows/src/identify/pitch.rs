@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use stiction_files::axis::MOST_PITCHES;
 use stiction_files::symbols;
-use stiction_identify::{FittedLaw, Repeats, Ripple};
+use stiction_identify::{FittedLaw, Repeats, Ripple, SpringForce};
 use stiction_log::Motion;
 use stiction_number::{Percent, four_digits, shortest};
 
@@ -30,11 +30,39 @@ pub(super) fn line(ripple: &Ripple, law: &FittedLaw, motion: Motion) -> Option<(
         Some(own) => *own = instead_of(*own, ripple, motion),
         None => pitches.push(rounded(ripple, motion)),
     }
+    of(key, &pitches, motion).map(|line| (line, replaces))
+}
+
+/// The same with a wave that is straight over the stroke, with which goes that no constant force is fitted: the wave has it too.
+pub(super) fn straight(
+    found: &SpringForce,
+    law: &FittedLaw,
+    motion: Motion,
+) -> Option<(String, bool)> {
+    let mut pitches = law.terms.cogging.clone();
+    // One that is there already is not straight enough, and a second would be the same.
+    if pitches.iter().any(|pitch| *pitch >= found.pitch / 100.0) {
+        return None;
+    }
+    let replaces = !pitches.is_empty();
+    // Nothing follows from how long it is.
+    let pitch = format!("{:.1e}", found.pitch).parse();
+    pitches.push(pitch.unwrap_or(found.pitch));
+    // Levels for each direction stand for a constant force, which the law that follows may have again.
+    let without = match law.terms.offset || law.law.asymmetric {
+        true => "\noffset = false",
+        false => "",
+    };
+    of("cogging", &pitches, motion).map(|line| (line + without, replaces))
+}
+
+/// The line of a key with pitches; `None` where there are more than it may have.
+fn of(key: &str, pitches: &[f64], motion: Motion) -> Option<String> {
     let pitches: Vec<_> = pitches
         .iter()
         .map(|pitch| format!("\"{}\"", written(*pitch, motion)))
         .collect();
-    (pitches.len() <= MOST_PITCHES).then(|| (format!("{key} = [{}]", pitches.join(", ")), replaces))
+    (pitches.len() <= MOST_PITCHES).then(|| format!("{key} = [{}]", pitches.join(", ")))
 }
 
 /// A found pitch with its interval.

@@ -218,7 +218,11 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     let conditioned = condition(asked, &loaded, observer)?;
     loaded.contradicted = stated::named(asked, &loaded, &conditioned, observer);
     let realigned = realigned(asked, loaded, conditioned, observer)?;
-    let (loaded, conditioned) = unfiltered(asked, realigned, observer)?;
+    let (mut loaded, conditioned) = unfiltered(asked, realigned, observer)?;
+    // Beside another motion than its own a force says nothing of what is stated.
+    if loaded.contradicted.is_none() && (loaded.late != 0.0 || loaded.filter.is_some()) {
+        loaded.contradicted = stated::named(asked, &loaded, &conditioned, observer);
+    }
     let ranges = asked.axis.search_box(&loaded.sources[0].log)?;
     let fitted = fit(asked, &loaded, &conditioned, observer);
     let mut fitted = fitted.map_err(|e| of_the_split(asked, &conditioned, e))?;

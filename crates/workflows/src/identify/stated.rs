@@ -1,4 +1,4 @@
-//! What the axis file states of the axis, a mass or a delay, and the log shows to be another.
+//! What the axis file states of the axis, a mass, a delay or a Stribeck exponent, and the log shows to be another.
 //!
 //! A force of inertia that is missing or too much looks like a resonance, a low-pass of the force or a delay, and a force that is
 //! taken at another instant like backlash or friction of another shape, so that it is looked for before these.
@@ -11,13 +11,16 @@ use stiction_identify as engine;
 use stiction_identify::{
     Delay, Law, LawKind, Mass, Observer, Parameter, Record, Settings, Status, Terms,
 };
-use stiction_number::{Percent, four_digits};
+use stiction_number::{Percent, four_digits, full};
 use stiction_parameters::Quantity;
 
 /// Part of the stated mass from which on another one is named: less is within what nameplates and drawings say.
 const MASS_APART: f64 = 0.05;
 /// The same of a delay, samples: less moves micro-damping by less than its interval on most logs.
 const DELAY_APART: f64 = 0.1;
+/// Distance of a fitted Stribeck exponent from another one, of logarithms, that filters and encoder may have made: on simulated axes up to
+/// 0.14 (decision 0064).
+pub(super) const EXPONENT_APART: f64 = 0.22;
 /// Part of the square of what is left beside what is stated, at most, that is left beside the other.
 const LEFT: f64 = 0.7;
 
@@ -35,13 +38,16 @@ pub(super) fn named(
     let stated = conditioned.terms(false);
     let mut fits = Fits {
         record,
+        exponent: asked.axis.exponent(),
         settings: Settings {
             near: None,
             ..conditioned.settings.clone()
         },
         observer,
     };
-    mass(loaded, stated, &mut fits).or_else(|| delay(stated, &mut fits))
+    mass(loaded, stated, &mut fits)
+        .or_else(|| delay(stated, &mut fits))
+        .or_else(|| exponent(asked, stated, &mut fits))
 }
 
 fn mass(loaded: &Loaded, stated: &Terms, fits: &mut Fits) -> Option<Warning> {
@@ -57,7 +63,7 @@ fn mass(loaded: &Loaded, stated: &Terms, fits: &mut Fits) -> Option<Warning> {
     };
     let is_apart = |found: f64| found > 0.0 && (found - mass).abs() > MASS_APART * mass;
     // A law without bristles costs next to nothing, and has the mass within some percent.
-    let (roughly, _) = fits.fit(LawKind::CoulombViscous, &open)?;
+    let (roughly, _) = fits.fit(fits.law(LawKind::CoulombViscous), &open)?;
     is_apart(of(&roughly.parameters, Quantity::Mass)?.value).then_some(())?;
     let (found, left) = fits.shown(stated, &open, (Quantity::Mass, mass), is_apart)?;
     let (low, high) = found.ci95?;
@@ -99,16 +105,60 @@ fn delay(stated: &Terms, fits: &mut Fits) -> Option<Warning> {
     ))
 }
 
+/// Only where a curve is fitted that has it.
+fn exponent(asked: Asked, terms: &Terms, fits: &mut Fits) -> Option<Warning> {
+    let stated = asked.axis.stribeck_exponent?;
+    let has_none = |law: LawKind| law.has_elements() || !law.has_stribeck();
+    if asked.options.law.is_some_and(has_none) {
+        return None;
+    }
+    let is_apart = |found: f64| libm::log(found / stated).abs() > EXPONENT_APART;
+    let law = fits.law(LawKind::LuGre).with_fitted_exponent();
+    let (held, _) = fits.fit(fits.law(LawKind::LuGre), terms)?;
+    let (mut free, optimum) = fits.fit(law, terms)?;
+    is_apart(of(&free.parameters, Quantity::StribeckExponent)?.value).then_some(())?;
+    let left = (free.fit.rmse / held.fit.rmse).powi(2);
+    engine::intervals(fits.record, &optimum, &mut free, fits.observer);
+    let found = of(&free.parameters, Quantity::StribeckExponent)?;
+    // Much less that is left says so as well as an interval, which misfits of another kind may leave open.
+    let is_outside =
+        |(low, high): (f64, f64)| found.identifiable && (stated < low || stated > high);
+    let shows = left < LEFT || found.ci95.is_some_and(is_outside);
+    (shows && is_apart(found.value)).then_some(())?;
+    let value = four_digits(found.value);
+    let about = found.ci95.map_or(String::new(), |(low, high)| {
+        format!(" ({} to {})", four_digits(low), four_digits(high))
+    });
+    Some(Warning::new(
+        Code::ExponentDisagrees,
+        format!(
+            "the axis file states a Stribeck exponent of {}, and the log shows {value}{about}: static friction, the Stribeck \
+             velocity and the stiffness that are fitted beside the stated one make up for it. Write stribeck_exponent = \"fit\" in its \
+             place under [terms] in the axis file, or take the line out",
+            full(stated)
+        ),
+    ))
+}
+
 /// Fits of laws to one record.
 struct Fits<'a> {
     record: &'a Record,
+    /// Stribeck exponent of their laws.
+    exponent: f64,
     settings: Settings,
     observer: &'a mut dyn Observer,
 }
 
 impl Fits<'_> {
-    fn fit(&mut self, kind: LawKind, terms: &Terms) -> Option<(engine::Estimate, engine::Optimum)> {
-        let (law, settings) = (Law::new(kind), &self.settings);
+    fn law(&self, kind: LawKind) -> Law {
+        Law {
+            exponent: self.exponent,
+            ..Law::new(kind)
+        }
+    }
+
+    fn fit(&mut self, law: Law, terms: &Terms) -> Option<(engine::Estimate, engine::Optimum)> {
+        let settings = &self.settings;
         let found = engine::fit_law(self.record, law, terms, 0.0, settings, self.observer).ok()?;
         (found.1.status != Status::Interrupted).then_some(found)
     }
@@ -122,8 +172,9 @@ impl Fits<'_> {
         (name, value): (Quantity, f64),
         is_apart: impl Fn(f64) -> bool,
     ) -> Option<(Parameter, f64)> {
-        let (held, _) = self.fit(LawKind::LuGre, stated)?;
-        let (mut free, optimum) = self.fit(LawKind::LuGre, open)?;
+        let law = self.law(LawKind::LuGre);
+        let (held, _) = self.fit(law, stated)?;
+        let (mut free, optimum) = self.fit(law, open)?;
         let left = (free.fit.rmse / held.fit.rmse).powi(2);
         (left < LEFT && is_apart(of(&free.parameters, name)?.value)).then_some(())?;
         engine::intervals(self.record, &optimum, &mut free, self.observer);

@@ -104,7 +104,6 @@ impl Beside {
     }
 
     /// What is left.
-    #[cfg(test)]
     pub fn residual(&self) -> &[f64] {
         &self.residual
     }
