@@ -64,9 +64,7 @@ pub enum Smoothing {
 pub struct ForceFilter {
     /// What it is.
     pub what: Smoothing,
-    /// Square of the time constant that a low-pass has, s^2.
-    square: f64,
-    /// Variance of the square of the time constant, s^4.
+    /// Variance of the square of a time constant, s^4; 0 for a mean.
     pub variance: f64,
     /// Rows by which the force has to be taken later (earlier where negative) once the low-pass is undone.
     pub rows: isize,
@@ -80,8 +78,8 @@ impl ForceFilter {
     /// Whether there surely is one.
     pub fn is_certain(&self) -> bool {
         let shows = match self.what {
-            Smoothing::LowPass(_) => {
-                self.square > SURE * self.variance.sqrt() && self.left < NO_MORE
+            Smoothing::LowPass(time) => {
+                time * time > SURE * self.variance.sqrt() && self.left < NO_MORE
             }
             Smoothing::Mean(_) => true,
         };
@@ -196,7 +194,6 @@ pub fn force_filter(
     if let Some((rows, mean)) = mean.filter(shows) {
         return Some(ForceFilter {
             what: Smoothing::Mean(rows as usize),
-            square: 0.0,
             variance: 0.0,
             rows: mean.rows,
             delay: mean.optimum.p.last().copied().unwrap_or(0.0),
@@ -211,7 +208,6 @@ pub fn force_filter(
     };
     Some(ForceFilter {
         what: Smoothing::LowPass(best.lag * step),
-        square: best.lag * best.lag * unit,
         variance: variance * unit * unit,
         rows: best.rows + further as isize,
         delay: own - further,

@@ -33,6 +33,7 @@ use parts::Measures;
 pub(crate) use parts::reversals;
 pub use ripple::{Repeats, Ripple};
 pub use spring_force::SpringForce;
+pub(crate) use waves::STRAIGHT;
 
 use self::coupling::beside::Beside;
 use self::reversals::Reversals;

@@ -8,6 +8,7 @@
 use crate::conditioning::record::Record;
 use crate::estimate::uncertainty;
 use crate::law::terms::Terms;
+use crate::misfit::STRAIGHT;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
@@ -24,8 +25,6 @@ const WORTH_OF_CHANCE: f64 = 0.01;
 /// Standard deviations within which viscous friction cannot be told from none.
 const CHANCE: f64 = 2.0;
 
-/// Pitch over stroke from which a wave is a line on it, and a constant.
-const LONG: f64 = 4.0;
 /// Part of the mean square of the acceleration that is constant from which inertia and constant force share one force.
 const CONSTANT: f64 = 0.9;
 
@@ -55,7 +54,7 @@ pub(super) fn flag_a_force_that_takes_a_long_wave(
     parameters: &mut [Parameter],
 ) {
     let stroke = record.stroke();
-    if !terms.cogging.iter().any(|pitch| *pitch > LONG * stroke) {
+    if !terms.cogging.iter().any(|pitch| *pitch > STRAIGHT * stroke) {
         return;
     }
     let constant =

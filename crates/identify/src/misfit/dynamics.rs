@@ -7,7 +7,6 @@
 
 use super::coupling::beside::Beside;
 use crate::estimate::uncertainty::sandwich;
-use crate::separable::linear::dot;
 use crate::separable::objective::{Evaluation, Objective};
 
 /// Deviations beyond what replicas have from which such a part is sure, and the part of the residual that it then explains.
@@ -66,8 +65,7 @@ pub(super) fn sought(
     let own = jacobian.len() - 1;
     let variance = known.covariance[(own, own)] + scatter;
     let square = found.coefficient - mean;
-    let outside = beside.outside(&column);
-    let share = square * square * dot(&outside, &outside) / beside.square();
+    let share = found.share * (square / found.coefficient).powi(2);
     let step = objective.record().step();
     let sure = square.abs() > SURE * variance.sqrt() && share >= LEAST_SHARE;
     sure.then_some(Dynamics {

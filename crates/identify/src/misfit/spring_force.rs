@@ -6,8 +6,6 @@ use super::coupling::beside::Beside;
 const LEAST_SHARE: f64 = 0.3;
 /// Fewest lengths of the bristles in a stroke: on a shorter one they are a spring themselves.
 const FEWEST_LENGTHS: f64 = 50.0;
-/// How many times longer than the stroke a wave over the position is whose middle is as straight as a spring is.
-const STROKES: f64 = 200.0;
 
 /// A force that grows with the position.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,8 +14,8 @@ pub struct SpringForce {
     pub stiffness: f64,
     /// Part of the variance of the residual that it explains, 0 to 1.
     pub share: f64,
-    /// Pitch of a wave over the position that describes it on the stroke, m or rad.
-    pub pitch: f64,
+    /// The stroke, m or rad.
+    pub stroke: f64,
 }
 
 /// Looks for one along the positions of the kept samples, `length` (m or rad) being that of the bristles.
@@ -36,6 +34,6 @@ pub(super) fn sought(position: &[f64], length: f64, beside: &Beside) -> Option<S
     (found.share >= LEAST_SHARE && found.coefficient > 0.0).then_some(SpringForce {
         stiffness: found.coefficient,
         share: found.share,
-        pitch: STROKES * stroke,
+        stroke,
     })
 }

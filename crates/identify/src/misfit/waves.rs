@@ -12,7 +12,7 @@ use stiction_parameters::{Quantity, Wave};
 const MOVED_SHARE: f64 = 0.3;
 const MOVED_BY: f64 = 0.001;
 /// Pitch over stroke from which a wave is a line on it, whose pitch says nothing.
-const STRAIGHT: f64 = 4.0;
+pub(crate) const STRAIGHT: f64 = 4.0;
 /// Part of what a wave explains that a line does where a force grows with the position: a wave that is hardly shorter than the stroke
 /// goes nearly as one.
 const OF_A_WAVE: f64 = 0.5;
@@ -73,14 +73,10 @@ impl Divisions {
             });
         }
         if cause == Some(Cause::Ripple) {
-            let wave = along(Repeats::Force).best(residual, &beside);
-            let sharp = wave.filter(Ripple::is_sharp);
-            misfit.ripple = sharp.or(wave);
-            return Some(match (sharp, wave) {
-                (None, Some(wave)) => {
-                    self.sprung(misfit, OF_A_WAVE * wave.share, &beside, residual)
-                }
-                _ => misfit,
+            misfit.ripple = along(Repeats::Force).best(residual, &beside);
+            return Some(match misfit.ripple.filter(|wave| !wave.is_sharp()) {
+                Some(wave) => self.sprung(misfit, OF_A_WAVE * wave.share, &beside, residual),
+                None => misfit,
             });
         }
         misfit.ripple = match cause {
@@ -107,29 +103,25 @@ impl Divisions {
         misfit.spring_force = found.filter(|found| found.share >= least);
         if let Some(found) = misfit.spring_force {
             misfit.ripple = None;
-            misfit.count(found.share, residual);
-            misfit.by = Divided::Position;
-            misfit.shown_by = Divided::Position;
-            let place = Divided::ALL.iter().position(|own| *own == misfit.by);
-            misfit.course = place.map_or_else(Vec::new, |i| self.course(i, residual));
+            self.along_the_position(&mut misfit, found.share, residual);
         }
         misfit
     }
 
     /// The misfit with a wave that is its cause.
-    fn of_a_wave(&self, misfit: Misfit, found: Ripple, residual: &[f64]) -> Misfit {
-        let square = residual.iter().map(|r| r * r).sum::<f64>() / residual.len() as f64;
-        let by = Divided::Position;
-        let place = Divided::ALL.iter().position(|own| *own == by);
-        Misfit {
-            by,
-            shown_by: by,
-            course: place.map_or_else(Vec::new, |i| self.course(i, residual)),
-            share: misfit.share.max(found.share),
-            rms: misfit.rms.max((found.share * square).sqrt()),
-            ripple: Some(found),
-            ..misfit
-        }
+    fn of_a_wave(&self, mut misfit: Misfit, found: Ripple, residual: &[f64]) -> Misfit {
+        misfit.ripple = Some(found);
+        self.along_the_position(&mut misfit, found.share, residual);
+        misfit
+    }
+
+    /// Counts what something along the position explains of a residual, by which the misfit is shown then.
+    fn along_the_position(&self, misfit: &mut Misfit, share: f64, residual: &[f64]) {
+        misfit.count(share, residual);
+        misfit.by = Divided::Position;
+        misfit.shown_by = misfit.by;
+        let place = Divided::ALL.iter().position(|own| *own == misfit.by);
+        misfit.course = place.map_or_else(Vec::new, |i| self.course(i, residual));
     }
 }
 

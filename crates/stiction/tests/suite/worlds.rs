@@ -750,9 +750,10 @@ fn a_stretch_of_dead_force_moves_nothing() {
     }
 }
 
-/// Filters in front of the logged force are no friction of another shape: undone where they are known, what they move is open else.
+/// Filters in front of the logged force are undone where they are known, and what they move is open else. The mean on the stage is taken for
+/// friction of another shape, with nothing claimed of it.
 #[test]
-fn a_smoothed_force_is_no_other_cause() {
+fn a_smoothed_force_is_named_and_nothing_is_silent() {
     let cases = [
         ("joint", Motion::Trapezoid, World::Averaged(9)),
         ("joint", Motion::Commissioning, World::Averaged(16)),

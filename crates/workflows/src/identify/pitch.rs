@@ -15,6 +15,9 @@ const MOST_PARTS: f64 = 100_000.0;
 const SAME: f64 = 1e-9;
 /// Part of a wave by which a pitch that is rounded to fewer digits may be off over the stroke.
 const OFF_OF_A_NUMBER: f64 = 0.002;
+/// Strokes in a wave whose middle is as straight as a spring is, and in one that is there already and not straight enough.
+const STRAIGHT: f64 = 200.0;
+const BENT: f64 = 2.0;
 const FEWEST_DIGITS: usize = 2;
 const MOST_DIGITS: usize = 9;
 
@@ -40,14 +43,14 @@ pub(super) fn straight(
     motion: Motion,
 ) -> Option<(String, bool)> {
     let mut pitches = law.terms.cogging.clone();
-    // One that is there already is not straight enough, and a second would be the same.
-    if pitches.iter().any(|pitch| *pitch >= found.pitch / 100.0) {
+    // A second one would be the same.
+    if pitches.iter().any(|pitch| *pitch >= BENT * found.stroke) {
         return None;
     }
     let replaces = !pitches.is_empty();
     // Nothing follows from how long it is.
-    let pitch = format!("{:.1e}", found.pitch).parse();
-    pitches.push(pitch.unwrap_or(found.pitch));
+    let pitch = STRAIGHT * found.stroke;
+    pitches.push(format!("{pitch:.1e}").parse().unwrap_or(pitch));
     // Levels for each direction stand for a constant force, which the law that follows may have again.
     let without = match law.terms.offset || law.law.asymmetric {
         true => "\noffset = false",
