@@ -44,8 +44,8 @@ const BESIDE: f64 = 0.75;
 /// many.
 const SURELY_LEFT: f64 = 0.3;
 const MOST_FURTHER: f64 = 2.0;
-/// What a mean over rows leaves, at most, in parts of what is left without it, and of what a low-pass leaves beside the delay of a force
-/// which is held; beside another one it may leave as much more. Fewest of its rows.
+/// What a mean over rows leaves, at most, in parts of what is left without it, and of what a low-pass alone leaves, beside the delay of a
+/// force which is held; beside another delay, or rows, it may leave as much more. Fewest of its rows.
 const LEFT_OF_MEAN: f64 = 0.8;
 const LEFT_OF_LOW_PASS: f64 = 0.95;
 const FEWEST_ROWS: f64 = 3.0;
@@ -179,7 +179,9 @@ pub fn force_filter(
     }
     let mean = mean(&mut fit, &without, late);
     let own = best.optimum.p.last().copied().unwrap_or(0.0);
-    let of_low_pass = match (own - HELD_DELAY).abs() < BESIDE {
+    // A low-pass alone says no more than a mean does; one of a force that is some rows later has two numbers where a mean has one.
+    let is_alone = best.rows + laid == 0 && (own - HELD_DELAY).abs() < BESIDE;
+    let of_low_pass = match is_alone {
         true => LEFT_OF_LOW_PASS,
         false => 1.0 / LEFT_OF_LOW_PASS,
     };
@@ -402,8 +404,8 @@ mod tests {
 
     #[test]
     fn a_mean_over_rows_is_told_from_a_low_pass() {
-        // Of fewer rows a low-pass is as good.
-        for rows in [9, 16] {
+        // Of fewer rows it shows too little.
+        for rows in [9, 12, 16] {
             let filter = found(World::Averaged(rows)).unwrap();
             assert!(filter.is_certain(), "{filter:?}");
             assert_eq!(filter.what, Smoothing::Mean(rows), "{filter:?}");

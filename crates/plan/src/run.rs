@@ -22,8 +22,10 @@ pub struct Run {
     pub reading: Vec<f64>,
     /// True velocity, m/s (rad/s).
     pub velocity: Vec<f64>,
-    /// Force about the instant of each sample, N (N m).
+    /// Force about the instant of each sample, N (N m): the mean of what acts before and after it.
     pub force: Vec<f64>,
+    /// Force that the controller asks for in answer to each sample, N (N m): what a drive logs beside the position.
+    pub command: Vec<f64>,
     /// What happened between samples too.
     pub peaks: Peaks,
 }
@@ -129,6 +131,7 @@ fn follow<L: Held<f64>, I: Integrator<L>>(
         reading: Vec::with_capacity(samples),
         velocity: Vec::with_capacity(samples),
         force: Vec::with_capacity(samples),
+        command: Vec::with_capacity(samples),
         peaks: Peaks::default(),
     };
     let peaks = &mut out.peaks;
@@ -146,6 +149,7 @@ fn follow<L: Held<f64>, I: Integrator<L>>(
             out.reading.push(sample.measured);
             out.velocity.push(sample.velocity);
             out.force.push(0.5 * (held + sample.command));
+            out.command.push(sample.command);
         }
         held = sample.command;
         let [low, high] = &mut peaks.position;

@@ -326,7 +326,7 @@ fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed:
     let run =
         run(motion, truth, rig, limits.peak_force, phase).expect("an axis that can be simulated");
     let force = run
-        .force
+        .command
         .iter()
         .map(|f| f + rig.force_noise * noise.normal())
         .collect();
