@@ -101,11 +101,11 @@ impl Information {
     }
 }
 
-/// `J^T J` and `J^T r` of a run.
+/// `J^T J`, and `J^T r` of each run.
 #[derive(Clone, Debug, Default)]
 struct Products {
     gram: Vec<f64>,
-    gradient: Vec<f64>,
+    gradients: Vec<Vec<f64>>,
 }
 
 /// What of a log a motion is.
@@ -124,31 +124,21 @@ pub(crate) fn information(
     runs: &[Run],
     extent: Extent,
 ) -> Option<Information> {
-    let all: Vec<[Products; PAIR_COUNT]> = runs
-        .iter()
-        .map(|run| products(candidate, rig, run, extent).ok())
-        .collect::<Option<_>>()?;
-    let count = all.len() as f64;
+    let all = products(candidate, rig, runs, extent).ok()?;
+    let count = runs.len() as f64;
     let mut out = Information::none_of(candidate);
     let unknowns = out.unknowns;
-    for pair in 0..PAIR_COUNT {
-        let (gram_sum, scatter, bias) = out.pair_mut(pair);
-        for products in &all {
-            let Products { gram, gradient } = &products[pair];
-            for (sum, x) in gram_sum.iter_mut().zip(gram) {
-                *sum += x / count;
-            }
+    for (pair, Products { gram, gradients }) in all.iter().enumerate() {
+        let (own, scatter, bias) = out.pair_mut(pair);
+        own.copy_from_slice(gram);
+        for gradient in gradients {
             for (sum, x) in bias.iter_mut().zip(gradient) {
                 *sum += x / count;
             }
         }
-        for products in &all {
-            let off: Vec<f64> = products[pair]
-                .gradient
-                .iter()
-                .zip(&*bias)
-                .map(|(x, mean)| x - mean)
-                .collect();
+        for gradient in gradients {
+            let both = gradient.iter().zip(&*bias);
+            let off: Vec<f64> = both.map(|(x, mean)| x - mean).collect();
             for i in 0..unknowns {
                 for j in 0..=i {
                     scatter[i * (i + 1) / 2 + j] += off[i] * off[j] / (count - 1.0).max(1.0);
@@ -159,36 +149,42 @@ pub(crate) fn information(
     Some(out)
 }
 
-/// `J` along the true motion and the residual that the law leaves at the true parameters when it is driven by the encoder, both
-/// filtered and thinned as an identification does.
+/// `J` along the true motion, and the residuals that the law leaves at the true parameters when it is driven by the encoder, both
+/// filtered and thinned as an identification does. Where the encoder stands in its step hardly moves the axis, so the motion is that
+/// of the first run.
 fn products(
     candidate: &Candidate,
     rig: &Rig,
-    run: &Run,
+    runs: &[Run],
     extent: Extent,
 ) -> Result<[Products; PAIR_COUNT], SignalError> {
     let (rate, step) = (rig.rate, 1.0 / rig.rate);
+    let mut out: [Products; PAIR_COUNT] = Default::default();
+    let Some(first) = runs.first() else {
+        return Ok(out);
+    };
     let left_out = match (&candidate.slip, extent) {
-        (Some(_), Extent::Log) => run_through(&run.velocity, step),
+        (Some(_), Extent::Log) => run_through(&first.velocity, step),
         _ => 0,
     };
-    let columns = jacobian(candidate, step, run)?;
+    let columns = jacobian(candidate, step, first)?;
     let unknowns = columns.len();
-    let mut out: [Products; PAIR_COUNT] = Default::default();
     let mut done = [false; PAIR_COUNT];
-    for first in 0..PAIR_COUNT {
-        if done[first] {
+    for next in 0..PAIR_COUNT {
+        if done[next] {
             continue;
         }
         // All pairs with this common filter.
-        let common = PAIRS[first].0;
-        let pairs: Vec<usize> = (first..PAIR_COUNT)
+        let common = PAIRS[next].0;
+        let pairs: Vec<usize> = (next..PAIR_COUNT)
             .filter(|&p| PAIRS[p].0 == common)
             .collect();
         let mut filtered = columns.clone();
         for &pair in &pairs {
             done[pair] = true;
-            filtered.push(residual(candidate, rig, run, rate / PAIRS[pair].1)?);
+            for run in runs {
+                filtered.push(residual(candidate, rig, run, rate / PAIRS[pair].1)?);
+            }
         }
         let filter = Sos::butterworth_low_pass(ORDER, rate / common, rate)?;
         let mut views: Vec<&mut [f64]> = filtered.iter_mut().map(Vec::as_mut_slice).collect();
@@ -198,18 +194,18 @@ fn products(
             let both = a.iter().zip(b).skip(left_out).step_by(thin);
             thin as f64 * both.map(|(x, y)| x * y).sum::<f64>()
         };
+        let (own, residuals) = filtered.split_at(unknowns);
         let mut gram = vec![0.0; entries(unknowns)];
         for i in 0..unknowns {
             for j in 0..=i {
-                gram[i * (i + 1) / 2 + j] = product(&filtered[i], &filtered[j]);
+                gram[i * (i + 1) / 2 + j] = product(&own[i], &own[j]);
             }
         }
-        for (k, &pair) in pairs.iter().enumerate() {
-            let residual = &filtered[unknowns + k];
-            let own = filtered[..unknowns].iter();
+        for (&pair, residuals) in pairs.iter().zip(residuals.chunks(runs.len())) {
+            let of_run = |residual: &Vec<f64>| own.iter().map(|c| product(c, residual)).collect();
             out[pair] = Products {
                 gram: gram.clone(),
-                gradient: own.map(|column| product(column, residual)).collect(),
+                gradients: residuals.iter().map(of_run).collect(),
             };
         }
     }

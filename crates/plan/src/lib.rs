@@ -56,7 +56,7 @@ pub use predict::Deviations;
 pub use prior::Nameplate;
 pub use recognise::{How, Ran, Recognised, recognise};
 pub use rig::{Loop, Rig};
-pub use run::{Peaks, Run, run};
+pub use run::{Peaks, Run, run, run_finely};
 pub use select::{Alone, Choice, Spread, select};
 pub use slip::Slip;
 pub use subject::{Along, Elements, Shape, Subject, Term};

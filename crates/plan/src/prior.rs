@@ -75,6 +75,39 @@ impl Nameplate {
         ])
     }
 
+    /// The axis of a first identification with the least that a nameplate allows where that found nothing: viscous friction and
+    /// micro-damping that were held at zero, because the data ask for less, and static friction at the Coulomb level.
+    #[must_use]
+    pub fn at_least(&self, mut axis: Candidate) -> Candidate {
+        let speed = self.limits.speed;
+        let viscous = |sigma2: &mut f64, coulomb: f64| {
+            if *sigma2 == 0.0 {
+                *sigma2 = VISCOUS[0] * coulomb / speed;
+            }
+        };
+        viscous(&mut axis.sigma2, axis.coulomb);
+        if let Some(back) = &mut axis.back {
+            viscous(&mut back.sigma2, back.coulomb);
+        }
+        // Maxwell-slip elements have no damping of their own, and static friction that is the sum of theirs.
+        if axis.slip.is_some() {
+            return axis;
+        }
+        if axis.sigma1 == 0.0 {
+            axis.sigma1 = 2.0 * DAMPING[0] * libm::sqrt(axis.sigma0 * axis.mass);
+        }
+        let peaked = |level: &mut f64, coulomb: f64| {
+            if *level <= coulomb {
+                *level = coulomb * (1.0 + EXCESS[0]);
+            }
+        };
+        peaked(&mut axis.static_friction, axis.coulomb);
+        if let Some(back) = &mut axis.back {
+            peaked(&mut back.static_friction, back.coulomb);
+        }
+        axis
+    }
+
     /// Refuses numbers out of range.
     pub fn validate(&self) -> Result<(), ParamError> {
         ParamError::positive("mass", self.mass)?;

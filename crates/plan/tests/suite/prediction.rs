@@ -498,3 +498,22 @@ fn elements_are_drawn_together() {
     }
     assert!(distinct > 20, "{distinct}");
 }
+
+/// What a first fit held at zero, or at the Coulomb level, is the least that a nameplate allows; all else stays.
+#[test]
+fn a_first_fit_that_holds_values_at_their_bounds_is_an_axis() {
+    let found = Candidate {
+        sigma1: 0.0,
+        sigma2: 0.0,
+        static_friction: 20.0,
+        ..machine()
+    };
+    assert!(found.validate().is_err());
+    let axis = plate().at_least(found);
+    axis.validate().unwrap();
+    // A tenth of Coulomb friction at 0.2 m/s, a damping ratio of a tenth, a tenth above Coulomb friction.
+    let [sigma1, sigma2] = [axis.sigma1 / (0.2 * 1.2e6_f64.sqrt()), axis.sigma2 / 10.0];
+    assert!((sigma1 - 1.0).abs() < 1e-12 && (sigma2 - 1.0).abs() < 1e-12);
+    assert!((axis.static_friction - 22.0).abs() < 1e-12);
+    assert_eq!(plate().at_least(machine()), machine());
+}

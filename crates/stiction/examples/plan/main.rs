@@ -12,7 +12,7 @@ mod terms;
 use std::path::Path;
 use stiction::commands::{Known, PlanOptions, Planned, plan_motion};
 use stiction::{Axis, Column, LawKind, Log, Options, Silent, identify};
-use stiction_plan::{Candidate, Entry, Expected, HandMade, Motion, hand_made, run};
+use stiction_plan::{Candidate, Entry, Expected, HandMade, Motion, hand_made, run_finely};
 use stiction_servo::noise::Noise;
 
 /// Name, axis file, and sigma0, sigma1, sigma2, Fc, Fs, vs, M.
@@ -323,8 +323,8 @@ fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed:
     let (limits, rig) = (&plate.limits, &plate.rig);
     let mut noise = Noise::new(1000 + seed);
     let phase = noise.uniform();
-    let run =
-        run(motion, truth, rig, limits.peak_force, phase).expect("an axis that can be simulated");
+    let run = run_finely(motion, truth, rig, limits.peak_force, phase)
+        .expect("an axis that can be simulated");
     let force = run
         .command
         .iter()

@@ -301,7 +301,9 @@ pub(super) fn given(
             unit: "1".into(),
         });
     }
-    let belief = told.map(|told| told.belief(&asked.subject)).transpose()?;
+    let belief = told
+        .map(|told| told.belief(&asked.subject, &nameplate))
+        .transpose()?;
     let mut aim = Aim::new(nameplate.rig.force_noise);
     if let (Some(Known::Log(_)), Some(belief)) = (&options.known, &belief) {
         aim.known = belief.deviations.clone();

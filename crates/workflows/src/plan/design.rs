@@ -23,10 +23,10 @@ use stiction_plan::{
 use stiction_search::{Control, Observer, Progress, Shared, Stage};
 
 /// Axes on which pieces are simulated, and whole motions, at least and at most.
-const AXES: [usize; 2] = [8, 24];
+const AXES: [usize; 2] = [8, 48];
 const FRESH_AXES: [usize; 2] = [8, 16];
 /// Control periods that are simulated in pieces, and in whole motions: they bound the time that a plan takes.
-const PERIODS: f64 = 25e6;
+const PERIODS: f64 = 50e6;
 const FRESH_PERIODS: f64 = 7e6;
 /// Longest motion that needs no design and is simulated whole, s.
 const LONGEST_HAND_MADE: f64 = 60.0;

@@ -8,7 +8,7 @@ use stiction_files::ModelFile;
 use stiction_files::model::{ModelParameter, ReadModel};
 use stiction_identify::{LawKind, Observer};
 use stiction_parameters::{Name, Quantity};
-use stiction_plan::{Belief, Candidate, Elements, Subject};
+use stiction_plan::{Belief, Candidate, Elements, Nameplate, Subject};
 use stiction_signal::noise_deviation;
 
 /// What is known of an axis beside its nameplate.
@@ -240,8 +240,8 @@ impl Told {
         (0..names.len()).map(row).collect()
     }
 
-    /// The belief that the model gives.
-    pub fn belief(&self, subject: &Subject) -> Result<Belief, Error> {
+    /// The belief that the model gives of an axis with this nameplate.
+    pub fn belief(&self, subject: &Subject, plate: &Nameplate) -> Result<Belief, Error> {
         let first_term = subject.first_term();
         let mut values = Vec::new();
         let mut found = Vec::new();
@@ -263,6 +263,7 @@ impl Told {
         let Some(axis) = Candidate::of(subject, &values) else {
             return Err(lacks(&self.file, "parameter of the law"));
         };
+        let axis = plate.at_least(axis);
         let units = axis.units();
         let deviation = |(p, unit): (&Option<&ModelParameter>, &f64)| {
             let p = (*p)?;
