@@ -17,6 +17,7 @@ mod profile;
 pub(crate) mod searched;
 pub(crate) mod series;
 pub(crate) mod sliding;
+mod stated;
 pub(crate) mod uncertainty;
 mod windows;
 

@@ -11,7 +11,7 @@
 use crate::conditioning::record::{Record, Samples};
 use crate::conditioning::{Conditioning, Cutoff, condition_as};
 use crate::error::Error;
-use crate::estimate::uncertainty::{Unknowns, sandwich};
+use crate::estimate::uncertainty::{Unknowns, followed, sandwich};
 use crate::law::Law;
 use crate::law::terms::{Delay, Lag, Terms};
 use crate::replica::HELD_DELAY;
@@ -143,22 +143,25 @@ pub(crate) fn spread(
     at: &Evaluation,
 ) -> Option<DMatrix<f64>> {
     let unit = objective.record().step() * objective.record().step();
-    let variance = lag.variance / (unit * unit);
+    beside_a_square(objective, lag.variance / (unit * unit), p, at)
+}
+
+/// Covariance of the unknowns, nonlinear then linear, beside the square of a time of which so much is open, samples^4; `None` where nothing
+/// is.
+pub(crate) fn beside_a_square(
+    objective: &Objective,
+    variance: f64,
+    p: &[f64],
+    at: &Evaluation,
+) -> Option<DMatrix<f64>> {
     if variance.is_nan() || variance <= 0.0 || !objective.is_delayed() {
         return None;
     }
     let bend = objective.bend(p, &at.solution.coefficients);
     let bread = beside(objective, at, &bend).bread;
-    let own = bread.nrows() - 1;
-    let k = at.slopes.len();
-    let mut followed = vec![0.0; k + at.columns.len()];
-    let active = (0..at.columns.len()).filter(|&j| at.solution.active[j]);
-    for (a, i) in (0..k).chain(active.map(|j| k + j)).enumerate() {
-        followed[i] = bread[(a, own)] / bread[(own, own)];
-    }
-    let finite = followed.iter().all(|x| x.is_finite());
+    let followed = followed(at, &bread)?;
     let covariance = |i: usize, j: usize| variance * followed[i] * followed[j];
-    finite.then(|| DMatrix::from_fn(followed.len(), followed.len(), covariance))
+    Some(DMatrix::from_fn(followed.len(), followed.len(), covariance))
 }
 
 /// Mean and variance of a normal number of this mean and variance that lies between 0 and `most` (Johnson, Kotz and

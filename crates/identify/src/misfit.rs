@@ -360,23 +360,20 @@ impl Divisions {
         Some(misfit)
     }
 
-    /// The misfit with dynamics between force and motion where they show, `replicas` being what fits of replicas show of them. They
-    /// are looked for where the misfit has no other cause than the shape of the law, of which they explain a good part, or none.
+    /// The misfit with dynamics between force and motion where they show surely. They are looked for where the misfit has no other cause
+    /// than the shape of the law, of which they explain a good part, or none.
     pub fn dynamic(
         &self,
         misfit: Option<Misfit>,
-        objective: &Objective,
-        at: (&Evaluation, &[f64]),
+        found: Option<Dynamics>,
         residual: &[f64],
-        replicas: &[f64],
     ) -> Option<Misfit> {
         let least = match misfit.as_ref().map(|misfit| (misfit.cause(), misfit.share)) {
             None | Some((None, _)) => 0.0,
             Some((Some(Cause::Shape), share)) => dynamics::PART_OF_MISFIT * share,
             Some((Some(_), _)) => return misfit,
         };
-        let found = dynamics::sought(objective, at, residual, replicas);
-        let Some(found) = found.filter(|found| found.share >= least) else {
+        let Some(found) = found.filter(|found| found.is_sure() && found.share >= least) else {
             return misfit;
         };
         let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Acceleration, residual));

@@ -18,12 +18,12 @@ use crate::estimate::fitted::FittedLaw;
 use crate::estimate::least::no_surer_than_any_log;
 use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::sliding::{self, flag_what_the_motion_hides};
-use crate::estimate::{Estimate, advice, levels, optimal, pressed};
+use crate::estimate::{Estimate, advice, levels, optimal, pressed, stated};
 use crate::held_delay;
 use crate::lag;
 use crate::law::physical::physical;
 use crate::law::transmitted::flag_parts_of_an_open_weight;
-use crate::misfit::{Cause, Divisions, Misfit};
+use crate::misfit::{Cause, Divisions, Misfit, dynamics};
 use crate::parameter::physical::{Physical, propagate};
 use crate::parameter::{IntervalKind, Parameter, quantile};
 use crate::separable::logs::Logs;
@@ -205,10 +205,14 @@ fn conditioned(
     let misfit = divisions.waved(misfit, objective, &estimate.terms, at, left);
     let misfit = divisions.coupled(misfit, objective, &estimate.terms, fit, left);
     let misfit = divisions.clocked(misfit, objective, at, left);
-    let misfit = divisions.dynamic(misfit, objective, fit, left, squares);
+    let dynamics = dynamics::sought(objective, fit, left, squares);
+    let misfit = divisions.dynamic(misfit, dynamics, left);
     let misfit = divisions.limited(misfit, (objective, &estimate.terms), at, left);
     let misfit = divisions.held(misfit, (objective, &estimate.terms), at, &optimum.p);
     let misfit = divisions.swung(misfit, objective, at, left);
+    // Where another cause is named, it is what the dynamics come of.
+    let is_named = misfit.as_ref().and_then(Misfit::cause).is_some();
+    let dynamics = dynamics.filter(|_| !is_named);
     let spread = misfit.as_ref().map(|misfit| {
         let unknowns = misfit.spread(&estimate.unknowns.bread, left.len());
         propagate(raw, &unknowns)
@@ -252,8 +256,20 @@ fn conditioned(
             between.add(p.name, p.variance(&unknowns));
         }
     }
+    let unit = objective.record().step().powi(4);
+    let open = dynamics.map_or(0.0, |found| found.open() / unit);
+    if let Some(unknowns) = lag::beside_a_square(objective, open, &optimum.p, at) {
+        for p in raw {
+            between.add(p.name, p.variance(&unknowns));
+        }
+    }
     let bread = &estimate.unknowns.bread;
     if let Some(unknowns) = held_delay::spread(objective, &estimate.terms, &optimum.p, at, bread) {
+        for p in raw {
+            between.add(p.name, p.variance(&unknowns));
+        }
+    }
+    if let Some(unknowns) = stated::spread(objective, &estimate.terms, fit) {
         for p in raw {
             between.add(p.name, p.variance(&unknowns));
         }

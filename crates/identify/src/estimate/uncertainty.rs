@@ -168,6 +168,19 @@ pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) 
     }
 }
 
+/// By how much the unknowns, nonlinear then linear, follow one of the last column of a Jacobian that was put beside theirs; zero for those
+/// that are held. `bread` is that of all columns.
+pub(crate) fn followed(at: &Evaluation, bread: &DMatrix<f64>) -> Option<Vec<f64>> {
+    let own = bread.nrows() - 1;
+    let k = at.slopes.len();
+    let mut followed = vec![0.0; k + at.columns.len()];
+    let active = (0..at.columns.len()).filter(|&j| at.solution.active[j]);
+    for (a, i) in (0..k).chain(active.map(|j| k + j)).enumerate() {
+        followed[i] = bread[(a, own)] / bread[(own, own)];
+    }
+    followed.iter().all(|x| x.is_finite()).then_some(followed)
+}
+
 /// Inverse of a scaled symmetric matrix. Directions that are lost to rounding keep a huge variance: they
 /// must come out as unknown, not as zero. Also returns the part of the inverse that belongs to them.
 pub(crate) fn inverse(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {

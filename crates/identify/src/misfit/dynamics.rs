@@ -12,6 +12,8 @@ use crate::separable::objective::{Evaluation, Objective};
 /// Deviations beyond what replicas have from which such a part is sure, and the part of the residual that it then explains.
 const SURE: f64 = 5.0;
 const LEAST_SHARE: f64 = 0.1;
+/// Deviations that chance makes.
+const CHANCE: f64 = 2.0;
 /// Part of a misfit of the shape of the law that it explains where it is the cause.
 pub(super) const PART_OF_MISFIT: f64 = 0.5;
 
@@ -43,8 +45,8 @@ fn column(objective: &Objective, at: &Evaluation, p: &[f64]) -> Option<Vec<f64>>
     fitted.then(|| objective.bend(p, &at.solution.coefficients))
 }
 
-/// Looks for such dynamics, `replicas` being the squares that fits of replicas show, samples; `None` where there are none, surely.
-pub(super) fn sought(
+/// Such dynamics, `replicas` being the squares that fits of replicas show, samples; `None` where a fit cannot show them.
+pub(crate) fn sought(
     objective: &Objective,
     (at, p): (&Evaluation, &[f64]),
     residual: &[f64],
@@ -67,10 +69,22 @@ pub(super) fn sought(
     let square = found.coefficient - mean;
     let share = found.share * (square / found.coefficient).powi(2);
     let step = objective.record().step();
-    let sure = square.abs() > SURE * variance.sqrt() && share >= LEAST_SHARE;
-    sure.then_some(Dynamics {
+    Some(Dynamics {
         square: square * step * step,
         deviation: variance.sqrt() * step * step,
         share: share.min(1.0),
     })
+}
+
+impl Dynamics {
+    /// Whether there surely are some.
+    pub(super) fn is_sure(&self) -> bool {
+        self.square.abs() > SURE * self.deviation && self.share >= LEAST_SHARE
+    }
+
+    /// What is open of their square where they are not sure, s^4: that beyond what chance makes.
+    pub(crate) fn open(&self) -> f64 {
+        let by_chance = CHANCE * self.deviation;
+        (self.square * self.square - by_chance * by_chance).max(0.0)
+    }
 }

@@ -1,0 +1,79 @@
+//! What a mass or a delay that is stated leaves open of the other parameters.
+//!
+//! One that is not that of the machine is made up for by the others: a tenth of a sample of delay moves micro-damping by some
+//! percent. What the log says against it is the coefficient of one more column, by how much the model changes with it. As far as
+//! that goes beyond chance, nobody knows whether it is the statement or the law, and the parameters may be where the fit would
+//! have them with it.
+
+use crate::estimate::uncertainty::{followed, sandwich};
+use crate::held_delay;
+use crate::law::terms::{Delay, DelayFrom, Mass, Terms};
+use crate::separable::linear::dot;
+use crate::separable::objective::{Evaluation, Objective};
+use nalgebra::DMatrix;
+
+/// Deviations that chance makes.
+const CHANCE: f64 = 2.0;
+
+/// Covariance of the unknowns, nonlinear then linear, that it leaves; `None` where neither is stated, or the log has nothing against it.
+pub(super) fn spread(
+    objective: &Objective,
+    terms: &Terms,
+    (at, p): (&Evaluation, &[f64]),
+) -> Option<DMatrix<f64>> {
+    let columns = [delay(objective, terms, (at, p)), mass(objective, terms, p)];
+    let moved: Vec<Vec<f64>> = columns
+        .into_iter()
+        .flatten()
+        .filter_map(|column| moved(objective, at, &column))
+        .collect();
+    let of = |i: usize, j: usize| moved.iter().map(|moved| moved[i] * moved[j]).sum::<f64>();
+    let n = moved.first()?.len();
+    Some(DMatrix::from_fn(n, n, of))
+}
+
+/// By how much a later force changes the model, for each sample.
+fn delay(objective: &Objective, terms: &Terms, (at, p): (&Evaluation, &[f64])) -> Option<Vec<f64>> {
+    let Delay::Given(delay) = terms.delay else {
+        return None;
+    };
+    let stated = terms.delay_from == DelayFrom::Stated && terms.delay_deviation == 0.0;
+    let step = objective.record().step();
+    stated.then(|| held_delay::column(objective, terms, (p, at), delay, step))
+}
+
+/// The force of the stated inertia.
+fn mass(objective: &Objective, terms: &Terms, p: &[f64]) -> Option<Vec<f64>> {
+    let Mass::Given(mass) = terms.mass else {
+        return None;
+    };
+    let without = Terms {
+        mass: Mass::Absent,
+        ..terms.clone()
+    };
+    let without = Objective::new(objective.record(), *objective.law(), &without);
+    let (all, rest) = (without.target_at(p), objective.target_at(p));
+    let column = all.iter().zip(rest.iter()).map(|(a, b)| a - b).collect();
+    (mass > 0.0).then_some(column)
+}
+
+/// By how much the unknowns, nonlinear then linear, would move with as much of the column as the residual has beyond chance.
+fn moved(objective: &Objective, at: &Evaluation, column: &[f64]) -> Option<Vec<f64>> {
+    let breaks = objective.record().breaks();
+    let mut jacobian = at.jacobian();
+    jacobian.push(column);
+    let own = jacobian.len() - 1;
+    let bread = sandwich(&jacobian, at.residual(), &breaks).bread;
+    let coefficient = bread[(own, own)] * dot(column, at.residual());
+    // What is left with it is the noise that its deviation comes of.
+    let mut rest = at.residual().to_vec();
+    for (i, along) in jacobian.iter().enumerate() {
+        let by = coefficient * bread[(i, own)] / bread[(own, own)];
+        rest.iter_mut().zip(*along).for_each(|(r, x)| *r -= by * x);
+    }
+    let variance = sandwich(&jacobian, &rest, &breaks).covariance[(own, own)];
+    let beyond = coefficient * coefficient - CHANCE * CHANCE * variance;
+    let open = (beyond > 0.0 && beyond.is_finite()).then(|| beyond.sqrt())?;
+    let followed = followed(at, &bread)?;
+    Some(followed.iter().map(|follows| open * follows).collect())
+}
