@@ -17,7 +17,7 @@ mod profile;
 pub(crate) mod searched;
 pub(crate) mod series;
 pub(crate) mod sliding;
-mod stated;
+pub(crate) mod stated;
 pub(crate) mod uncertainty;
 mod windows;
 

@@ -4,6 +4,7 @@ use crate::agreement::Told;
 use crate::conditioning::record::Record;
 use crate::conditioning::{Conditioning, condition_as};
 use crate::estimate::Estimate;
+use crate::estimate::stated::{self, Against};
 use crate::estimate::uncertainty::{Unknowns, by_noise, unknowns};
 use crate::misfit::{Divisions, Energies, dynamics};
 use crate::replica::{Axis, Replica};
@@ -78,6 +79,7 @@ pub(crate) fn refitted(
             let left = left.as_deref().unwrap_or(at.residual());
             Some(All {
                 energies: Divisions::of(&objective, &at, &last.p).energies(left),
+                against: stated::against(&objective, &replica.terms, (&at, &last.p)),
                 square: dynamics::square(&objective, (&at, &last.p), left),
                 told: logs.and_then(|logs| logs.told(&objective, &last.p, &at, &unknowns.bread)),
                 unknowns,
@@ -239,6 +241,8 @@ pub(crate) struct All {
     pub unknowns: Unknowns,
     /// What comes back of the residual.
     pub energies: Energies,
+    /// What its residual has against what is stated.
+    pub against: Against,
     /// The square of the time of dynamics between force and motion, samples; `None` where the delay is not fitted.
     pub square: Option<f64>,
     /// What its logs tell; `None` for a single one.

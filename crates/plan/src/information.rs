@@ -169,6 +169,18 @@ fn products(
     };
     let columns = jacobian(candidate, step, first)?;
     let unknowns = columns.len();
+    let of_source = |cutoff: f64| {
+        let each = runs.iter();
+        let each = each.map(|run| residual(candidate, rig, run, rate / cutoff));
+        each.collect::<Result<Vec<_>, _>>()
+    };
+    // Pairs that filter the position alike leave the same.
+    let mut residuals: Vec<(f64, Vec<Vec<f64>>)> = Vec::new();
+    for (_, source) in PAIRS {
+        if residuals.iter().all(|(own, _)| *own != source) {
+            residuals.push((source, of_source(source)?));
+        }
+    }
     let mut done = [false; PAIR_COUNT];
     for next in 0..PAIR_COUNT {
         if done[next] {
@@ -182,9 +194,8 @@ fn products(
         let mut filtered = columns.clone();
         for &pair in &pairs {
             done[pair] = true;
-            for run in runs {
-                filtered.push(residual(candidate, rig, run, rate / PAIRS[pair].1)?);
-            }
+            let own = residuals.iter().find(|(own, _)| *own == PAIRS[pair].1);
+            filtered.extend(own.iter().flat_map(|(_, of_runs)| of_runs.iter().cloned()));
         }
         let filter = Sos::butterworth_low_pass(ORDER, rate / common, rate)?;
         let mut views: Vec<&mut [f64]> = filtered.iter_mut().map(Vec::as_mut_slice).collect();

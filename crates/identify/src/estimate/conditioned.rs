@@ -10,6 +10,7 @@ use crate::agreement::Told;
 use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
+use crate::estimate::stated::Against;
 use crate::estimate::windows::Windows;
 use crate::law::physical::physical;
 use crate::misfit::Energies;
@@ -45,6 +46,8 @@ pub(super) struct Shift {
     pub energies: Vec<Energies>,
     /// The squares of the times of dynamics between force and motion that they show, samples.
     pub squares: Vec<f64>,
+    /// What their residuals have against what is stated.
+    pub against: Vec<Against>,
     /// What the logs of each replica tell, where there are several.
     pub told: Vec<Told>,
 }
@@ -102,7 +105,8 @@ pub(super) fn shift(
     let mut alike = Shifts::default();
     let mut second = Shifts::default();
     let (mut stated, mut by_noise) = (vec![0.0; raw.len()], vec![0.0; raw.len()]);
-    let (mut energies, mut squares, mut told) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut energies, mut told) = (Vec::new(), Vec::new());
+    let (mut squares, mut against) = (Vec::new(), Vec::new());
     for i in 0..REPLICA_COUNT {
         let (found, replica) = once(
             record,
@@ -124,6 +128,7 @@ pub(super) fn shift(
         asked(watch)?;
         energies.push(returns.unwrap_or(all.energies));
         squares.extend(all.square);
+        against.push(all.against);
         told.extend(all.told.clone());
         let of = (record, fitted);
         let quiet = replica.without_noise();
@@ -170,6 +175,7 @@ pub(super) fn shift(
         windows: windows.variance(raw.len()),
         energies,
         squares,
+        against,
         told,
     })
 }

@@ -218,6 +218,11 @@ fn conditioned(
         propagate(raw, &unknowns)
     });
     estimate.fitted.misfit = misfit;
+    // What rests make of the force looks like dynamics; there the counts are asked.
+    let dynamics = dynamics.filter(|_| !state_space::rests_much(objective.record()));
+    let unit = objective.record().step().powi(4);
+    let open = dynamics.map_or(0.0, |found| found.open() / unit);
+    let open = lag::beside_a_square(objective, open, &optimum.p, at);
     let pressed = pressed::spread(objective, at, raw, &estimate.unknowns.covariance);
     let stated = &estimate.fitted.covariance.matrix;
     let jumps = of_jumps(objective.record(), &estimate.fitted.law);
@@ -232,6 +237,7 @@ fn conditioned(
                 .map_or(stated[i][i], |s| s.total(i, stated[i][i]));
             total
                 + spread.as_ref().map_or(0.0, |s| s[(i, i)])
+                + open.as_ref().map_or(0.0, |s| raw[i].variance(s))
                 + pressed.as_ref().map_or(0.0, |s| s[i])
                 + jumps
         })
@@ -256,25 +262,20 @@ fn conditioned(
             between.add(p.name, p.variance(&unknowns));
         }
     }
-    let unit = objective.record().step().powi(4);
-    let open = dynamics.map_or(0.0, |found| found.open() / unit);
-    if let Some(unknowns) = lag::beside_a_square(objective, open, &optimum.p, at) {
-        for p in raw {
-            between.add(p.name, p.variance(&unknowns));
-        }
-    }
     let bread = &estimate.unknowns.bread;
     if let Some(unknowns) = held_delay::spread(objective, &estimate.terms, &optimum.p, at, bread) {
         for p in raw {
             between.add(p.name, p.variance(&unknowns));
         }
     }
-    if let Some(unknowns) = stated::spread(objective, &estimate.terms, fit) {
+    let against = shift.as_ref().map_or(&[][..], |shift| &shift.against);
+    if let Some(unknowns) = stated::spread(objective, &estimate.terms, fit, against) {
         for p in raw {
             between.add(p.name, p.variance(&unknowns));
         }
     }
-    let nothing = shift.is_none() && spread.is_none() && pressed.is_none() && jumps == 0.0;
+    let nothing =
+        shift.is_none() && spread.is_none() && open.is_none() && pressed.is_none() && jumps == 0.0;
     if nothing && between.is_nothing() {
         return between;
     }

@@ -128,6 +128,14 @@ fn normal(jacobian: &[&[f64]]) -> (Vec<f64>, DMatrix<f64>, DMatrix<f64>) {
     (scale, bread, lost)
 }
 
+/// The inverse of `J^T J` for Jacobian columns.
+pub(crate) fn bread(jacobian: &[&[f64]]) -> DMatrix<f64> {
+    let (scale, bread, _) = normal(jacobian);
+    DMatrix::from_fn(scale.len(), scale.len(), |i, j| {
+        bread[(i, j)] * scale[i] * scale[j]
+    })
+}
+
 /// `B S B` for Jacobian columns and residual; `breaks` are the indices at which a new segment starts.
 pub(crate) fn sandwich(jacobian: &[&[f64]], residual: &[f64], breaks: &[usize]) -> Unknowns {
     let q = jacobian.len();

@@ -14,8 +14,8 @@ use stiction_identify::{
 use stiction_number::{Percent, four_digits, full};
 use stiction_parameters::Quantity;
 
-/// Part of the stated mass from which on another one is named: less is within what nameplates and drawings say.
-const MASS_APART: f64 = 0.05;
+/// Part of the stated mass from which on another one is named: less leaves the constants of most logs within their intervals.
+const MASS_APART: f64 = 0.02;
 /// The same of a delay, samples: less moves micro-damping by less than its interval on most logs.
 const DELAY_APART: f64 = 0.1;
 /// Distance of a fitted Stribeck exponent from another one, of logarithms, that filters and encoder may have made: on simulated axes up to
