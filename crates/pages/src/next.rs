@@ -200,6 +200,14 @@ fn law(result: &ResultFile) -> String {
     }
 }
 
+/// The method, where it is not the usual one.
+fn method(result: &ResultFile) -> String {
+    match result.method.as_str() {
+        "separable" => String::new(),
+        other => format!(" --method {other}"),
+    }
+}
+
 /// The command that leads on from the result in a folder.
 pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
     // Without a slash or a dot at its end, to which a suffix would be added.
@@ -237,7 +245,15 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             another("simulated")
         ),
         Next::AxisFile => match &result.axis.file {
-            Some(_) => format!("stiction identify{log} --out {}", another("corrected")),
+            Some(_) => {
+                let again = text(dir).ends_with("-corrected");
+                let out = if again { folder } else { another("corrected") };
+                format!(
+                    "stiction identify{log}{}{} --out {out}",
+                    law(result),
+                    method(result)
+                )
+            }
             None => format!(
                 "stiction check{log} --init {}",
                 new_axis_file(Path::new(&result.inputs[0].path))
@@ -258,11 +274,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             )
         }
         Next::Again | Next::Finish => {
-            let law = law(result);
-            let method = match result.method.as_str() {
-                "separable" => String::new(),
-                other => format!(" --method {other}"),
-            };
+            let (law, method) = (law(result), method(result));
             format!("stiction identify{log}{law}{method} --out {folder}")
         }
     }

@@ -44,6 +44,8 @@ const WORK_OF_PACE: f64 = 4e6;
 const ALIKE: f64 = 0.8;
 /// The same of what is found elsewhere than where it is due.
 const ALIKE_ELSEWHERE: f64 = 0.95;
+/// Part of the size of a piece that an axis has to move at least where it is due, though in another shape, for it to have run.
+const LEAST_FOLLOWED: f64 = 0.1;
 /// Largest part of an amplitude that an axis, which may overshoot, makes of it.
 const MOST_FOLLOWED: f64 = 2.0;
 /// Time by which a piece may seem to overlap its neighbour, s.
@@ -56,8 +58,9 @@ const NEAR: f64 = 0.3;
 const LATER: f64 = 120.0;
 /// Part of the square of the motion, or of that of the log, that has to lie where both are.
 const WITHIN: f64 = 0.3;
-/// Part of a duration that has to be free for a piece that does not show itself.
-const ROOM: f64 = 0.9;
+/// Part of a duration that has to be free for a piece that does not show itself: its neighbours, where friction leads them, are found
+/// up to a tenth of a second beside where they are.
+const ROOM: f64 = 0.7;
 /// Least and largest pace that is tried, and the ratio between them.
 const PACES: [f64; 2] = [0.02, 3.0];
 const PACE_STEP: f64 = 1.02;
@@ -299,9 +302,18 @@ fn pieces(motion: &Motion, log: &Course, whole: [f64; 2], start: f64) -> Vec<Ran
     (0..spans.len())
         .map(|k| {
             let duration = spans[k][1] - spans[k][0];
+            let mut followed = shown[k].map_or(0.0, |place| place.followed);
             let begins = match shown[k] {
                 Some(place) => place.start,
-                None if sizes[k] >= least => return MISSING,
+                None if sizes[k] >= least => {
+                    match hardly_followed(&shown, &spans, log, sizes[k], k) {
+                        Some((begins, part)) => {
+                            followed = part;
+                            begins
+                        }
+                        None => return MISSING,
+                    }
+                }
                 // One that friction holds, or none: whether there is time for it between its neighbours tells.
                 None => match held(&shown, &spans, &|i| sizes[i] < least, k) {
                     Some(begins) => begins,
@@ -319,10 +331,27 @@ fn pieces(motion: &Motion, log: &Course, whole: [f64; 2], start: f64) -> Vec<Ran
             Ran {
                 how,
                 start: Some(begins),
-                followed: shown[k].map_or(0.0, |place| place.followed),
+                followed,
             }
         })
         .collect()
+}
+
+/// When a piece starts of which friction or a slow loop leaves another shape, and the part of its size that is there; `None` where its
+/// neighbours leave no time for it, or the axis hardly moves meanwhile.
+fn hardly_followed(
+    shown: &[Option<Place>],
+    spans: &[[f64; 2]],
+    log: &Course,
+    size: f64,
+    k: usize,
+) -> Option<(f64, f64)> {
+    let begins = held(shown, spans, &|_| true, k)?;
+    let ends = begins + spans[k][1] - spans[k][0];
+    let last = log.positions.len() as isize;
+    let [from, to] = [begins, ends].map(|t| log.sample(t).clamp(0, last) as usize);
+    let moved = Course::new(begins, log.step, log.positions[from..to].to_vec()).size() / size;
+    (moved >= LEAST_FOLLOWED).then(|| (begins, moved.min(1.0)))
 }
 
 /// When a piece starts that does not show itself; `None` where there is no time for it, and for those beside it that do not

@@ -47,22 +47,33 @@ pub(super) fn flag_a_force_that_takes_the_inertia(record: &Record, parameters: &
     }
 }
 
-/// Flags a constant force beside a wave over the position of which the stroke is a small part: the two share one force.
+/// Flags a constant force beside a wave over the position of which the stroke is a small part: the two share one force. A weight is
+/// such a wave, of one turn, and on less than a quarter of it whatever changes along the position looks like one.
 pub(super) fn flag_a_force_that_takes_a_long_wave(
     record: &Record,
     terms: &Terms,
     parameters: &mut [Parameter],
 ) {
-    let stroke = record.stroke();
-    if !terms.cogging.iter().any(|pitch| *pitch > STRAIGHT * stroke) {
+    let is_long = |pitch: f64| pitch > STRAIGHT * record.stroke();
+    let weight = terms.gravity && is_long(std::f64::consts::TAU);
+    if !weight && !terms.cogging.iter().any(|pitch| is_long(*pitch)) {
         return;
     }
-    let constant =
-        |p: &&mut Parameter| p.name == Quantity::Offset && p.identified && p.identifiable;
-    if let Some(own) = parameters.iter_mut().find(constant) {
+    for own in parameters
+        .iter_mut()
+        .filter(|p| p.identified && p.identifiable)
+    {
+        let reason = match own.name.quantity {
+            Quantity::Gravity(_) if weight => {
+                "on less than a quarter turn any force that changes along the position looks like a weight"
+            }
+            Quantity::Offset => {
+                "shares one force with a wave over the position that is longer than the stroke"
+            }
+            _ => continue,
+        };
         own.identifiable = false;
-        own.reason =
-            "shares one force with a wave over the position that is longer than the stroke".into();
+        own.reason = reason.into();
     }
 }
 

@@ -132,3 +132,22 @@ fn another_pace_and_another_motion_are_told_apart() {
     assert_eq!(recognise(&motion, &[], &[]), None);
     assert_eq!(recognise(&motion, &[0.0], &[0.0]), None);
 }
+
+/// A small sine of which friction and a slow loop leave a third, flattened and late, has run; where the axis rests instead it has not.
+#[test]
+fn what_the_axis_hardly_follows_has_run() {
+    let motion = Motion::new(atoms()).unwrap();
+    let parts: Vec<_> = atoms().into_iter().map(|atom| (0.0, atom)).collect();
+    let (time, mut positions) = log(&parts, 1.0, 1e-5);
+    let (from, atom) = motion.timed().nth(2).unwrap();
+    let stretch = (1e3 * from) as usize..(1e3 * (from + atom.duration())) as usize;
+    let mut resting = positions.clone();
+    for k in stretch {
+        let late = atom.at(k as f64 * 1e-3 - from - 0.04).position;
+        positions[k] = 0.3 + 2e-4 * (late.abs() / 5e-4).powi(2) * late.signum();
+        resting[k] = 0.3;
+    }
+    let how = |positions: Vec<f64>| hows(&motion, &(time.clone(), positions))[2];
+    assert_eq!(how(positions), How::Whole);
+    assert_eq!(how(resting), How::Missing);
+}
