@@ -49,9 +49,9 @@ pub struct Peaks {
     pub followed: f64,
 }
 
-/// Largest step of the plant, as the angle by which its bristles swing meanwhile, rad; and that of one that stands for a machine: with
-/// the usual one micro-damping that is identified of stiff bristles is up to 1.5 % off.
-const BRISTLE_STEP: f64 = 0.4;
+/// Largest step of the plant, as the angle by which its bristles swing meanwhile, rad; and that of one that stands for a machine. With
+/// 0.4 rad stiff bristles have a micro-damping that is up to 1.5 % off, and what a slow log makes of their stiffness is not seen.
+const BRISTLE_STEP: f64 = 0.15;
 const FINE_STEP: f64 = 0.02;
 /// Most steps of the plant in a control period.
 const MOST_STEPS: f64 = 64.0;
