@@ -46,6 +46,9 @@ const AT_AN_END: &str =
 const SHOWN_BY_THE_COUNTS: &str =
     "the counts of the encoder show a static friction above Coulomb friction";
 
+/// Why the stiffness is open beside a micro-damping that is held at none.
+const HELD_WITH_DAMPING: &str = "takes up what micro-damping gives, which the law holds at none: with that fitted too it is open";
+
 /// Why the bristles are open where the counts are asked of a law that holds static friction, and do not determine it.
 const HELD_FROM_THE_COUNTS: &str = "the counts of the encoder, which this is from, do not tell whether static friction is above Coulomb \
                                     friction, where the law holds it; the bristles would make up for it";
@@ -316,6 +319,21 @@ pub(super) fn auto(
     };
     for freer in &freer {
         estimate.doubt_beside(&before, freer);
+    }
+    // Stiffness takes up what micro-damping gives, and its interval counts none.
+    let law = before.law;
+    let is_damped = |rung: &&Rung| {
+        let own = rung.estimate.law;
+        own.has_micro_damping() && own.undamped() == law
+    };
+    let damped = rungs.iter().find(is_damped);
+    if let Some(rung) = damped.filter(|_| law.undamped && !stopped && !estimate.of_the_counts) {
+        let damped = stated(ladder, &rung.optimum, rung.estimate.clone(), observer);
+        let stiffness = damped.parameters.iter();
+        let mut stiffness = stiffness.filter(|p| p.name.quantity == Quantity::Sigma0);
+        if stiffness.any(|p| !p.identifiable) {
+            estimate.leave_open(&[Quantity::Sigma0], HELD_WITH_DAMPING);
+        }
     }
     if asked.is_some_and(|asked| !asked.shows) && estimate.of_the_counts {
         estimate.leave_open(&[Quantity::Sigma0, Quantity::Sigma1], HELD_FROM_THE_COUNTS);
