@@ -26,10 +26,7 @@ pub(crate) fn against(
 ) -> Against {
     columns(objective, terms, (at, p)).map(|column| {
         let column = column?;
-        let mut jacobian = at.jacobian();
-        jacobian.push(&column);
-        let (bread, own) = (bread(&jacobian), jacobian.len() - 1);
-        Some(bread[(own, own)] * dot(&column, at.residual()))
+        Some(beside(at, &column).2)
     })
 }
 
@@ -84,6 +81,15 @@ fn mass(objective: &Objective, terms: &Terms, p: &[f64]) -> Option<Vec<f64>> {
     (mass > 0.0).then_some(column)
 }
 
+/// The columns of a fit with one more, the last; the inverse of the products of all, and the coefficient of that one.
+fn beside<'a>(at: &'a Evaluation, column: &'a [f64]) -> (Vec<&'a [f64]>, DMatrix<f64>, f64) {
+    let mut jacobian = at.jacobian();
+    jacobian.push(column);
+    let (bread, own) = (bread(&jacobian), jacobian.len() - 1);
+    let coefficient = bread[(own, own)] * dot(column, at.residual());
+    (jacobian, bread, coefficient)
+}
+
 /// By how much the unknowns, nonlinear then linear, would move with as much of the column as the residual has beyond chance and
 /// what replicas have.
 fn moved(
@@ -92,10 +98,8 @@ fn moved(
     column: &[f64],
     replicas: &[f64],
 ) -> Option<Vec<f64>> {
-    let mut jacobian = at.jacobian();
-    jacobian.push(column);
-    let (bread, own) = (bread(&jacobian), jacobian.len() - 1);
-    let coefficient = bread[(own, own)] * dot(column, at.residual());
+    let (jacobian, bread, coefficient) = beside(at, column);
+    let own = jacobian.len() - 1;
     // What is left with it is the noise that its deviation comes of.
     let mut rest = at.residual().to_vec();
     for (i, along) in jacobian.iter().enumerate() {
