@@ -11,7 +11,8 @@ use crate::table::Entry;
 pub struct Expected {
     /// For each axis the deviation of each parameter, in its [units](crate::Candidate::units).
     pub axes: Vec<Deviations>,
-    /// What [`select`](crate::select()) minimises; less is better.
+    /// Over the axes, three quarters of the mean of the logarithm of the deviation of the worst parameter, and a quarter of the mean over
+    /// the worst fifth; less is better.
     pub score: f64,
     /// The largest of what happened on any axis.
     pub peaks: Peaks,
@@ -27,13 +28,13 @@ impl Expected {
             .iter()
             .map(|e| deviations(&e.information, aim))
             .collect();
-        let mut logarithms: Vec<f64> = axes
+        let logarithms: Vec<f64> = axes
             .iter()
             .map(|d| libm::log(worst(d).max(1e-12)))
             .collect();
         let runs: Vec<Peaks> = entries.iter().map(|e| e.peaks).collect();
         Expected {
-            score: score(&mut logarithms),
+            score: score(&logarithms, &vec![0.0; axes.len()]),
             peaks: runs.iter().copied().reduce(Peaks::with).unwrap_or_default(),
             runs,
             axes,

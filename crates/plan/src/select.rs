@@ -9,8 +9,9 @@ use crate::table::Table;
 const MOST_OF_ONE: usize = 3;
 /// Rounds of leaving out pieces and filling up again.
 const ROUNDS: usize = 80;
-/// Part of the axes that counts for the worst of them.
+/// Part of the axes that counts for the worst of them, and what those count for.
 const WORST_PART: f64 = 0.2;
+const WORST_COUNTS: f64 = 0.25;
 
 /// Evaluates a score for each of `count` numbers, on as many threads as there are; the scores come in their order.
 pub trait Spread {
@@ -33,8 +34,7 @@ impl Spread for Alone {
 pub struct Choice {
     /// Pieces, in the order they were taken.
     pub pieces: Vec<usize>,
-    /// Its score: the mean of half the mean and half the mean of the worst fifth, over the axes, of the logarithm of the
-    /// deviation of the worst parameter.
+    /// Its score, as that of [`Expected`](crate::Expected); it is chosen by the same above what a motion for each axis alone would leave.
     pub score: f64,
     /// Motions that were judged.
     pub evaluations: u64,
@@ -42,32 +42,56 @@ pub struct Choice {
     pub interrupted: bool,
 }
 
-/// Mean of half the mean and half the mean of the worst fifth.
-pub(crate) fn score(logarithms: &mut [f64]) -> f64 {
+/// Three quarters of the mean of logarithms, and a quarter of that of the largest fifth of what they are above their floors.
+pub(crate) fn score(logarithms: &[f64], floors: &[f64]) -> f64 {
     let n = logarithms.len();
     if n == 0 {
         return 0.0;
     }
-    logarithms.sort_by(f64::total_cmp);
+    let above = logarithms.iter().zip(floors).map(|(x, floor)| x - floor);
+    let mut above: Vec<f64> = above.collect();
+    above.sort_by(f64::total_cmp);
     let few = (libm::ceil(WORST_PART * n as f64) as usize).max(1);
     let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;
-    0.5 * mean(logarithms) + 0.5 * mean(&logarithms[n - few..])
+    (1.0 - WORST_COUNTS) * mean(logarithms) + WORST_COUNTS * mean(&above[n - few..])
 }
 
 /// The sums of a choice on every axis.
 struct Sum<'a> {
     table: &'a Table,
     aim: &'a Aim,
+    /// The axes that count.
+    axes: Vec<usize>,
+    /// Of each the score of a motion that is made for it alone: on some axes no motion tells much, and others could do better.
+    floors: Vec<f64>,
     /// What was recorded before, and what is chosen.
     information: Vec<Information>,
     time: f64,
     pieces: Vec<usize>,
 }
 
-impl Sum<'_> {
+impl<'a> Sum<'a> {
+    /// Nothing chosen yet for these axes.
+    fn none(table: &'a Table, aim: &'a Aim, axes: Vec<usize>, floors: Vec<f64>) -> Self {
+        let first = table.entries.first();
+        let nothing = |axis: &usize| {
+            let own = &first?.get(*axis)?.information;
+            Some(Information::none(own.parameters, own.unknowns))
+        };
+        Sum {
+            table,
+            aim,
+            information: axes.iter().filter_map(nothing).collect(),
+            axes,
+            floors,
+            time: 0.0,
+            pieces: Vec::new(),
+        }
+    }
+
     fn add(&mut self, piece: usize, sign: f64) {
-        for (sum, entry) in self.information.iter_mut().zip(&self.table.entries[piece]) {
-            sum.add(&entry.information, sign);
+        for (sum, &axis) in self.information.iter_mut().zip(&self.axes) {
+            sum.add(&self.table.entries[piece][axis].information, sign);
         }
         self.time += sign * self.table.atoms[piece].duration();
     }
@@ -77,14 +101,18 @@ impl Sum<'_> {
             return 0.0;
         };
         let (mut sums, mut scratch) = (first.clone(), Scratch::new(first));
-        let each = self.information.iter().enumerate().map(|(axis, before)| {
-            sums.copy_from(before);
-            if let Some(piece) = piece {
-                sums.add(&self.table.entries[piece][axis].information, 1.0);
-            }
-            libm::log(least_worst(&sums, self.aim, &mut scratch).max(1e-12))
-        });
-        score(&mut each.collect::<Vec<f64>>())
+        let each = self
+            .information
+            .iter()
+            .zip(&self.axes)
+            .map(|(before, &axis)| {
+                sums.copy_from(before);
+                if let Some(piece) = piece {
+                    sums.add(&self.table.entries[piece][axis].information, 1.0);
+                }
+                libm::log(least_worst(&sums, self.aim, &mut scratch).max(1e-12))
+            });
+        score(&each.collect::<Vec<f64>>(), &self.floors)
     }
 
     /// Adds the piece with the largest gain per second that still fits, until none does or none helps.
@@ -127,16 +155,13 @@ pub fn select(
     spread: &dyn Spread,
     go_on: &mut dyn FnMut(f64) -> bool,
 ) -> Choice {
-    let first = table.entries.first().into_iter().flatten();
-    let nothing =
-        first.map(|e| Information::none(e.information.parameters, e.information.unknowns));
-    let mut sum = Sum {
-        table,
-        aim,
-        information: nothing.collect(),
-        time: 0.0,
-        pieces: Vec::new(),
+    let axes: Vec<usize> = (0..table.entries.first().map_or(0, Vec::len)).collect();
+    let for_one = |axis: usize| {
+        let mut own = Sum::none(table, aim, vec![axis], vec![0.0]);
+        own.fill(time, &Alone, None, &mut 0)
     };
+    let floors = spread.map(axes.len(), &for_one);
+    let mut sum = Sum::none(table, aim, axes, floors);
     let mut evaluations = 0;
     let mut best = sum.fill(time, spread, None, &mut evaluations);
     let mut interrupted = false;
@@ -173,9 +198,10 @@ pub fn select(
         }
         round += 1;
     }
+    sum.floors.fill(0.0);
     Choice {
+        score: sum.score_with(None),
         pieces: sum.pieces,
-        score: best,
         evaluations,
         interrupted,
     }
