@@ -13,6 +13,7 @@ mod st;
 use crate::atom::Instant;
 use crate::motion::Motion;
 use std::fmt;
+use stiction_number::short;
 
 /// A form in which a controller takes a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,6 +175,20 @@ impl Job<'_> {
             let t = k as f64 / self.rate;
             (t, self.at(t))
         })
+    }
+
+    /// Where positions count from, for a form that holds them as they are commanded.
+    fn counts_from(&self) -> String {
+        let (start, length) = (short(self.start), self.length());
+        format!("positions count from {start} {length}, where the axis has to stand")
+    }
+
+    /// The same for a form that is commonly run from wherever the axis stands, by adding `what`: not where it has been added here.
+    fn adding(&self, what: &str) -> String {
+        match self.start == 0.0 {
+            true => format!("positions count from where the axis stands: add {what}"),
+            false => format!("{}: add nothing to them", self.counts_from()),
+        }
     }
 
     /// The reference where the axis stands.

@@ -20,9 +20,10 @@ pub(super) fn carry(job: &Job) -> Carried {
         text,
         note: format!(
             "cam points every {} ms of a master that moves 1 unit a second; a straight line between them is off by at most {} \
-             {length}, a spline by less; keep the jerk limit of the cam coupling out of it",
+             {length}, a spline by less; keep the jerk limit of the cam coupling out of it; {}",
             short(1e3 / job.rate),
             short(off),
+            job.counts_from()
         ),
     }
 }

@@ -34,11 +34,11 @@ pub(super) fn carry(job: &Job) -> Result<Carried, CarrierError> {
         carrier: Carrier::Csp,
         text,
         note: format!(
-            "a row for each cycle of {} ms in whole counts of {} {}, rounded by up to half a count; add the actual position \
-             (0x6064) of the drive at its start to 0x607A",
+            "a row for each cycle of {} ms in whole counts of {} {}, rounded by up to half a count; {}",
             short(1e3 / job.rate),
             short(job.resolution),
-            job.length()
+            job.length(),
+            job.adding("the actual position (0x6064) of the drive at its start to 0x607A")
         ),
     })
 }

@@ -29,8 +29,9 @@ pub(super) fn carry(job: &Job) -> Carried {
         text,
         note: format!(
             "inputs of MC_ExtSetPointGenFeed, a row for each cycle of {} ms, between MC_ExtSetPointGenEnable and \
-             MC_ExtSetPointGenDisable; add the position of the axis at its start",
+             MC_ExtSetPointGenDisable; {}",
             short(1e3 / job.rate),
+            job.adding("the position of the axis at its start")
         ),
     }
 }

@@ -21,7 +21,8 @@ pub(super) fn carry(job: &Job) -> Carried {
         text,
         note: format!(
             "position and velocity in {unit} and {unit}/s for streamer cfg=ff in a thread of {period} ns; pins keep the last \
-             line, which is at rest"
+             line, which is at rest; {}",
+            job.counts_from()
         ),
     }
 }

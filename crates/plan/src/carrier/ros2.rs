@@ -39,14 +39,12 @@ pub(super) fn carry(job: &Job) -> Carried {
         carrier: Carrier::Ros2,
         text,
         note: format!(
-            "points every {} ms in {}; the quintics between them are off by at most {} {}; positions count from {} {}, where the \
-             axis has to stand",
+            "points every {} ms in {}; the quintics between them are off by at most {} {}; {}",
             short(ms),
             job.length(),
             short(off),
             job.length(),
-            short(job.start),
-            job.length()
+            job.counts_from()
         ),
     }
 }
