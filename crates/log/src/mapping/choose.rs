@@ -133,9 +133,23 @@ pub(super) fn columns(
     if let Some(hertz) = given.rate_hz {
         let stamps = scan.pick(Role::Time).ok().flatten();
         let stamps = stamps.map(|column| (column, scan.units[column].as_ref()));
-        match rate::compare(table, stamps, (hertz, given.crop)) {
-            Ok(finding) => out.findings.extend(finding),
-            Err(e) => refused.push(e),
+        let in_a_unit = stamps.and_then(|(column, unit)| Some((column, unit?)));
+        let missing = in_a_unit.and_then(|stamps| {
+            Some((
+                stamps.0,
+                rate::missing_rows(table, stamps, (hertz, given.crop))?,
+            ))
+        });
+        match missing {
+            Some((column, finding)) => {
+                out.findings.push(finding);
+                out.mapping.rate_hz = None;
+                out.mapping.time = Some(scan.take(column));
+            }
+            None => match rate::compare(table, stamps, (hertz, given.crop)) {
+                Ok(finding) => out.findings.extend(finding),
+                Err(e) => refused.push(e),
+            },
         }
     }
     if given.time.is_none() && given.rate_hz.is_none() {

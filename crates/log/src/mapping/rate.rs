@@ -43,6 +43,49 @@ pub(super) fn compare(
     }
 }
 
+/// Rows on either side of a step from which the place of the stamps beside it is taken: single ones jitter.
+const BESIDE: usize = 5;
+/// Rows by which stamps go on later than they were before from which on a row is missing there.
+const A_ROW: f64 = 0.6;
+
+/// What there is to say where rows are missing between the stamps of a column in a written unit, as they show beside a rate (Hz) that
+/// agrees with them otherwise: a rate does not count these, and the stamps are read. `None` where none is missing, and of a clock that is
+/// too coarse to be read.
+pub(super) fn missing_rows(
+    table: &Table,
+    (column, unit): (usize, &Unit),
+    (rate, crop): (f64, Option<(f64, f64)>),
+) -> Option<Finding> {
+    let steps = Steps::of(table, column).filter(|steps| steps.agree(rate, unit))?;
+    if Rounded::of(table, column, unit, (rate, crop)).is_some() {
+        return None;
+    }
+    let stamps = &table.columns[column].values;
+    let off = |row: usize| stamps[row] / steps.usual - row as f64;
+    // A stretch on which single stamps jitter stands where its middle one does.
+    let place = |rows: Range<usize>| {
+        let mut all: Vec<f64> = rows.map(off).filter(|off| off.is_finite()).collect();
+        median(&mut all)
+    };
+    let jump = |row: &usize| {
+        let before = place(row.saturating_sub(BESIDE)..*row);
+        let after = place(*row..(row + BESIDE).min(stamps.len()));
+        before
+            .zip(after)
+            .is_some_and(|(before, after)| after - before > A_ROW)
+    };
+    let is_long = |row: &usize| off(*row) - off(*row - 1) > A_ROW;
+    let first = (1..stamps.len()).filter(is_long).find(jump)?;
+    let message = format!(
+        "rows are missing between the stamps of {}, first at {} s, which rate = \"{} Hz\" of axis.toml does not count: the stamps are read, \
+         and not the rate",
+        describe::column(table, column),
+        short(unit.factor() * (stamps[first] - stamps[0])),
+        short(rate),
+    );
+    Some(Finding::new(Code::RateOverride, Severity::Warning, message))
+}
+
 /// The line of the axis file that makes a column the time, where its numbers run on as time stamps do in some unit.
 pub(super) fn time_line(table: &Table, column: usize) -> Option<String> {
     let values = &table.columns[column].values;

@@ -739,6 +739,32 @@ fn a_rate_beside_rounded_stamps_with_a_gap_counts_a_stretch() {
     assert!(read(1000.0, None).is_err());
 }
 
+/// Between stamps in a written unit that a rate agrees with otherwise, rows that are missing are counted by the stamps; jitter of single
+/// stamps is none.
+#[test]
+fn rows_that_are_missing_beside_a_rate_are_counted_by_their_stamps() {
+    let read = |lost: &dyn Fn(usize) -> bool, jitter: f64| {
+        let mut table = axis(8000).table();
+        let time = (0..8000).map(|i| i as f64 + jitter * ((i * i % 7) as f64 / 7.0 - 0.5));
+        table.columns[0] = column("time [ms]", time.collect());
+        for column in &mut table.columns {
+            let rows = column.values.iter().enumerate();
+            column.values = rows.filter(|(i, _)| !lost(*i)).map(|(_, x)| *x).collect();
+        }
+        let mapping = Mapping {
+            rate_hz: Some(1000.0),
+            ..Mapping::default()
+        };
+        Log::from_table(&table, &mapping).unwrap()
+    };
+    let gaps = read(&|i| i % 1000 == 500 || (3000..3020).contains(&i), 0.0);
+    insta::assert_snapshot!(message(&gaps, "rate-override"));
+    assert!(gaps.time.last().unwrap() > &7.99);
+    let whole = read(&|_| false, 0.8);
+    assert!(!codes(&whole).contains(&"rate-override"));
+    assert!((whole.time[4000] - 4.0).abs() < 1e-12);
+}
+
 /// Every column of a file, what it became and why.
 #[test]
 fn every_column_is_accounted_for() {
