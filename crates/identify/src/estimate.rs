@@ -19,6 +19,7 @@ pub(crate) mod series;
 pub(crate) mod sliding;
 pub(crate) mod stated;
 pub(crate) mod uncertainty;
+mod unseen;
 mod windows;
 
 use crate::conditioning::record::Record;
@@ -121,6 +122,10 @@ impl Estimate {
             true => "static friction may be above all forces of the log".into(),
             false => format!("{} is fitted too", freed.join(" and ")),
         };
+        let line = match other.exponent_fitted && !own.exponent_fitted {
+            true => " (stribeck_exponent = \"fit\" under [terms] of the axis file)",
+            false => "",
+        };
         let mut unknown = Vec::new();
         for parameter in &mut self.fitted.parameters {
             let Some((low, high)) = parameter.ci95.filter(|_| parameter.identifiable) else {
@@ -134,7 +139,7 @@ impl Estimate {
             if (other - mine).abs() > 0.5 * (high - low) {
                 parameter.identifiable = false;
                 parameter.reason = format!(
-                    "depends on what the law holds fixed: {} where {freed}",
+                    "depends on what the law holds fixed: {} where {freed}{line}",
                     stiction_number::four_digits(parameter.value + other - mine)
                 );
                 if parameter.name.quantity == Quantity::StribeckVelocity {

@@ -62,7 +62,8 @@ impl Doubted {
 
 /// Flags what rests spoil in a fit of the force whose counts cannot be asked: why, in words that go on from "their counts".
 pub(crate) fn flag_what_rests_spoil(estimate: &mut Estimate, why: &str) {
-    if estimate.law.kind == LawKind::LuGre {
+    let kind = estimate.law.kind;
+    if kind == LawKind::LuGre || kind.has_elements() {
         state::doubt_all(&mut estimate.fitted.parameters, why);
     }
 }

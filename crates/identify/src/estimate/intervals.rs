@@ -18,6 +18,7 @@ use crate::estimate::fitted::FittedLaw;
 use crate::estimate::least::no_surer_than_any_log;
 use crate::estimate::profile::{End, Held, Profile};
 use crate::estimate::sliding::{self, flag_what_the_motion_hides};
+use crate::estimate::unseen::flag_what_an_unseen_element_takes;
 use crate::estimate::{Estimate, advice, levels, optimal, pressed, stated};
 use crate::held_delay;
 use crate::lag;
@@ -68,6 +69,9 @@ pub fn intervals(
         Some(_) if !estimate.disagreements.is_empty() => {
             state_space::flag_what_rests_spoil(estimate, "are not those of one axis")
         }
+        Some(_) if estimate.law.kind.has_elements() => {
+            state_space::flag_what_rests_spoil(estimate, "are simulated for LuGre alone")
+        }
         Some(before) if matches!(cause, None | Some(Cause::Shape)) => {
             of_the_counts(record, before, &between, estimate, observer);
         }
@@ -80,6 +84,7 @@ pub fn intervals(
     }
     flag_what_the_residual_doubts(fitted);
     flag_what_the_motion_hides(record, &mut fitted.parameters);
+    flag_what_an_unseen_element_takes(record.resolution, &mut fitted.parameters);
     sliding::flag_yields_of_open_elements(&mut fitted.parameters);
     flag_parts_of_an_open_weight(&fitted.terms, &mut fitted.parameters);
     rises_unseen(&fitted.law, &mut fitted.parameters);
@@ -211,8 +216,8 @@ fn conditioned(
     let misfit = divisions.held(misfit, (objective, &estimate.terms), at, &optimum.p);
     let misfit = divisions.swung(misfit, objective, at, left);
     // Where another cause is named, it is what the dynamics come of.
-    let is_named = misfit.as_ref().and_then(Misfit::cause).is_some();
-    let dynamics = dynamics.filter(|_| !is_named);
+    let cause = misfit.as_ref().and_then(Misfit::cause);
+    let dynamics = dynamics.filter(|_| matches!(cause, None | Some(Cause::Dynamics)));
     let spread = misfit.as_ref().map(|misfit| {
         let unknowns = misfit.spread(&estimate.unknowns.bread, left.len());
         propagate(raw, &unknowns)

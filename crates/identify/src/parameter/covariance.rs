@@ -22,7 +22,8 @@ impl Covariance {
         }
     }
 
-    /// The same without parameters of which anything is not a finite number.
+    /// The same without parameters of which anything is not a finite number, and with both triangles alike: sums over parts whose
+    /// variances lie far apart are rounded in each on its own.
     #[must_use]
     pub fn finite(&self) -> Self {
         let mut kept: Vec<usize> = (0..self.names.len())
@@ -30,11 +31,12 @@ impl Covariance {
             .collect();
         let all = kept.clone();
         kept.retain(|&i| all.iter().all(|&j| self.matrix[i][j].is_finite()));
+        let both = |i: usize, j: usize| 0.5 * self.matrix[i][j] + 0.5 * self.matrix[j][i];
         Self {
             names: kept.iter().map(|&i| self.names[i]).collect(),
             matrix: kept
                 .iter()
-                .map(|&i| kept.iter().map(|&j| self.matrix[i][j]).collect())
+                .map(|&i| kept.iter().map(|&j| both(i, j)).collect())
                 .collect(),
         }
     }

@@ -117,9 +117,16 @@ pub(super) fn doubt(estimate: &mut Estimate, found: &Likely) {
     }
 }
 
+/// The same beside elements: what makes them late is as little told from what filters make of rests as micro-damping is.
+const SPOILED_BESIDE_ELEMENTS: [Quantity; 2] = [Quantity::Attraction, Quantity::Delay];
+
 /// Flags the parameters that rests spoil whatever their interval.
 pub(super) fn doubt_all(parameters: &mut [Parameter], why: &str) {
-    flag(parameters, |q| SPOILED.contains(&q), why);
+    let of_elements = |p: &Parameter| p.name.quantity.is_of_an_element();
+    let has_elements = parameters.iter().any(of_elements);
+    let spoiled =
+        |q: Quantity| SPOILED.contains(&q) || has_elements && SPOILED_BESIDE_ELEMENTS.contains(&q);
+    flag(parameters, spoiled, why);
 }
 
 fn flag(parameters: &mut [Parameter], spoiled: impl Fn(Quantity) -> bool, why: &str) {
