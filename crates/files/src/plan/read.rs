@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::hash::sha256_of;
 use std::path::{Path, PathBuf};
 use stiction_friction::ParamError;
+use stiction_number::{four_digits as short, full};
 use stiction_plan::{Atom, Motion};
 
 /// Longest motion of a plan, s: one that is planned has ten minutes at most.
@@ -80,14 +81,20 @@ impl ReadPlan {
                     Some(of) => Some((of.to_string(), number(&table, "at")?)),
                     None => None,
                 },
-                interval_percent: number(&table, "interval_percent")?,
-                interval90_percent: number(&table, "interval90_percent")?,
+                interval_percent: percent(&table, "interval_percent")?,
+                interval90_percent: percent(&table, "interval90_percent")?,
             });
         }
-        let mut atoms = Vec::new();
+        let limits = root.table("limits")?.as_ref().map(Most::of).transpose()?;
+        let (mut atoms, mut start) = (Vec::new(), 0.0);
         for table in root.tables("atom", MOST_PIECES)? {
             let atom = atom(&table)?;
             atom.validate().map_err(|e| table.together(&e))?;
+            if let Some(limits) = &limits {
+                limits.hold(&table, &atom)?;
+            }
+            in_order(&table, &atom, start)?;
+            start += atom.duration();
             atoms.push(atom);
         }
         let motion = Motion::new(atoms).and_then(|motion| match motion.duration() {
@@ -96,16 +103,106 @@ impl ReadPlan {
                 Err(ParamError::new("atom", seconds, allowed))
             }
             seconds if seconds > 0.0 => Ok(motion),
-            seconds => Err(ParamError::new("atom", seconds, "at least one piece")),
+            _ => Err(ParamError::new("atom", 0.0, "at least one piece")),
         });
         Ok(Self {
             file: file.to_path_buf(),
             sha256: sha256_of(text.as_bytes()),
             kind: kind.into(),
-            motion: motion.map_err(|e| root.together(&e))?,
+            motion: motion.map_err(|e| root.refuse("atom", full(e.value), e.allowed))?,
             expected,
         })
     }
+}
+
+/// Part of a limit, and of a time, that rounding of a file makes of it.
+const ROUNDED: f64 = 1e-6;
+
+/// What the pieces of a plan may reach.
+struct Most {
+    stroke: [f64; 2],
+    speed: f64,
+    acceleration: f64,
+    jerk: f64,
+}
+
+impl Most {
+    fn of(table: &Table) -> Result<Self, Error> {
+        let list = table.get("stroke").and_then(|stroke| stroke.as_list());
+        let ends = list.map(|ends| {
+            ends.iter()
+                .map(|end| end.number(-LARGEST, LARGEST))
+                .collect()
+        });
+        let ends: Option<Vec<f64>> = ends.transpose()?;
+        let [low, high] = ends
+            .and_then(|ends| <[f64; 2]>::try_from(ends).ok())
+            .filter(|[low, high]| low <= high)
+            .ok_or_else(|| table.refused("stroke", "two numbers, the larger one last"))?;
+        Ok(Most {
+            stroke: [low, high],
+            speed: number(table, "speed")?,
+            acceleration: number(table, "acceleration")?,
+            jerk: number(table, "jerk")?,
+        })
+    }
+
+    /// Refuses a piece that goes beyond: an axis that follows a file like this one would.
+    fn hold(&self, table: &Table, atom: &Atom) -> Result<(), Error> {
+        let (size, found) = match atom {
+            Atom::Sine { .. } => ("amplitude", atom.extremes()),
+            Atom::Move { .. } => ("distance", atom.extremes()),
+        };
+        let [low, high] = self.stroke;
+        let beyond = [
+            ("stroke", -found.position[0], -low),
+            ("stroke", found.position[1], high),
+            ("speed", found.speed, self.speed),
+            ("acceleration", found.acceleration, self.acceleration),
+            ("jerk", found.jerk, self.jerk),
+        ];
+        // Beside the part by which extremes are bounded from above.
+        let wide = 1.0 + 2e-3;
+        let Some((limit, reached, most)) = (beyond.into_iter())
+            .find(|(_, reached, most)| *reached > wide * most + ROUNDED * reached.abs())
+        else {
+            return Ok(());
+        };
+        let key = match table.find(limit) {
+            Some(_) => limit,
+            None => size,
+        };
+        let found = format!("a piece that reaches {} of {limit}", short(reached));
+        Err(table.refuse(
+            key,
+            found,
+            &format!("at most {}, as [limits] of this file says", short(most)),
+        ))
+    }
+}
+
+/// Refuses a piece that does not start where the one before ends, or that lasts another time than it says.
+fn in_order(table: &Table, atom: &Atom, start: f64) -> Result<(), Error> {
+    for (key, due) in [("start", start), ("duration", atom.duration())] {
+        let found = table.number(key, -LARGEST, LARGEST)?;
+        if let Some(found) = found.filter(|found| (found - due).abs() > ROUNDED * (1.0 + due)) {
+            let allowed = format!(
+                "{} s: the pieces follow each other from rest to rest",
+                short(due)
+            );
+            return Err(table.refuse(key, full(found), &allowed));
+        }
+    }
+    Ok(())
+}
+
+/// Half of an interval.
+fn percent(table: &Table, key: &'static str) -> Result<f64, Error> {
+    table.required(
+        key,
+        table.number(key, 0.0, LARGEST)?,
+        "a number of 0 or more",
+    )
 }
 
 fn number(table: &Table, key: &'static str) -> Result<f64, Error> {
@@ -137,6 +234,44 @@ fn atom(table: &Table) -> Result<Atom, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pieces_beyond_the_limits_or_out_of_order_are_refused_where_they_stand() {
+        let plan = |amplitude: &str, starts: [&str; 2], interval: &str| {
+            let sine = |start: &str| {
+                format!(
+                    "[[atom]]\nstart = {start}\nkind = \"sine\"\namplitude = {amplitude}\nfrequency = 1.0\nduration = 2.0\n\
+                     fade_in = 0.5\nfade_out = 0.5\n"
+                )
+            };
+            let text = format!(
+                "schema = \"{}\"\nkind = \"linear\"\n[limits]\nstroke = [-0.1, 0.1]\nspeed = 0.2\nacceleration = 6.0\njerk = 1500.0\n\
+                 [[parameter]]\nname = \"sigma0\"\ninterval_percent = {interval}\ninterval90_percent = 2.0\n{}{}",
+                super::super::SCHEMA,
+                sine(starts[0]),
+                sine(starts[1]),
+            );
+            ReadPlan::parse(&text, Path::new("plan.toml")).map_err(|e| e.to_string())
+        };
+        assert!(plan("0.01", ["0.0", "2.0"], "1.0").is_ok());
+        let refused = |found: Result<ReadPlan, String>, words: [&str; 2]| {
+            let message = found.unwrap_err();
+            assert!(words.iter().all(|w| message.contains(w)), "{message}");
+        };
+        refused(
+            plan("0.05", ["0.0", "2.0"], "1.0"),
+            ["amplitude", "of speed; at most 0.2"],
+        );
+        refused(
+            plan("0.01", ["0.0", "1.5"], "1.0"),
+            ["atom[2].start", "2.000 s"],
+        );
+        refused(plan("0.01", ["nan", "2.0"], "1.0"), ["start", "nan"]);
+        refused(
+            plan("0.01", ["0.0", "2.0"], "-1.0"),
+            ["interval_percent", "-1"],
+        );
+    }
 
     #[test]
     fn a_motion_that_nobody_waits_for_is_refused() {
