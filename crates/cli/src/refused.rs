@@ -171,7 +171,7 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
     );
     if let Error::File(FileError::Log(e)) = error
         && e.file.as_ref().is_some_and(|file| logs.contains(file))
-        && (e.place.row.is_some() || is_read(error) || e.settled_by_line().is_some())
+        && (is_in_a_row(error) || is_read(error) || e.settled_by_line().is_some())
     {
         return Some(unread(e, logs, axis.as_deref()));
     }
@@ -210,6 +210,13 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
     }
     let log = faulty(logs, error).filter(|_| (unclear || is_scaled) && axis.is_none())?;
     Some(crate::next::begun(log))
+}
+
+/// Whether something is wrong with a row; memory that ends at one is wrong with none.
+fn is_in_a_row(error: &Error) -> bool {
+    let of_row = |e: &stiction::commands::LogError| e.place.row.is_some();
+    let is_placed = matches!(error, Error::File(FileError::Log(e)) if of_row(e));
+    is_placed && error.code() != Code::LogLimit
 }
 
 /// Whether a log was refused while it was read, for what is written in it.

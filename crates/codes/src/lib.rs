@@ -154,7 +154,7 @@ codes! {
     Usage = "usage": "the command as typed cannot be carried out",
     Internal = "internal": "stiction failed by a fault of its own",
     Output = "output": "the output folder or file cannot be used",
-    ModelInDoubt = "model-in-doubt": "the model of a study is not trustworthy",
+    ModelInDoubt = "model-in-doubt": "the model of a study, or what a plan is made from, is not trustworthy",
     NotInStudy = "not-in-study": "the model has terms that a study does not simulate",
     BackEmf = "back-emf": "the voltage that a motor makes brakes the axis more than its friction grows with speed",
     LateEvent = "late-event": "an event of a study comes after the end of a motion",

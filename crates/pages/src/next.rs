@@ -104,10 +104,13 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                 true => " --asymmetric",
                 false => "",
             };
+            let plan = plan_option(result);
             Cured {
                 what: format!("{}; try the law {law}", cause.text),
                 line: None,
-                command: format!("stiction identify{logs}{axis} --law {law}{sides} --out {out}"),
+                command: format!(
+                    "stiction identify{logs}{axis} --law {law}{sides}{plan} --out {out}"
+                ),
                 ends: false,
             }
         }
@@ -124,7 +127,7 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                     (file, place)
                 }
             };
-            let law = law(result);
+            let law = format!("{}{}{}", law(result), method(result), plan_option(result));
             let key = line.split(' ').next().unwrap_or_default();
             let out = out(key);
             let write = match replaces {
@@ -208,6 +211,14 @@ fn method(result: &ResultFile) -> String {
     }
 }
 
+/// The plan that it was compared with.
+fn plan_option(result: &ResultFile) -> String {
+    let plan = result.planned.as_ref();
+    plan.map_or(String::new(), |plan| {
+        format!(" --plan {}", quoted(&plan.path))
+    })
+}
+
 /// The command that leads on from the result in a folder.
 pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
     // Without a slash or a dot at its end, to which a suffix would be added.
@@ -226,6 +237,8 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
         _ => logs(result),
     };
     log.push_str(&axis_option(result));
+    let as_asked = format!("{}{}", law(result), method(result));
+    let plan = plan_option(result);
     match next {
         Next::Export => {
             let model = quoted_path(&dir.join("model.toml"));
@@ -237,9 +250,19 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             || format!("stiction identify{log} --out {}", another("auto")),
             |better| better.command,
         ),
-        Next::LetTheDataChoose => format!("stiction identify{log} --out {}", another("auto")),
-        Next::IdentifyTheOther => format!("stiction identify{log} --out {}", another("other")),
-        Next::FirstLog => format!("stiction identify{log} --out {}", another("first")),
+        Next::LetTheDataChoose => {
+            format!("stiction identify{log}{plan} --out {}", another("auto"))
+        }
+        Next::IdentifyTheOther => {
+            format!(
+                "stiction identify{log}{as_asked} --out {}",
+                another("other")
+            )
+        }
+        Next::FirstLog => format!(
+            "stiction identify{log}{as_asked} --out {}",
+            another("first")
+        ),
         Next::Simulate => format!(
             "stiction identify{log} --method output-error --out {}",
             another("simulated")
@@ -248,11 +271,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
             Some(_) => {
                 let again = text(dir).ends_with("-corrected");
                 let out = if again { folder } else { another("corrected") };
-                format!(
-                    "stiction identify{log}{}{} --out {out}",
-                    law(result),
-                    method(result)
-                )
+                format!("stiction identify{log}{as_asked}{plan} --out {out}")
             }
             None => format!(
                 "stiction check{log} --init {}",
@@ -268,14 +287,13 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
                 );
             }
             format!(
-                "stiction identify {ANOTHER_LOG}{} --out {}",
+                "stiction identify {ANOTHER_LOG}{}{as_asked} --out {}",
                 axis_option(result),
                 another("again")
             )
         }
         Next::Again | Next::Finish => {
-            let (law, method) = (law(result), method(result));
-            format!("stiction identify{log}{law}{method} --out {folder}")
+            format!("stiction identify{log}{as_asked}{plan} --out {folder}")
         }
     }
 }

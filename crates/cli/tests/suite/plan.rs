@@ -402,6 +402,29 @@ fn a_plan_for_a_model_expects_less_than_one_for_the_nameplate() {
     }
 }
 
+/// A model that was flagged is planned from, and that is said.
+#[test]
+fn a_model_in_doubt_is_named() {
+    let folder = folder(AXIS);
+    let at = folder.path();
+    let doubted = format!("trustworthy = false\n{MODEL}");
+    let doubted = doubted.replacen("trustworthy = true\n", "", 1);
+    std::fs::write(at.join("model.toml"), doubted).unwrap();
+    let mut all = vec!["plan", "axis.toml", "--time", "2s", "--model", "model.toml"];
+    all.extend(["--out", "out"]);
+    let (code, out, err) = run(at, &all);
+    assert_eq!(code, 0, "{err}");
+    let due = "[model-in-doubt] model.toml: the identification flagged it as not trustworthy";
+    assert!(format!("{out}{err}").contains(due), "{out}\n{err}");
+    // Two masses that are not one.
+    std::fs::write(at.join("axis.toml"), format!("mass = \"1 kg\"\n{AXIS}")).unwrap();
+    let (code, _, err) = run(at, &["plan", "axis.toml", "--out", "two"]);
+    assert!(
+        code == 2 && err.contains("limits.mass: 4 beside mass = 1"),
+        "{err}"
+    );
+}
+
 #[test]
 fn a_model_that_says_nothing_of_the_axis_is_refused() {
     let refused = [
@@ -431,15 +454,14 @@ fn a_model_that_says_nothing_of_the_axis_is_refused() {
 fn a_probe_is_careful() {
     let folder = folder(AXIS);
     let at = folder.path();
-    let (code, out, err) = run(
-        at,
-        &["plan", "axis.toml", "--stage", "probe", "--out", "probe"],
-    );
+    let mut all = vec!["plan", "axis.toml", "--stage", "probe", "--out", "probe"];
+    all.extend(["--start", "-1 mm", "--format", "csp", "--seed", "3"]);
+    let (code, out, err) = run(at, &all);
     assert_eq!((code, err.as_str()), (0, ""));
-    assert!(
-        out.contains("stiction plan axis.toml --log LOG.csv"),
-        "{out}"
-    );
+    // What was asked for and holds of the whole motion too is not forgotten.
+    let next =
+        "stiction plan axis.toml --log LOG.csv --format csp '--start=-1 mm' --seed 3 --out probe-2";
+    assert!(out.contains(next), "{out}");
     for [t, _, v, a] in rows(at, "probe/setpoints.csv") {
         assert!(
             t <= 3.01 && v.abs() <= 0.05 && a.abs() <= 1.0,
@@ -528,6 +550,7 @@ fn a_log_is_put_beside_its_plan() {
         "plan/motion.st: FB_axis_Motion gives",
         "plan/setpoints.cam.csv: cam points every 2 ms",
         "plan/setpoints.csp.csv: a row for each cycle of 2 ms in whole counts of 1e-6 m",
+        "half a count; positions count from 0.012 m, where the axis has to stand: add nothing to them",
         "plan/setpoints.feed.csv: inputs of MC_ExtSetPointGenFeed, a row for each cycle of 2 ms",
         "plan/setpoints.ros2.yaml: points every",
         "positions count from 0.012 m, where the axis has to stand",
@@ -586,6 +609,34 @@ fn a_log_is_put_beside_its_plan() {
     let result = std::fs::read_to_string(at.join("out/result.json")).unwrap();
     let result: serde_json::Value = serde_json::from_str(&result).unwrap();
     assert_eq!(result["planned"]["path"], "plan/plan.toml");
+
+    // Positions or forces in another unit than the axis file says.
+    let scaled = |of_position: f64, of_force: f64| {
+        let rows = log(&rows);
+        let rows = rows.lines().skip(1).map(|row| {
+            let of = |at: usize| row.split(',').nth(at).unwrap().parse::<f64>().unwrap();
+            format!("{},{},{}\n", of(0), of_position * of(1), of_force * of(2))
+        });
+        let text: String = rows.collect();
+        std::fs::write(
+            at.join("scaled.csv"),
+            format!("time [s],position [m],force [N]\n{text}"),
+        )
+        .unwrap();
+        identify("scaled.csv", "plan/plan.toml").1
+    };
+    let said = scaled(0.5, 1.0);
+    assert!(
+        said.contains("[plan-differs] in piece")
+            && said.contains("goes 0.5000 times as far as planned"),
+        "{said}"
+    );
+    let said = scaled(1.0, 1e3);
+    assert!(
+        said.contains("[mass-disagrees] limits.mass of the axis file is 4.000 kg")
+            && !said.contains("as constants      sigma2"),
+        "{said}"
+    );
 
     // What is no plan is refused at its place.
     let text = std::fs::read_to_string(at.join("plan/plan.toml")).unwrap();

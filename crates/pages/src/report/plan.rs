@@ -1,7 +1,10 @@
 //! The report of a planned motion.
 
 use stiction_files::plan::{ComparedEntry, PlanFile};
+use stiction_files::symbols;
+use stiction_log::Motion;
 use stiction_number::{Percent, four_digits as short, unit};
+use stiction_parameters::Name;
 use stiction_report::{
     Align, Axis, Block, Callout, Document, Figure, KeyFigure, Layer, Panel, Severity, Table, Text,
     number,
@@ -246,6 +249,19 @@ fn aborts(file: &PlanFile) -> Table {
         })
 }
 
+/// SI unit of a range; none of a ratio.
+fn of_range(name: &str, file: &PlanFile) -> String {
+    let motion = match file.kind == "rotary" {
+        true => Motion::Rotary,
+        false => Motion::Linear,
+    };
+    match name.parse::<Name>() {
+        Ok(name) => symbols::unit(name.dimension(), motion, symbols::force_unit(motion), ""),
+        Err(_) if name == "presliding length" => symbols::length_unit(motion).into(),
+        Err(_) => String::new(),
+    }
+}
+
 fn assumptions(file: &PlanFile) -> Table {
     let columns = [
         ("What", Align::Left),
@@ -267,7 +283,7 @@ fn assumptions(file: &PlanFile) -> Table {
     let prior = file.prior.iter().map(|p| {
         let [low, high] = p.range;
         let range = format!("{} to {}", number::sig(low, 3), number::sig(high, 3));
-        [p.name.clone(), range, "SI".into()]
+        [p.name.clone(), range, unit(&of_range(&p.name, file))]
     });
     assumed.chain(prior).fold(Table::new(columns), Table::row)
 }

@@ -1,6 +1,7 @@
 //! A planned motion as a terminal shows it.
 
 use super::table::table;
+use crate::next::argument;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_files::plan::PlanFile;
@@ -93,10 +94,39 @@ fn next(planned: &Planned, axis: &Path, written: &Path) -> String {
             "{}-2",
             text(&written.components().collect::<PathBuf>())
         ));
-        return format!("stiction plan {axis} --log {log}{sides} --out {out}");
+        let options = format!("{}{}", wishes(planned), carried_on(planned));
+        return format!("stiction plan {axis} --log {log}{sides}{options} --out {out}");
     }
     let [plan, out] = ["plan.toml", "identified"].map(|name| typed(&written.join(name)));
     format!("stiction identify {first}{log} --axis {axis}{law} --plan {plan} --out {out}")
+}
+
+/// What was asked for and holds of a plan that follows too.
+fn carried_on(planned: &Planned) -> String {
+    let options = &planned.options;
+    let forms = options.carriers.iter();
+    let forms = forms.map(|form| format!(" --format {}", form.name()));
+    let start = options.start.iter();
+    let start = start.map(|start| format!(" {}", argument(&format!("--start={start}"))));
+    let seed = (options.seed != 0).then(|| format!(" --seed {}", options.seed));
+    forms.chain(start).chain(seed).collect()
+}
+
+/// What is wanted; a probe is short whatever is.
+fn wishes(planned: &Planned) -> String {
+    let wishes = planned.options.wants.iter();
+    wishes
+        .map(|want| format!(" --want {}", quoted(&want.to_string())))
+        .collect()
+}
+
+/// What the axis was known by.
+fn known(planned: &Planned) -> String {
+    match &planned.options.known {
+        Some(Known::Log(file)) => format!(" --log {}", quoted_path(file)),
+        Some(Known::Model(file)) => format!(" --model {}", quoted_path(file)),
+        None => String::new(),
+    }
 }
 
 /// Options by which a plan, and an identification, is for parameters of each direction, or for another law.
@@ -206,19 +236,14 @@ fn wanted(planned: &Planned, axis: &Path, written: &Path) -> String {
     // Deviations fall with the root of the time.
     let needed = (file.duration * most * most * 1.1).ceil();
     if needed <= LONGEST {
-        let wishes: String = file.wanted.iter().fold(String::new(), |mut all, wish| {
-            let _ = write!(
-                all,
-                " --want {}",
-                quoted(&format!("{} < {} %", wish.name, wish.percent))
-            );
-            all
-        });
         let _ = writeln!(
             out,
-            "a longer motion may grant it: stiction plan {} --time {needed}s{wishes}{} --out {}",
+            "a longer motion may grant it: stiction plan {} --time {needed}s{}{}{}{} --out {}",
             quoted_path(axis),
+            known(planned),
             sides(file)[0],
+            wishes(planned),
+            carried_on(planned),
             beside("-longer")
         );
     } else {
@@ -226,10 +251,11 @@ fn wanted(planned: &Planned, axis: &Path, written: &Path) -> String {
             out,
             "no motion of at most {LONGEST} s grants it within these limits: deviations fall with the root of the time, and this one \
              would take {} s. A finer encoder, less noise of the force and more speed help, and a first log, from which less is open:\n    \
-             stiction plan {} --stage probe{} --out {}",
+             stiction plan {} --stage probe{}{} --out {}",
             short(needed),
             quoted_path(axis),
             sides(file)[0],
+            carried_on(planned),
             beside("-probe")
         );
     }

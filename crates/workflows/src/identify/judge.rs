@@ -7,6 +7,7 @@ use super::late;
 use super::load::{Asked, Loaded};
 use super::logs::{log_warnings, path_of, validation_warnings};
 use super::mixed;
+use super::stated;
 use super::trust::{self, Judged};
 use stiction_codes::Code;
 use stiction_files::Warning;
@@ -44,6 +45,8 @@ pub(super) fn judge(
     }
     late::stated(asked, loaded, law, &mut warnings);
     let unused = unused(loaded, conditioned);
+    let of_limits = stated::against_limits(asked, loaded, &law.parameters);
+    let contradicted = loaded.contradicted.as_ref().or(of_limits.as_ref());
     let evidence = trust::Evidence {
         law,
         signal: "force",
@@ -52,7 +55,7 @@ pub(super) fn judge(
         laws: &fitted.choice.laws,
         motion: loaded.motion(),
         apart: loaded.apart.as_deref(),
-        contradicted: loaded.contradicted.as_ref(),
+        contradicted,
         unused: unused.as_deref(),
         chosen: fitted.choice.by != "user",
         held_back: fitted.choice.held_back.as_deref(),

@@ -80,6 +80,34 @@ fn mass(loaded: &Loaded, stated: &Terms, fits: &mut Fits) -> Option<Warning> {
     ))
 }
 
+/// How many times larger or smaller than `limits.mass` what moves may be (docs/axis.md).
+const OF_LIMITS: f64 = 2.0;
+
+/// Says that the mass that was found is not the one of `[limits]`, which is meant within a factor of two; `None` where it is, none is
+/// given, or the log leaves it open.
+pub(super) fn against_limits(
+    asked: Asked,
+    loaded: &Loaded,
+    found: &[Parameter],
+) -> Option<Warning> {
+    let log = &loaded.sources[0].log;
+    let mass = asked.axis.limits.as_ref()?.mass?;
+    (log.force_unit == symbols::force_unit(log.motion)).then_some(())?;
+    let found = of(found, Quantity::Mass).filter(|p| p.identified && p.identifiable)?;
+    let (low, high) = found.ci95?;
+    (low > OF_LIMITS * mass || high < mass / OF_LIMITS).then_some(())?;
+    let unit = symbols::unit(found.name.dimension(), log.motion, &log.force_unit, "");
+    let [limit, value, low, high] = [mass, found.value, low, high].map(four_digits);
+    Some(Warning::new(
+        Code::MassDisagrees,
+        format!(
+            "limits.mass of the axis file is {limit} {unit}, within a factor of two, and the log shows {value} {unit} ({low} to {high}): the \
+             position, the time or the force of the log has another unit or scale than the axis file says, and every number with it, or \
+             limits.mass is not what moves. Correct the one that is wrong"
+        ),
+    ))
+}
+
 fn delay(stated: &Terms, fits: &mut Fits) -> Option<Warning> {
     let Delay::Given(delay) = stated.delay else {
         return None;

@@ -156,6 +156,17 @@ pub(super) fn given(
     else {
         return Err(axis.missing(&missing).into());
     };
+    if let (Some(of_limits), Mass::Given(stated)) = (l.mass, axis.terms.mass)
+        && !(1.0 / MASS_FACTOR..=MASS_FACTOR).contains(&(stated / of_limits))
+    {
+        let full = stiction_number::full;
+        let found = format!("{} beside mass = {}", full(of_limits), full(stated));
+        let allowed = "the same mass within a factor of two, or left out where mass is given";
+        let code = stiction_codes::Code::BadConfig;
+        if let Some(refused) = axis.refuse("limits.mass", found, allowed, code) {
+            return Err(refused.into());
+        }
+    }
     let motion = l.motion;
     let mut assumed = Vec::new();
     let mut or = |given: Option<f64>, key: &str, value: f64, unit: String| {
@@ -278,6 +289,7 @@ pub(super) fn given(
     };
     let mut asked = asked::asked(axis, motion, &law, (start, &whole))?;
     if let Some(told) = &told {
+        asked.warnings.extend(told.doubt.clone());
         asked
             .warnings
             .extend(asked::of_model(&told.beyond(&asked.subject)));

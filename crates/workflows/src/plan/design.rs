@@ -86,6 +86,7 @@ pub(super) fn design(
     // Other axes than those that the pieces were chosen on.
     let axes_fresh = given.draw(fresh, seed ^ OTHER_AXES);
     let mut tried = None;
+    let mut interrupted = false;
     let mut evaluations = 0;
     for time in wanted::times(&options.wants, longest) {
         let choice = chosen(&table, &given.aim, time, observer);
@@ -95,6 +96,7 @@ pub(super) fn design(
         }
         let motion = Motion::new(ordered(&table, &choice, &given.subject)).map_err(refused)?;
         let stopped = choice.interrupted;
+        interrupted |= stopped;
         if stopped && tried.is_some() {
             // What was found for a shorter time stands.
             break;
@@ -106,9 +108,12 @@ pub(super) fn design(
         };
         let watch = Shared::new(&mut onward, fresh);
         let designed = within(motion, &axes_fresh, &given, &watch)?;
-        let Some(designed) = designed else { break };
+        let Some(designed) = designed else {
+            interrupted = true;
+            break;
+        };
         let enough = wanted::are_met(&options.wants, &designed.expected, &names);
-        tried = Some((time, choice, designed));
+        tried = Some((time, designed));
         if enough || stopped {
             break;
         }
@@ -117,7 +122,7 @@ pub(super) fn design(
     {
         return Ok(None);
     }
-    let Some((time, choice, designed)) = tried else {
+    let Some((time, designed)) = tried else {
         return Err(tells_nothing(axis, longest));
     };
     let watch = Shared::new(observer, fresh * HandMade::ALL.len());
@@ -127,8 +132,9 @@ pub(super) fn design(
     for kind in HandMade::ALL {
         let made = hand_made(kind, limits, rig, time / times).map_err(refused)?;
         let Some(made) = made else { continue };
-        if let Some(found) = repeated(made, times as u32, &axes_fresh, &given, &watch)? {
-            all.push((kind.name(), found));
+        match repeated(made, times as u32, &axes_fresh, &given, &watch)? {
+            Some(found) => all.push((kind.name(), found)),
+            None => interrupted = true,
         }
     }
     simulated += all.iter().map(|(_, j)| j.simulated).sum::<f64>();
@@ -157,7 +163,7 @@ pub(super) fn design(
         name: axis.name.clone(),
         kind: given.motion.to_string(),
         seed: options.seed,
-        status: if choice.interrupted {
+        status: if interrupted {
             "interrupted"
         } else {
             "complete"

@@ -4,8 +4,10 @@ use super::law;
 use crate::error::Error;
 use crate::identify::{Files, Options, identify};
 use std::path::{Path, PathBuf};
-use stiction_files::ModelFile;
+use stiction_codes::Code;
 use stiction_files::model::{ModelParameter, ReadModel};
+use stiction_files::result::{Cure, Next, Trust};
+use stiction_files::{ModelFile, Warning};
 use stiction_identify::{LawKind, Observer};
 use stiction_parameters::{Name, Quantity};
 use stiction_plan::{Belief, Candidate, Elements, Nameplate, Subject};
@@ -39,6 +41,8 @@ pub(super) struct Told {
     pub rate: Option<f64>,
     pub step: Option<f64>,
     pub force_noise: Option<f64>,
+    /// Why it should not be planned from as it is.
+    pub doubt: Option<Warning>,
 }
 
 /// Reads the model, or identifies the log as the axis file says.
@@ -63,6 +67,10 @@ pub(super) fn told(
                 return Err(refuse(file, &found, law::BOTH_WAYS));
             }
             Ok(Told {
+                doubt: (!model.model.trustworthy).then(|| {
+                    let text = "the identification flagged it as not trustworthy: see its report";
+                    doubt(file, text)
+                }),
                 model: model.model,
                 file: file.clone(),
                 sha256: model.sha256,
@@ -92,6 +100,7 @@ pub(super) fn told(
             let model = ModelFile::from_result(&outcome.result);
             fits(&model, file, kind)?;
             Ok(Told {
+                doubt: misread(&outcome.result.trust).map(|text| doubt(file, &text)),
                 model,
                 file: file.clone(),
                 sha256: sha256.unwrap_or_default(),
@@ -101,6 +110,34 @@ pub(super) fn told(
             })
         }
     }
+}
+
+/// Why a first log has to be read in another way before anything is planned from it. What its motion leaves open is no reason: a plan is
+/// for that.
+fn misread(trust: &Trust) -> Option<String> {
+    let cured = trust.cause.as_ref().and_then(|cause| {
+        let Cure::Line { table, line, .. } = cause.cure.as_ref()? else {
+            return None;
+        };
+        let text = format!(
+            "{} ({}); under [{table}] of the axis file `{line}`",
+            cause.text, cause.size
+        );
+        Some(text)
+    });
+    let refused = trust
+        .reasons
+        .first()
+        .filter(|_| trust.next == Next::AxisFile);
+    cured.or(refused.cloned())
+}
+
+fn doubt(file: &Path, why: &str) -> Warning {
+    let file = file.display();
+    let text = format!(
+        "{file}: {why}. The motion is planned for what it says all the same: set that right first, then plan again"
+    );
+    Warning::new(Code::ModelInDoubt, text)
 }
 
 /// Largest relative deviation with which a parameter counts as determined.

@@ -72,6 +72,13 @@ impl Want {
     }
 }
 
+/// As it is read.
+impl std::fmt::Display for Want {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} < {} %", self.name(), full(self.percent))
+    }
+}
+
 /// Whether there are axes whose plan has the parameter.
 fn is_planned(name: Name) -> bool {
     use Quantity as Q;
@@ -105,7 +112,7 @@ pub(super) fn are_planned(wants: &[Want], subject: &Subject) -> Result<(), Error
     let lacks = |want: &&Want| want.parameter.is_some() && !names.contains(&want.name());
     match wants.iter().find(lacks) {
         Some(want) => {
-            let found = format!("--want \"{} < {} %\"", want.name(), full(want.percent));
+            let found = format!("--want \"{want}\"");
             let allowed = format!(
                 "what this axis is planned for: {}, or {ALL}",
                 names.join(", ")
