@@ -271,10 +271,15 @@ fn pieces(motion: &Motion, log: &Course, whole: [f64; 2], start: f64) -> Vec<Ran
             }
         })
         .collect();
-    // The clearest first; others only where they stand in their order beside these.
+    // Where they are due first, since one piece may come several times, then the clearest; others only where they stand in their order
+    // beside these.
     let mut shown: Vec<Option<Place>> = vec![None; spans.len()];
     let mut order: Vec<usize> = (0..spans.len()).collect();
-    order.sort_by(|a, b| alone[*b].alike.total_cmp(&alone[*a].alike));
+    let elsewhere = |k: usize| (alone[k].start - spans[k][0] - start).abs() > NEAR + log.step;
+    order.sort_by(|&a, &b| {
+        let clearer = alone[b].alike.total_cmp(&alone[a].alike);
+        elsewhere(a).cmp(&elsewhere(b)).then(clearer)
+    });
     for k in order {
         let [low, high] = between(&shown, &spans, k);
         let place = alone[k];

@@ -101,6 +101,12 @@ fn what_is_not_there_is_said() {
         hows(&motion, &(time, position)),
         [Whole, Whole, Whole, Whole, Whole, CutShort, Missing]
     );
+    // Stopped before a piece to which what the axis makes of a smaller one is more alike than it is to its own.
+    let (small, large) = (sine(5e-4, 7.0, 1.0), sine(5e-3, 7.2, 1.0));
+    let alike = Motion::new(vec![there(0.02, 0.1), small, large]).unwrap();
+    let ran = [there(0.02, 0.1), sine(5e-4, 7.2, 1.0)];
+    let ran: Vec<_> = ran.into_iter().map(|atom| (0.0, atom)).collect();
+    assert_eq!(hows(&alike, &log(&ran, 1.0, 0.0)), [Whole, Whole, Missing]);
     // A piece left out, one that moves and one that friction holds.
     for (left_out, held) in [(2, 0.0), (3, 1e-5), (4, 1e-5)] {
         let mut parts = parts.clone();
