@@ -10,7 +10,7 @@ use stiction_parameters::Quantity;
 /// Counts of the encoder that an element has to move before it slips for them to show it.
 const SHOWN: f64 = 2.0;
 
-/// What such an element makes of the law.
+/// What such an element makes of the law beside the elements, whose shape is then not that of friction alone.
 const MOVED: [Quantity; 5] = [
     Quantity::Sigma0,
     Quantity::Static,
@@ -19,7 +19,7 @@ const MOVED: [Quantity; 5] = [
     Quantity::Delay,
 ];
 
-/// Flags what an element that slips within two counts of `resolution` m (rad) takes part in, and itself.
+/// Flags what an element that slips within two counts of `resolution` m (rad) takes part in, and all elements.
 pub(super) fn flag_what_an_unseen_element_takes(
     resolution: Option<f64>,
     parameters: &mut [Parameter],
@@ -32,16 +32,12 @@ pub(super) fn flag_what_an_unseen_element_takes(
     let Some((element, deflection)) = unseen else {
         return;
     };
-    let of_it = [
-        Quantity::ElementYield(element),
-        Quantity::ElementStiffness(element),
-    ];
     let claimed = parameters
         .iter_mut()
         .filter(|p| p.identified && p.identifiable);
-    for p in
-        claimed.filter(|p| MOVED.contains(&p.name.quantity) || of_it.contains(&p.name.quantity))
-    {
+    let moved =
+        |p: &&mut Parameter| MOVED.contains(&p.name.quantity) || p.name.quantity.is_of_an_element();
+    for p in claimed.filter(moved) {
         p.identifiable = false;
         p.reason = format!(
             "element {element} slips within {:.1} counts of the encoder, which no count shows: it may stand for a resonance, a drive that \
@@ -80,7 +76,10 @@ mod tests {
                 .collect::<Vec<_>>()
                 .join(" ")
         };
-        assert_eq!(open(1.2e-7, Some(1e-7)), "stiffness_1 yield_1 static");
+        assert_eq!(
+            open(1.2e-7, Some(1e-7)),
+            "stiffness_1 yield_1 yield_2 static"
+        );
         assert_eq!(open(3e-7, Some(1e-7)), "");
         assert_eq!(open(1.2e-7, None), "");
     }
