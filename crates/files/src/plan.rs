@@ -31,6 +31,9 @@ pub struct PlanFile {
     pub motion: String,
     /// From rest to rest, s.
     pub duration: f64,
+    /// Position, m (rad), at which the axis has to stand when the motion starts, from which set points count; pieces count from 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub start: f64,
     /// Axes on which pieces were simulated, and others on which the whole motion was.
     pub axes: [usize; 2],
     /// Seconds of motion that were simulated.
@@ -77,6 +80,12 @@ pub struct PlanFile {
 }
 
 /// For `serde`, which hands on a reference.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// The same.
 #[allow(clippy::trivially_copy_pass_by_ref)]
 fn is_false(value: &bool) -> bool {
     !*value
@@ -300,7 +309,7 @@ impl PlanFile {
     pub fn to_toml(&self) -> String {
         let body = toml::to_string(self).expect("a plan has only tables, numbers and text");
         crate::visible::toml(format!(
-            "# The motion to record, planned by stiction. Units are SI; positions count from where the axis stands.\n{body}"
+            "# The motion to record, planned by stiction. Units are SI; pieces count from where the axis stands.\n{body}"
         ))
     }
 }

@@ -10,7 +10,7 @@ mod delayed;
 mod filtered;
 pub(crate) mod fitted;
 pub(crate) mod intervals;
-mod least;
+pub(crate) mod least;
 mod optimal;
 mod pressed;
 mod profile;

@@ -103,6 +103,7 @@ pub use crossval::{LawScore, cross_validate};
 pub use error::Error;
 pub use estimate::fitted::FittedLaw;
 pub use estimate::intervals::intervals;
+pub use estimate::least::LEAST as LEAST_HALF_WIDTH;
 pub use estimate::searched::NO_INTERVAL;
 pub use estimate::series::Series;
 pub use estimate::{Estimate, estimate, predict};

@@ -305,6 +305,16 @@ pub(crate) fn planned(result: &ResultFile, dir: &Path) -> Option<String> {
     let mut open = result.parameters.iter().filter(|p| !p.identifiable);
     let settles = |name: &str| PLANNED.iter().any(|own| name.starts_with(own));
     let is_fit = result.method == "separable";
+    // What has to be read in another way first says nothing of the axis.
+    if matches!(result.trust.next, Next::AxisFile | Next::FirstLog) {
+        return None;
+    }
+    // What these leave open no motion settles.
+    let of_the_drive_train = [Code::Resonance, Code::Backlash, Code::UnmodelledDynamics];
+    let cause = result.trust.cause.as_ref();
+    if cause.is_some_and(|cause| of_the_drive_train.contains(&cause.code)) {
+        return None;
+    }
     // Or where a plan promised less.
     let mut beside = result.planned.iter().flat_map(|plan| &plan.parameters);
     let wider = beside.any(|p| p.status == "wider");

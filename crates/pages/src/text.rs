@@ -6,7 +6,7 @@ mod check;
 mod comparison;
 mod drift;
 mod export;
-mod plan;
+pub(crate) mod plan;
 mod procedure;
 mod reproduction;
 mod searched;

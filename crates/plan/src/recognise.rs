@@ -33,6 +33,8 @@ pub struct Recognised {
     pub pace: f64,
     /// Its pieces in their order; empty at another pace than 1.
     pub pieces: Vec<Ran>,
+    /// How many times as far as the motion the log goes, where it shows the whole of it clearly.
+    pub size: Option<f64>,
 }
 
 /// Rate at which both are compared, Hz: seven times that of the fastest sine; less where the work would be more than [`WORK`].
@@ -52,6 +54,8 @@ const MOST_FOLLOWED: f64 = 2.0;
 const BESIDE: f64 = 0.05;
 /// Correlation above which a piece is not sought elsewhere.
 const CLEAR: f64 = 0.995;
+/// The same of a motion above which it surely ran at its own pace.
+const CLEARLY_RAN: f64 = 0.98;
 /// How far beside the time at which it is due a piece is sought first, s.
 const NEAR: f64 = 0.3;
 /// How far from where it is due a piece is sought, s.
@@ -80,20 +84,43 @@ pub fn recognise(motion: &Motion, time: &[f64], position: &[f64]) -> Option<Reco
     let work = |rate: f64| rate * rate * seconds * motion.duration();
     let rate = RATE.min(RATE * libm::sqrt(WORK / work(RATE)));
     let place = placed(&log(rate), &Course::of(motion, 1.0, rate));
-    if place.alike >= ALIKE {
+    // Strokes of a slower run are like those of a faster one in part.
+    let other = match place.alike >= CLEARLY_RAN {
+        true => None,
+        false => other_pace(motion, &log, work(RATE)),
+    };
+    if let Some((pace, alike)) = other
+        && alike >= ALIKE.max(place.alike)
+    {
+        return Some(Recognised {
+            pace,
+            pieces: Vec::new(),
+            size: None,
+        });
+    }
+    (place.alike >= ALIKE).then(|| {
         // However long the log is: what is far away is not looked at again.
         let from = (place.start - LATER).max(whole[0]);
         let to = (place.start + motion.duration() + LATER).min(whole[1]);
         let near = Course::of_log(time, position, RATE, [from, to]);
-        let pieces = pieces(motion, &near, whole, place.start);
-        return Some(Recognised { pace: 1.0, pieces });
-    }
-    let rate = RATE.min(RATE * libm::sqrt(WORK_OF_PACE / work(RATE)));
+        Recognised {
+            pace: 1.0,
+            pieces: pieces(motion, &near, whole, place.start),
+            size: (place.alike >= CLEARLY_RAN).then_some(place.followed),
+        }
+    })
+}
+
+/// The pace other than 1 at which a motion is most like a log, as a whole, and how much; `work` is that of the two at [`RATE`].
+fn other_pace(motion: &Motion, log: &impl Fn(f64) -> Course, work: f64) -> Option<(f64, f64)> {
+    let rate = RATE.min(RATE * libm::sqrt(WORK_OF_PACE / work));
     let coarse = log(rate);
     let mut paces = Vec::new();
     let mut pace = PACES[0];
     while pace <= PACES[1] {
-        paces.push(pace);
+        if (pace - 1.0).abs() > PACE_STEP - 1.0 {
+            paces.push(pace);
+        }
         pace *= PACE_STEP;
     }
     let tried = paces.into_iter().map(|pace| {
@@ -102,11 +129,7 @@ pub fn recognise(motion: &Motion, time: &[f64], position: &[f64]) -> Option<Reco
         let last = coarse.positions.len() as isize - slower.positions.len() as isize;
         (pace, best(&coarse, &slower, 0..last + 1).alike)
     });
-    let (pace, alike) = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (alike >= ALIKE).then_some(Recognised {
-        pace,
-        pieces: Vec::new(),
-    })
+    tried.max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// Positions at a rate from an instant on.
@@ -325,7 +348,13 @@ fn pieces(motion: &Motion, log: &Course, whole: [f64; 2], start: f64) -> Vec<Ran
                     None => return MISSING,
                 },
             };
-            let inside = (begins + duration).min(whole[1]) - begins.max(whole[0]);
+            // One that friction leads is found up to a tenth of a second beside where it is.
+            let due = spans[k][0] + start;
+            let at = match (begins - due).abs() <= NEAR + log.step {
+                true => due,
+                false => begins,
+            };
+            let inside = (at + duration).min(whole[1]) - at.max(whole[0]);
             let how = if inside <= 0.0 {
                 return MISSING;
             } else if inside < duration - NEAR.min(0.1 * duration) {

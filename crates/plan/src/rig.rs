@@ -74,6 +74,11 @@ impl Rig {
         }
     }
 
+    /// Whether it follows with all of velocity and acceleration fed forward, as gains that are tuned are taken to.
+    pub fn has_full_feedforward(&self) -> bool {
+        matches!(self.loop_, Loop::Tuned(_))
+    }
+
     /// Control periods in one of the log: a log may be slower than the loop.
     pub fn periods(&self) -> usize {
         libm::ceil(CONTROL_PER_PERIOD * self.bandwidth() / self.rate).clamp(1.0, MOST_PERIODS)

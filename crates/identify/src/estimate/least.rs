@@ -6,7 +6,7 @@ use crate::parameter::{NORMAL_Q95, Parameter};
 /// Least half width of a 95 % interval, in parts of the value. Long logs average noise down to less, but not what a fit leaves
 /// of second order: noise of an encoder in the regressors, the force between two samples, how roughly filters are undone. Of 160
 /// logs of another simulator, narrower intervals were wrong by up to this, eight of their half widths.
-const LEAST: f64 = 5e-4;
+pub const LEAST: f64 = 5e-4;
 
 /// States no parameter as better known than any log shows it.
 pub(super) fn no_surer_than_any_log(fitted: &mut FittedLaw) {

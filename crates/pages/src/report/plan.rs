@@ -1,5 +1,6 @@
 //! The report of a planned motion.
 
+use crate::text::plan::start;
 use stiction_files::plan::{ComparedEntry, PlanFile};
 use stiction_files::symbols;
 use stiction_log::Motion;
@@ -70,7 +71,7 @@ pub fn plan(planned: &Planned) -> Document {
         .block(expected(file))
         .block(beside(file))
         .heading(2, "On the machine")
-        .paragraph(run_order(file))
+        .paragraph(run_order(planned))
         .block(aborts(file))
         .heading(2, "Assumptions")
         .block(assumptions(file))
@@ -207,13 +208,21 @@ fn beside(file: &PlanFile) -> Table {
     })
 }
 
-fn run_order(file: &PlanFile) -> String {
+fn run_order(planned: &Planned) -> String {
+    let file = &planned.file;
     let [length, ..] = units(file);
+    let feedforward = match planned.given.logged.has_full_feedforward() {
+        true => {
+            " The following error is that of a loop with velocity and acceleration feedforward; without them it is many times as large."
+        }
+        false => "",
+    };
     let [low, high] = file.limits.stroke;
     format!(
-        "Bring the axis to where it may go {} {length} to negative and {} {length} to positive positions; the motion returns there. \
+        "Bring the axis {}to where it may go {} {length} to negative and {} {length} to positive positions; the motion returns there. \
          Run setpoints.csv first at 30 % override and look: that run is not for identification. Then run it at 100 % and record \
-         time, position and force at {} Hz, without long rests before and after.",
+         time, position and force at {} Hz, without long rests before and after.{feedforward}",
+        start(planned),
         short(-low),
         short(high),
         short(file.rig.rate)

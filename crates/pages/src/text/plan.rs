@@ -43,7 +43,7 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
     out.push_str(&expected(file));
     out.push_str(&wanted(planned, axis, written));
     out.push_str(&beside(file));
-    out.push_str(&largest(file));
+    out.push_str(&largest(planned));
     let folder = |name: &str| quoted_path(&written.join(name));
     let others = planned.carried.iter().filter(|file| !file.note.is_empty());
     for (k, file) in others.enumerate() {
@@ -56,19 +56,35 @@ pub fn planned(planned: &Planned, axis: &Path, written: &Path) -> String {
         );
     }
     let [low, high] = file.limits.stroke;
+    let [least, most] = file.largest.position;
     let length = units(file)[0];
     let _ = writeln!(
         out,
-        "\nbring the axis to where it may go {} {length} to negative and {} {length} to positive positions; run {} first \
-         at 30 % override and look, then at 100 %, and record time, position and force at {} Hz, as {}; then\nnext: {}",
+        "\nbring the axis {}to where it may go {} {length} to negative and {} {length} to positive positions, of which the motion takes {} and \
+         {}; run {} first at 30 % override and look, then at 100 %, and record time, position and force at {} Hz, as {}; then\nnext: {}",
+        start(planned),
         short(-low),
         short(high),
+        short((-least).max(0.0)),
+        short(most.max(0.0)),
         folder("setpoints.csv"),
         short(file.rig.rate),
         recorded(planned),
         next(planned, axis, written),
     );
     out
+}
+
+/// Where the axis has to stand, where set points count from there.
+pub(crate) fn start(planned: &Planned) -> String {
+    let (start, length) = (planned.given.start, units(&planned.file)[0]);
+    match planned.options.start {
+        Some(_) => format!(
+            "to position {} {length}, from which set points count, and ",
+            short(start)
+        ),
+        None => String::new(),
+    }
 }
 
 /// What the motion is recorded as, another file than the one that is there.
@@ -147,12 +163,20 @@ fn units(file: &PlanFile) -> [&'static str; 3] {
 }
 
 /// The largest of what happened, beside the limits, and where to abort.
-fn largest(file: &PlanFile) -> String {
+fn largest(planned: &Planned) -> String {
+    let file = &planned.file;
     let [length, speed, force] = units(file);
+    // Gains that are tuned come with the feedforward that most drives have.
+    let follows = match planned.given.logged.has_full_feedforward() {
+        true => {
+            " (with velocity and acceleration feedforward, without which it is many times as large)"
+        }
+        false => "",
+    };
     let (largest, limits) = (&file.largest, &file.limits);
     format!(
         "\nlargest on any of them: speed {} of {} {speed}; force {} of {} {force}, rms {} of {}, at its limit {} of the time; \
-         following error {} {length}\nabort above a following error of {} {length}, a force of {} {force}, a speed of {} {speed}\n",
+         following error {} {length}\nabort above a following error of {} {length}{follows}, a force of {} {force}, a speed of {} {speed}\n",
         short(largest.speed),
         short(limits.speed),
         short(largest.force),

@@ -34,7 +34,8 @@ pub(super) fn carry(job: &Job) -> Carried {
         text,
         note: format!(
             "{strokes} strokes of constant feed between the reversals of the motion, in {unit}: acceleration and jerk are those of \
-             the control, sines become strokes, and what the table above expects does not hold; look at the log with stiction check"
+             the control, sines become strokes, and what the table above expects does not hold; look at the log with stiction check; {}",
+            job.counts_from()
         ),
     }
 }

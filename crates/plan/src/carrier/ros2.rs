@@ -35,18 +35,50 @@ pub(super) fn carry(job: &Job) -> Carried {
             nanoseconds % 1_000_000_000
         );
     }
+    let [acceleration, jerk] = largest(job, 1e-3 * ms);
     Carried {
         carrier: Carrier::Ros2,
         text,
         note: format!(
-            "points every {} ms in {}; the quintics between them are off by at most {} {}; {}",
+            "points every {} ms in {}; the quintics between them are off by at most {} {}, with accelerations up to {} {}/s2 and jerks up to {} \
+             {}/s3 between points, where the limits of jerk and acceleration do not hold to the last part; {}",
             short(ms),
             job.length(),
             short(off),
             job.length(),
+            short(acceleration),
+            job.length(),
+            short(jerk),
+            job.length(),
             job.counts_from()
         ),
     }
+}
+
+/// Places of a quintic at which its derivatives are looked at.
+const PLACES: usize = 16;
+
+/// Largest acceleration, m/s^2 (rad/s^2), and jerk, m/s^3 (rad/s^3), of the quintics between points.
+fn largest(job: &Job, step: f64) -> [f64; 2] {
+    let mut most = [0.0_f64; 2];
+    let rows = piecewise::rows(job, step);
+    for [a, b] in rows.windows(2).map(|pair| [&pair[0].1, &pair[1].1]) {
+        let way = (b.position - a.position) / step;
+        let [v, w] = [a.velocity, b.velocity];
+        let [p, q] = [step * a.acceleration, step * b.acceleration];
+        // Coefficients of the third to the fifth power of s = t/step, of the position over step.
+        let third = 10.0 * way - 6.0 * v - 4.0 * w - 1.5 * p + 0.5 * q;
+        let fourth = -15.0 * way + 8.0 * v + 7.0 * w + 1.5 * p - q;
+        let fifth = 6.0 * way - 3.0 * (v + w) + 0.5 * (q - p);
+        for k in 0..=PLACES {
+            let s = k as f64 / PLACES as f64;
+            let bend = p + 6.0 * third * s + 12.0 * fourth * s * s + 20.0 * fifth * s * s * s;
+            let turn = 6.0 * third + 24.0 * fourth * s + 60.0 * fifth * s * s;
+            most[0] = most[0].max((bend / step).abs());
+            most[1] = most[1].max((turn / (step * step)).abs());
+        }
+    }
+    most
 }
 
 /// The polynomial of degree five with position, velocity and acceleration of two rows, `t` seconds after the first.

@@ -9,6 +9,7 @@ use stiction_files::result::{CauseEntry, Cure, Next};
 use stiction_identify::{Misfit, Swing, explained_by_gravity};
 use stiction_log::Motion;
 use stiction_number::Percent;
+use stiction_parameters::Quantity;
 
 /// What takes a weight into the fit.
 const LINE: &str = "gravity = true";
@@ -16,6 +17,10 @@ const LINE: &str = "gravity = true";
 /// What lays a force from another file upon the motion.
 const ANOTHER_CLOCK: &str = "the force comes from another file, whose clock may be another: set offset = \"estimate\" beside its file \
      under [columns]";
+
+/// What turns a force round.
+const TURNED: &str = "inertia, Coulomb and viscous friction would all have to be negative: the force has the other sign than the motion; set \
+     invert = true beside its column under [columns]";
 
 /// Relative error of a fit, percent, above which something else than friction and inertia is looked for: a quarter.
 const MUCH_LEFT_PERCENT: f64 = 25.0;
@@ -58,6 +63,8 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     let enable = found(Code::EnableIgnored).filter(|_| poor);
     if let Some(finding) = found(Code::ForceSign).or(enable) {
         reasons.push(finding.message.clone(), Next::AxisFile);
+    } else if poor && all_negative(evidence) {
+        reasons.push(TURNED.to_string(), Next::AxisFile);
     } else if poor && evidence.sources.iter().any(|s| s.log.force_as_stamped) {
         reasons.push(ANOTHER_CLOCK.to_string(), Next::AxisFile);
     } else if poor && let Some(part) = like_gravity(evidence).filter(|part| *part > least) {
@@ -69,6 +76,20 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
         return true;
     }
     false
+}
+
+/// Whether inertia and each friction of a law that has both come out at nothing, as where the force has the other sign.
+fn all_negative(evidence: &Evidence) -> bool {
+    let parameters = || evidence.law.parameters.iter().filter(|p| p.identified);
+    let none = |quantity: Quantity| {
+        let mut own = parameters()
+            .filter(|p| p.name.quantity == quantity)
+            .peekable();
+        own.peek().is_some() && own.all(|p| p.value <= 0.0)
+    };
+    [Quantity::Mass, Quantity::Coulomb, Quantity::Sigma2]
+        .into_iter()
+        .all(none)
 }
 
 /// Gravity as the cause of friction that is another in each direction, or of what is left, where a law explains the force well.

@@ -51,11 +51,12 @@ pub(super) fn into_outcome(plan: &ReadPlan, outcome: &mut Outcome) {
         pieces,
         parameters,
     };
-    let scale = best.as_ref().and_then(|(_, found)| scaled(plan, found));
+    let size = best.as_ref().and_then(|(_, found)| found.size);
+    let size = size.filter(|times| (times - 1.0).abs() > ANOTHER_SIZE);
     result.warnings.extend(differs(&entry));
     result
         .warnings
-        .extend(scale.map(|scale| of_another_size(&entry, scale)));
+        .extend(size.map(|times| of_another_size(&entry, times)));
     result.planned = Some(entry);
 }
 
@@ -64,28 +65,15 @@ fn whole(found: &Recognised) -> usize {
     pieces.filter(|piece| piece.how == How::Whole).count()
 }
 
-/// Part by which the way of the largest piece may differ from the planned one: any axis that may be used follows that.
+/// Part by which the way of a log may differ from the planned one: any axis that may be used follows that.
 const ANOTHER_SIZE: f64 = 0.1;
 
-/// How many times as far as planned the axis went in the largest piece that it ran, and the number of that, where it is another way.
-fn scaled(plan: &ReadPlan, found: &Recognised) -> Option<(usize, f64)> {
-    let size = |atom: &stiction_plan::Atom| {
-        let [low, high] = atom.extremes().position;
-        high - low
-    };
-    let ran = plan.motion.atoms().iter().zip(&found.pieces).enumerate();
-    let whole = ran.filter(|(_, (_, ran))| ran.how == How::Whole);
-    let (at, (_, largest)) = whole.max_by(|a, b| size(a.1.0).total_cmp(&size(b.1.0)))?;
-    let is_another = (largest.followed - 1.0).abs() > ANOTHER_SIZE;
-    is_another.then_some((at + 1, largest.followed))
-}
-
-fn of_another_size(entry: &PlannedEntry, (piece, times): (usize, f64)) -> Warning {
+fn of_another_size(entry: &PlannedEntry, times: f64) -> Warning {
     let said = format!(
-        "in piece {piece}, the largest of {}, the position of the log goes {} times as far as planned: its unit or scale in the axis file is \
-         another than that of the set points, or something else was run; masses, stiffnesses and speeds are wrong by as much",
-        entry.path,
-        four_digits(times)
+        "the position of the log goes {} times as far as the motion of {}: its unit or scale in the axis file is another than that of the \
+         set points, or something else was run; masses, stiffnesses and speeds are wrong by as much",
+        four_digits(times),
+        entry.path
     );
     Warning::new(Code::PlanDiffers, said)
 }

@@ -15,6 +15,7 @@ use stiction_files::plan::{
     PlanFile, RangeEntry, RigEntry, SCHEMA,
 };
 use stiction_friction::ParamError;
+use stiction_identify::LEAST_HALF_WIDTH;
 use stiction_parameters::LawKind;
 use stiction_plan::{
     Aim, Atom, Belief, Candidate, Choice, Entry, HandMade, Limits, Motion, Nameplate, Peaks,
@@ -171,6 +172,7 @@ pub(super) fn design(
         .into(),
         motion: name.into(),
         duration: best.motion.duration(),
+        start: given.start,
         axes: [axes.len(), fresh],
         simulated,
         evaluations,
@@ -429,26 +431,32 @@ fn percent(deviation: f64) -> f64 {
     100.0 * TRUST * deviation
 }
 
-/// Half of a 95 % interval, percent, of a predicted deviation.
+/// Half of a 95 % interval, percent, of a predicted deviation; no identification states less than its least.
 pub(super) fn half_interval(deviation: f64) -> f64 {
-    HALF_INTERVAL * percent(deviation)
+    (HALF_INTERVAL * percent(deviation)).max(100.0 * LEAST_HALF_WIDTH)
 }
 
 /// What is expected of each parameter.
 fn expected(found: &Judged, subject: &Subject) -> Vec<ExpectedEntry> {
     let names = subject.names();
     let entry = |(parameter, name): (usize, String)| {
-        let at = |part: f64| percent(found.expected.quantile(parameter, part));
+        let deviation = |part: f64| found.expected.quantile(parameter, part);
+        let at = |part: f64| percent(deviation(part));
         let term = parameter.checked_sub(subject.first_term());
         let term = term.and_then(|term| subject.terms.get(term));
+        // A term in parts of another parameter may be as small as it likes.
+        let interval = |part: f64| match term {
+            None => half_interval(deviation(part)),
+            Some(_) => HALF_INTERVAL * at(part),
+        };
         ExpectedEntry {
             name,
             of: term.map(|_| "coulomb".into()),
             at: term.map(|term| term.reach),
             std_percent: at(0.5),
             std90_percent: at(0.9),
-            interval_percent: HALF_INTERVAL * at(0.5),
-            interval90_percent: HALF_INTERVAL * at(0.9),
+            interval_percent: interval(0.5),
+            interval90_percent: interval(0.9),
         }
     };
     names.into_iter().enumerate().map(entry).collect()

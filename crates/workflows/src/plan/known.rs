@@ -68,8 +68,8 @@ pub(super) fn told(
             }
             Ok(Told {
                 doubt: (!model.model.trustworthy).then(|| {
-                    let text = "the identification flagged it as not trustworthy: see its report";
-                    doubt(file, text)
+                    let why = "the identification flagged it as not trustworthy: see its report";
+                    doubt(file, &format!("{why}. {FIRST}"))
                 }),
                 model: model.model,
                 file: file.clone(),
@@ -112,32 +112,33 @@ pub(super) fn told(
     }
 }
 
-/// Why a first log has to be read in another way before anything is planned from it. What its motion leaves open is no reason: a plan is
-/// for that.
+/// What has to be set right in how a first log is read before anything is planned from it, or what no motion takes out. What its motion
+/// leaves open is no reason: a plan is for that.
 fn misread(trust: &Trust) -> Option<String> {
-    let cured = trust.cause.as_ref().and_then(|cause| {
-        let Cure::Line { table, line, .. } = cause.cure.as_ref()? else {
-            return None;
-        };
-        let text = format!(
-            "{} ({}); under [{table}] of the axis file `{line}`",
-            cause.text, cause.size
-        );
-        Some(text)
+    let of_cause = trust.cause.as_ref().and_then(|cause| {
+        let found = format!("{} ({})", cause.text, cause.size);
+        match cause.cure.as_ref() {
+            Some(Cure::Line { table, line, .. }) => {
+                let line = format!("{found}; write {line} under [{table}] of the axis file");
+                Some(format!("{line}. {FIRST}"))
+            }
+            Some(Cure::Law { .. }) => None,
+            None => Some(format!(
+                "{found}, which no motion takes out: intervals will be wider than is expected here"
+            )),
+        }
     });
-    let refused = trust
-        .reasons
-        .first()
-        .filter(|_| trust.next == Next::AxisFile);
-    cured.or(refused.cloned())
+    let reasons = trust.reasons.iter();
+    let mut reasons = reasons.filter(|_| trust.next == Next::AxisFile);
+    of_cause.or_else(|| Some(format!("{}. {FIRST}", reasons.next()?)))
 }
 
+/// What is done all the same.
+const FIRST: &str =
+    "The motion is planned for what it says all the same: set that right first, then plan again";
+
 fn doubt(file: &Path, why: &str) -> Warning {
-    let file = file.display();
-    let text = format!(
-        "{file}: {why}. The motion is planned for what it says all the same: set that right first, then plan again"
-    );
-    Warning::new(Code::ModelInDoubt, text)
+    Warning::new(Code::ModelInDoubt, format!("{}: {why}", file.display()))
 }
 
 /// Largest relative deviation with which a parameter counts as determined.
