@@ -65,9 +65,13 @@ const WITHIN: f64 = 0.3;
 /// Part of a duration that has to be free for a piece that does not show itself: its neighbours, where friction leads them, are found
 /// up to a tenth of a second beside where they are.
 const ROOM: f64 = 0.7;
-/// Least and largest pace that is tried, and the ratio between them.
-const PACES: [f64; 2] = [0.02, 3.0];
-const PACE_STEP: f64 = 1.02;
+/// Least and largest pace that is tried, and the ratio between them; the same of a log that is like the motion at its own.
+const PACES: [f64; 3] = [0.02, 3.0, 1.02];
+const NEAR_PACES: [f64; 3] = [0.8, 1.25, 1.005];
+/// By how much a pace may be off for the motion to have run at its own, as by another clock.
+const SAME_PACE: f64 = 0.01;
+/// Part of what is unlike at its own pace that is unlike at another at which it surely ran.
+const BETTER: f64 = 0.3;
 
 /// Finds a motion in the position of a log, or better in its set point: times in s, rising, and as many positions, in m (rad),
 /// counted from anywhere. `None` where nothing of it is there, at any pace.
@@ -84,14 +88,15 @@ pub fn recognise(motion: &Motion, time: &[f64], position: &[f64]) -> Option<Reco
     let work = |rate: f64| rate * rate * seconds * motion.duration();
     let rate = RATE.min(RATE * libm::sqrt(WORK / work(RATE)));
     let place = placed(&log(rate), &Course::of(motion, 1.0, rate));
-    // Strokes of a slower run are like those of a faster one in part.
-    let other = match place.alike >= CLEARLY_RAN {
-        true => None,
-        false => other_pace(motion, &log, work(RATE)),
+    // Strokes of a slower run are like those of a faster one in part, and near its own pace the whole is like it.
+    let is_clear = place.alike >= CLEARLY_RAN;
+    let [least, most, step] = if is_clear { NEAR_PACES } else { PACES };
+    let needed = match is_clear {
+        true => 1.0 - BETTER * (1.0 - place.alike),
+        false => ALIKE.max(place.alike),
     };
-    if let Some((pace, alike)) = other
-        && alike >= ALIKE.max(place.alike)
-    {
+    let other = other_pace(motion, &log, work(RATE), [least, most, step]);
+    if let Some((pace, _)) = other.filter(|(_, alike)| *alike >= needed) {
         return Some(Recognised {
             pace,
             pieces: Vec::new(),
@@ -112,16 +117,21 @@ pub fn recognise(motion: &Motion, time: &[f64], position: &[f64]) -> Option<Reco
 }
 
 /// The pace other than 1 at which a motion is most like a log, as a whole, and how much; `work` is that of the two at [`RATE`].
-fn other_pace(motion: &Motion, log: &impl Fn(f64) -> Course, work: f64) -> Option<(f64, f64)> {
+fn other_pace(
+    motion: &Motion,
+    log: &impl Fn(f64) -> Course,
+    work: f64,
+    [least, most, step]: [f64; 3],
+) -> Option<(f64, f64)> {
     let rate = RATE.min(RATE * libm::sqrt(WORK_OF_PACE / work));
     let coarse = log(rate);
     let mut paces = Vec::new();
-    let mut pace = PACES[0];
-    while pace <= PACES[1] {
-        if (pace - 1.0).abs() > PACE_STEP - 1.0 {
+    let mut pace = least;
+    while pace <= most {
+        if (pace - 1.0).abs() > SAME_PACE {
             paces.push(pace);
         }
-        pace *= PACE_STEP;
+        pace *= step;
     }
     let tried = paces.into_iter().map(|pace| {
         // As a whole: parts of other motions are like parts of it at some pace.

@@ -609,6 +609,28 @@ fn a_log_is_put_beside_its_plan() {
     let result = std::fs::read_to_string(at.join("out/result.json")).unwrap();
     let result: serde_json::Value = serde_json::from_str(&result).unwrap();
     assert_eq!(result["planned"]["path"], "plan/plan.toml");
+    // Run on from where it is said: both logs show all of it.
+    let after = "from t = ";
+    let from = said.find(after).unwrap() + after.len();
+    let from: f64 = said[from..].split(' ').next().unwrap().parse().unwrap();
+    let rest: Vec<[f64; 4]> = (rows.iter().filter(|row| row[0] >= from).copied()).collect();
+    std::fs::write(at.join("rest.csv"), log(&rest)).unwrap();
+    let mut all = vec![
+        "identify",
+        "half.csv",
+        "rest.csv",
+        "--axis",
+        "axis.toml",
+        "--law",
+    ];
+    all.extend(["stribeck", "--plan", "plan/plan.toml", "--out", "both"]);
+    let (_, said, _) = run(at, &all);
+    assert!(!said.contains("plan-differs"), "{said}");
+    assert!(
+        said.contains("whole in half.csv and rest.csv")
+            || said.contains("whole in rest.csv and half.csv"),
+        "{said}"
+    );
 
     // Positions or forces in another unit than the axis file says.
     let scaled = |of_position: f64, of_force: f64| {

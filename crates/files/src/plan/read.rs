@@ -14,8 +14,9 @@ const LONGEST: f64 = 3600.0;
 /// Most pieces: those of a motion of ten minutes.
 const MOST_PIECES: usize = 10_000;
 const MOST_PARAMETERS: usize = 100;
-/// Largest number that is read.
+/// Largest number that is read, and largest frequency of a sine, Hz, which is looked at period by period.
 const LARGEST: f64 = 1e12;
+const LARGEST_FREQUENCY: f64 = 1e3;
 
 /// A plan that was carried out.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,9 +142,9 @@ impl Most {
             .ok_or_else(|| table.refused("stroke", "two numbers, the larger one last"))?;
         Ok(Most {
             stroke: [low, high],
-            speed: number(table, "speed")?,
-            acceleration: number(table, "acceleration")?,
-            jerk: number(table, "jerk")?,
+            speed: above(table, "speed")?,
+            acceleration: above(table, "acceleration")?,
+            jerk: above(table, "jerk")?,
         })
     }
 
@@ -205,6 +206,11 @@ fn percent(table: &Table, key: &'static str) -> Result<f64, Error> {
     )
 }
 
+fn above(table: &Table, key: &'static str) -> Result<f64, Error> {
+    let found = table.number(key, f64::MIN_POSITIVE, LARGEST)?;
+    table.required(key, found, "a number above 0")
+}
+
 fn number(table: &Table, key: &'static str) -> Result<f64, Error> {
     table.required(key, table.number(key, -LARGEST, LARGEST)?, "a number")
 }
@@ -216,7 +222,10 @@ fn atom(table: &Table) -> Result<Atom, Error> {
         match table.required("kind", kind, "\"sine\" or \"move\"")? {
             "sine" => Atom::Sine {
                 amplitude: number("amplitude")?,
-                frequency: number("frequency")?,
+                frequency: {
+                    let found = table.number("frequency", 0.0, LARGEST_FREQUENCY)?;
+                    table.required("frequency", found, "a number")?
+                },
                 duration: number("duration")?,
                 fade_in: number("fade_in")?,
                 fade_out: number("fade_out")?,

@@ -133,12 +133,9 @@ pub(super) fn columns(
     if let Some(hertz) = given.rate_hz {
         let stamps = scan.pick(Role::Time).ok().flatten();
         let stamps = stamps.map(|column| (column, scan.units[column].as_ref()));
-        let in_a_unit = stamps.and_then(|(column, unit)| Some((column, unit?)));
-        let missing = in_a_unit.and_then(|stamps| {
-            Some((
-                stamps.0,
-                rate::missing_rows(table, stamps, (hertz, given.crop))?,
-            ))
+        let missing = stamps.and_then(|stamps| {
+            let finding = rate::missing_rows(table, stamps, (hertz, given.crop))?;
+            Some((stamps.0, finding))
         });
         match missing {
             Some((column, finding)) => {

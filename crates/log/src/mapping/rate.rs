@@ -48,19 +48,28 @@ const BESIDE: usize = 5;
 /// Rows by which stamps go on later than they were before from which on a row is missing there.
 const A_ROW: f64 = 0.6;
 
-/// What there is to say where rows are missing between the stamps of a column in a written unit, as they show beside a rate (Hz) that
+/// What there is to say where rows are missing between the stamps of a column, as they show beside a rate (Hz) that
 /// agrees with them otherwise: a rate does not count these, and the stamps are read. `None` where none is missing, and of a clock that is
 /// too coarse to be read.
 pub(super) fn missing_rows(
     table: &Table,
-    (column, unit): (usize, &Unit),
+    (column, unit): (usize, Option<&Unit>),
     (rate, crop): (f64, Option<(f64, f64)>),
 ) -> Option<Finding> {
+    // Of stamps without a unit only seconds are what is assumed when they are read.
+    let seconds = Unit::parse(UNITS[0]).ok()?;
+    let unit = unit.unwrap_or(&seconds);
     let steps = Steps::of(table, column).filter(|steps| steps.agree(rate, unit))?;
     if Rounded::of(table, column, unit, (rate, crop)).is_some() {
         return None;
     }
     let stamps = &table.columns[column].values;
+    // Stamps that are late go on where they were; where rows are missing there are fewer than the time has at that rate.
+    let span = unit.factor() * (stamps.last()? - stamps.first()?) * rate;
+    let fewer = span - (stamps.len() - 1) as f64;
+    if fewer.is_nan() || fewer < A_ROW {
+        return None;
+    }
     let off = |row: usize| stamps[row] / steps.usual - row as f64;
     // A stretch on which single stamps jitter stands where its middle one does.
     let place = |rows: Range<usize>| {
@@ -68,8 +77,11 @@ pub(super) fn missing_rows(
         median(&mut all)
     };
     let jump = |row: &usize| {
+        if row + BESIDE > stamps.len() {
+            return false;
+        }
         let before = place(row.saturating_sub(BESIDE)..*row);
-        let after = place(*row..(row + BESIDE).min(stamps.len()));
+        let after = place(*row..row + BESIDE);
         before
             .zip(after)
             .is_some_and(|(before, after)| after - before > A_ROW)

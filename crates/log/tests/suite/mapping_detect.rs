@@ -763,6 +763,16 @@ fn rows_that_are_missing_beside_a_rate_are_counted_by_their_stamps() {
     let whole = read(&|_| false, 0.8);
     assert!(!codes(&whole).contains(&"rate-override"));
     assert!((whole.time[4000] - 4.0).abs() < 1e-12);
+    // Ten rows that were stamped together, late, are all there.
+    let mut table = axis(8000).table();
+    let late = |i: usize| if (3000..3010).contains(&i) { 3010 } else { i };
+    table.columns[0] = column("time [ms]", (0..8000).map(|i| late(i) as f64).collect());
+    let mapping = Mapping {
+        rate_hz: Some(1000.0),
+        ..Mapping::default()
+    };
+    let together = Log::from_table(&table, &mapping).unwrap();
+    assert_eq!(together.time.len(), 8000);
 }
 
 /// Every column of a file, what it became and why.

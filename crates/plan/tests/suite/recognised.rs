@@ -125,7 +125,7 @@ fn what_is_not_there_is_said() {
 fn another_pace_and_another_motion_are_told_apart() {
     let motion = Motion::new(atoms()).unwrap();
     let parts: Vec<_> = atoms().into_iter().map(|atom| (0.0, atom)).collect();
-    for pace in [0.3, 0.5] {
+    for pace in [0.3, 0.5, 0.9, 1.03, 1.1] {
         let (time, position) = log(&parts, pace, 1e-5);
         let found = recognise(&motion, &time, &position).unwrap();
         assert!((found.pace / pace - 1.0).abs() < 0.03, "{found:?}");

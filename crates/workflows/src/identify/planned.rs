@@ -36,22 +36,22 @@ pub(super) fn into_outcome(plan: &ReadPlan, outcome: &mut Outcome) {
         let position = log.reference.as_ref().or(log.position.as_ref())?;
         Some((source, recognise(&plan.motion, &log.time, position)?))
     });
-    let best = found.max_by_key(|(_, found)| whole(found));
+    let mut found: Vec<(&Source, Recognised)> = found.collect();
+    // Those that show most of it first; at equal numbers the first given.
+    found.sort_by_key(|(_, found)| std::cmp::Reverse(whole(found)));
+    let best = found.first();
     let result = &mut outcome.result;
     let parameters = parameters(plan, result);
-    let pieces = best.as_ref().map_or(Vec::new(), |(source, found)| {
-        let first = source.log.time.first().copied().unwrap_or(0.0);
-        pieces(plan, found, first)
-    });
+    let (names, pieces) = together(plan, &found);
     let entry = PlannedEntry {
         path: stiction_files::shell::text(&plan.file),
         sha256: plan.sha256.clone(),
-        log: best.as_ref().map(|(source, _)| source.name()),
-        pace: best.as_ref().map(|(_, found)| found.pace),
+        log: best.map(|_| names.join(" and ")),
+        pace: best.map(|(_, found)| found.pace),
         pieces,
         parameters,
     };
-    let size = best.as_ref().and_then(|(_, found)| found.size);
+    let size = best.and_then(|(_, found)| found.size);
     let size = size.filter(|times| (times - 1.0).abs() > ANOTHER_SIZE);
     result.warnings.extend(differs(&entry));
     result
@@ -76,6 +76,37 @@ fn of_another_size(entry: &PlannedEntry, times: f64) -> Warning {
         entry.path
     );
     Warning::new(Code::PlanDiffers, said)
+}
+
+/// The pieces that logs show together, a motion that was stopped having been run on in another one, and the names of those that show any.
+fn together(plan: &ReadPlan, found: &[(&Source, Recognised)]) -> (Vec<String>, Vec<PieceEntry>) {
+    let rank = |entry: &PieceEntry| match entry.status.as_str() {
+        "whole" => 2,
+        "cut-short" => 1,
+        _ => 0,
+    };
+    let (mut names, mut all): (Vec<String>, Vec<PieceEntry>) = Default::default();
+    for (source, found) in found.iter().filter(|(_, found)| found.pace == 1.0) {
+        let first = source.log.time.first().copied().unwrap_or(0.0);
+        let own = pieces(plan, found, first);
+        if all.is_empty() {
+            (names, all) = (vec![source.name()], own);
+            continue;
+        }
+        let mut more = false;
+        for (known, own) in all.iter_mut().zip(own) {
+            if rank(&own) > rank(known) {
+                (*known, more) = (own, true);
+            }
+        }
+        if more {
+            names.push(source.name());
+        }
+    }
+    match found.first() {
+        Some((source, _)) if names.is_empty() => (vec![source.name()], all),
+        _ => (names, all),
+    }
 }
 
 fn pieces(plan: &ReadPlan, found: &Recognised, first: f64) -> Vec<PieceEntry> {
