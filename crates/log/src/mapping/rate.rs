@@ -87,7 +87,12 @@ pub(super) fn missing_rows(
             .is_some_and(|(before, after)| after - before > A_ROW)
     };
     let is_long = |row: &usize| off(*row) - off(*row - 1) > A_ROW;
-    let first = (1..stamps.len()).filter(is_long).find(jump)?;
+    let jumps: Vec<usize> = (1..stamps.len()).filter(is_long).filter(jump).collect();
+    let first = *jumps.first()?;
+    // Each would be a row or more.
+    if fewer < A_ROW * jumps.len() as f64 {
+        return None;
+    }
     let message = format!(
         "rows are missing between the stamps of {}, first at {} s, which rate = \"{} Hz\" of axis.toml does not count: the stamps are read, \
          and not the rate",
