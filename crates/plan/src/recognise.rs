@@ -76,8 +76,8 @@ const BETTER: f64 = 0.3;
 /// Finds a motion in the position of a log, or better in its set point: times in s, rising, and as many positions, in m (rad),
 /// counted from anywhere. `None` where nothing of it is there, at any pace.
 ///
-/// It costs the product of both durations times a rate of at most 200 Hz squared, at most 2e8 steps, and a fiftieth of that for
-/// each of 250 paces where it did not run as planned.
+/// It costs the product of both durations times a rate of at most 200 Hz squared, at most 2e8 steps, and at most a fiftieth of that
+/// for each of 90 paces near its own, or of 250 where it is not clearly there.
 pub fn recognise(motion: &Motion, time: &[f64], position: &[f64]) -> Option<Recognised> {
     let whole = [*time.first()?, *time.last()?];
     let seconds = whole[1] - whole[0];

@@ -732,7 +732,7 @@ fn a_wish_is_granted_or_it_is_said_what_would() {
     assert!(said.contains("wanted mass +-5 %: expected +-"), "{said}");
     let short: f64 = said.split(' ').next().unwrap().parse().unwrap();
     assert!(short <= 3.0, "{said}");
-    let (code, said, _) = plan("all < 0.05 %", "3s", "hard");
+    let (code, said, _) = plan("all < 0.01 %", "3s", "hard");
     assert_eq!(code, 1, "{said}");
     assert!(
         said.contains("the best in this time")

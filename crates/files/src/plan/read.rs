@@ -118,6 +118,8 @@ impl ReadPlan {
 
 /// Part of a limit, and of a time, that rounding of a file makes of it.
 const ROUNDED: f64 = 1e-6;
+/// Part by which the bound of an extreme may lie above it: that of a sine on its grid.
+const BOUNDED: f64 = 2e-3;
 
 /// What the pieces of a plan may reach.
 struct Most {
@@ -150,10 +152,11 @@ impl Most {
 
     /// Refuses a piece that goes beyond: an axis that follows a file like this one would.
     fn hold(&self, table: &Table, atom: &Atom) -> Result<(), Error> {
-        let (size, found) = match atom {
-            Atom::Sine { .. } => ("amplitude", atom.extremes()),
-            Atom::Move { .. } => ("distance", atom.extremes()),
+        let size = match atom {
+            Atom::Sine { .. } => "amplitude",
+            Atom::Move { .. } => "distance",
         };
+        let found = atom.extremes();
         let [low, high] = self.stroke;
         let beyond = [
             ("stroke", -found.position[0], -low),
@@ -162,10 +165,8 @@ impl Most {
             ("acceleration", found.acceleration, self.acceleration),
             ("jerk", found.jerk, self.jerk),
         ];
-        // Beside the part by which extremes are bounded from above.
-        let wide = 1.0 + 2e-3;
         let Some((limit, reached, most)) = (beyond.into_iter())
-            .find(|(_, reached, most)| *reached > wide * most + ROUNDED * reached.abs())
+            .find(|(_, reached, most)| *reached > (1.0 + BOUNDED) * most + ROUNDED * reached.abs())
         else {
             return Ok(());
         };

@@ -6,6 +6,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_files::plan::PlanFile;
 use stiction_files::shell::{quoted, quoted_path, text};
+use stiction_identify::LEAST_HALF_WIDTH;
 use stiction_number::{Percent, four_digits as short, unit};
 use stiction_workflows::plan::{Known, Planned};
 
@@ -232,6 +233,9 @@ fn expected(file: &PlanFile) -> String {
 /// Longest motion that is planned, s.
 const LONGEST: f64 = stiction_workflows::plan::TIMES[1];
 
+/// Least half of a 95 % interval that an identification states, percent.
+const LEAST: f64 = 100.0 * LEAST_HALF_WIDTH;
+
 /// Each wish, whether it is granted, and what would grant it.
 fn wanted(planned: &Planned, axis: &Path, written: &Path) -> String {
     let file = &planned.file;
@@ -243,15 +247,20 @@ fn wanted(planned: &Planned, axis: &Path, written: &Path) -> String {
             wish.name,
             within(wish.percent),
             within(wish.expected90_percent),
-            if wish.met {
-                ""
-            } else {
-                ", the best in this time"
+            match (wish.met, wish.percent < LEAST) {
+                (true, _) => String::new(),
+                (false, false) => ", the best in this time".into(),
+                (false, true) => format!(
+                    ", the best in this time; no identification states less than {}",
+                    within(LEAST)
+                ),
             }
         );
     }
     let lacking = file.wanted.iter().filter(|wish| !wish.met);
-    let shares = lacking.map(|wish| wish.expected90_percent / wish.percent);
+    // No motion brings one below the least.
+    let shares = lacking.map(|wish| wish.expected90_percent / wish.percent.max(LEAST));
+    let shares = shares.filter(|share| *share > 1.0);
     let Some(most) = shares.reduce(f64::max) else {
         return out;
     };

@@ -62,41 +62,70 @@ const PLACES: usize = 16;
 fn largest(job: &Job, step: f64) -> [f64; 2] {
     let mut most = [0.0_f64; 2];
     let rows = piecewise::rows(job, step);
-    for [a, b] in rows.windows(2).map(|pair| [&pair[0].1, &pair[1].1]) {
-        let way = (b.position - a.position) / step;
-        let [v, w] = [a.velocity, b.velocity];
-        let [p, q] = [step * a.acceleration, step * b.acceleration];
-        // Coefficients of the third to the fifth power of s = t/step, of the position over step.
-        let third = 10.0 * way - 6.0 * v - 4.0 * w - 1.5 * p + 0.5 * q;
-        let fourth = -15.0 * way + 8.0 * v + 7.0 * w + 1.5 * p - q;
-        let fifth = 6.0 * way - 3.0 * (v + w) + 0.5 * (q - p);
+    for pair in rows.windows(2) {
+        let [_, second, third, fourth, fifth] = powers([&pair[0].1, &pair[1].1], step);
         for k in 0..=PLACES {
             let s = k as f64 / PLACES as f64;
-            let bend = p + 6.0 * third * s + 12.0 * fourth * s * s + 20.0 * fifth * s * s * s;
-            let turn = 6.0 * third + 24.0 * fourth * s + 60.0 * fifth * s * s;
-            most[0] = most[0].max((bend / step).abs());
-            most[1] = most[1].max((turn / (step * step)).abs());
+            let bend = 2.0 * second + s * (6.0 * third + s * (12.0 * fourth + s * 20.0 * fifth));
+            let turn = 6.0 * third + s * (24.0 * fourth + s * 60.0 * fifth);
+            most[0] = most[0].max((bend / (step * step)).abs());
+            most[1] = most[1].max((turn / (step * step * step)).abs());
         }
     }
     most
 }
 
 /// The polynomial of degree five with position, velocity and acceleration of two rows, `t` seconds after the first.
-fn quintic([a, b]: [&Instant; 2], step: f64, t: f64) -> f64 {
+fn quintic(rows: [&Instant; 2], step: f64, t: f64) -> f64 {
     let s = t / step;
-    let r = 1.0 - s;
-    // Hermite's basis: what belongs to the second row is that of the first seen from the end, with the velocity backwards.
-    let basis = |s: f64, r: f64| {
-        let cube = r * r * r;
-        [
-            cube * (1.0 + 3.0 * s + 6.0 * s * s),
-            cube * s * (1.0 + 3.0 * s),
-            0.5 * cube * s * s,
-        ]
-    };
-    let (p, q) = (basis(s, r), basis(r, s));
-    p[0] * a.position
-        + q[0] * b.position
-        + step * (p[1] * a.velocity - q[1] * b.velocity)
-        + step * step * (p[2] * a.acceleration + q[2] * b.acceleration)
+    let way = powers(rows, step);
+    rows[0].position + way.iter().rev().fold(0.0, |sum, power| s * (sum + power))
+}
+
+/// Its coefficients of the first to the fifth power of t/step, m (rad).
+fn powers([a, b]: [&Instant; 2], step: f64) -> [f64; 5] {
+    let way = b.position - a.position;
+    let [v, w] = [step * a.velocity, step * b.velocity];
+    let [p, q] = [a.acceleration, b.acceleration].map(|x| step * step * x);
+    [
+        v,
+        0.5 * p,
+        10.0 * way - 6.0 * v - 4.0 * w - 1.5 * p + 0.5 * q,
+        -15.0 * way + 8.0 * v + 7.0 * w + 1.5 * p - q,
+        6.0 * way - 3.0 * (v + w) + 0.5 * (q - p),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::atom::Atom;
+    use crate::motion::Motion;
+
+    /// Between close points a quintic accelerates and jerks as the motion does, beside what steps of the jerk make of it.
+    #[test]
+    fn close_points_have_the_extremes_of_the_motion() {
+        let (fade_in, fade_out) = (0.4, 0.4);
+        let sine = Atom::Sine {
+            amplitude: 1e-3,
+            frequency: 5.0,
+            duration: 1.0,
+            fade_in,
+            fade_out,
+        };
+        let motion = Motion::new(vec![sine]).unwrap();
+        let job = Job {
+            motion: &motion,
+            identifier: "x",
+            rotary: false,
+            rate: 1e3,
+            resolution: 1e-6,
+            start: 0.12,
+        };
+        let [acceleration, jerk] = largest(&job, 1e-3);
+        let due = sine.extremes();
+        assert!((acceleration / due.acceleration - 1.0).abs() < 0.01);
+        assert!((jerk / due.jerk - 1.0).abs() < 0.01, "{jerk} {}", due.jerk);
+        assert!(piecewise::off(&job, 1e-3, quintic) < 1e-11);
+    }
 }

@@ -3,7 +3,6 @@
 use super::design::half_interval;
 use crate::error::Error;
 use stiction_files::plan::WantedEntry;
-use stiction_identify::LEAST_HALF_WIDTH;
 use stiction_number::full;
 use stiction_parameters::{Name, Quantity, Side};
 use stiction_plan::{Expected, NAMES, Subject};
@@ -19,8 +18,8 @@ pub struct Want {
 
 /// What stands for every parameter.
 const ALL: &str = "all";
-/// Least and largest wish, percent: no identification states less than the least.
-const RANGE: [f64; 2] = [100.0 * LEAST_HALF_WIDTH, 100.0];
+/// Least and largest wish, percent.
+const RANGE: [f64; 2] = [1e-3, 100.0];
 /// Part of the axes for which a wish is to hold.
 const PART: f64 = 0.9;
 /// Lengths that are tried, s, the shortest that is enough is taken.
