@@ -1,8 +1,8 @@
 //! Instructions of the kernels, of an identification and of whole commands, counted by callgrind, against a snapshot: a
 //! slowdown shows in review, however busy the machine is.
 //!
-//! Counted is the build that the tests run, so that nothing is built for it alone: the numerical crates are optimised
-//! in it as in a release, and its checks of overflow and indices are 2 to 19 % of the instructions.
+//! Counted is the build that the tests run, with one unit a crate (the profile `counted`): the numerical crates are
+//! optimised in it as in a release, and its checks of overflow and indices are 2 to 19 % of the instructions.
 
 use crate::debian;
 use crate::shell::{self, Outcome};
@@ -24,9 +24,7 @@ const WHAT: [&str; 7] = [
 const COMMAND: &str = "command-";
 /// Largest relative difference of a count: the C library picks its copying loops by processor.
 const TOLERANCE: f64 = 0.02;
-/// The same of a whole command: two checkouts of one commit differ by 2 %. Presumably because Cargo hashes the folder into the
-/// names of functions, by which the compiler deals those of most crates out to units that it optimises apart; the crates
-/// of the kernels are one unit each.
+/// The same of a whole command, which also allocates, reads and writes.
 const COMMAND_TOLERANCE: f64 = 0.05;
 const SNAPSHOT: &str = "bench/instructions.txt";
 
@@ -79,7 +77,7 @@ fn counts() -> Result<Option<Vec<u64>>, String> {
     debian::install()?;
     // Of the whole workspace, or features of the dependencies would differ and all of them be built again.
     shell::run(shell::cargo(
-        "build --quiet --workspace --example instructions --example whole_commands",
+        "build --quiet --profile counted --workspace --example instructions --example whole_commands",
     ))?;
     let out = shell::target().join("instructions.callgrind");
     let file = format!("--callgrind-out-file={}", out.display());
@@ -89,7 +87,7 @@ fn counts() -> Result<Option<Vec<u64>>, String> {
                 true => "whole_commands",
                 false => "instructions",
             };
-            let program = shell::target().join("debug/examples").join(example);
+            let program = shell::target().join("counted/examples").join(example);
             let program = program.to_string_lossy();
             let toggle = format!("--toggle-collect=*{example}*counted*");
             let arguments = [

@@ -12,6 +12,7 @@ mod release;
 mod shell;
 mod soak;
 mod test;
+mod times;
 mod tools;
 mod web;
 mod wheel;

@@ -3,7 +3,8 @@
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::Instant;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
 
 /// Nothing, or the message to end with.
 pub type Outcome = Result<(), String>;
@@ -54,6 +55,25 @@ pub fn cargo(arguments: &str) -> Command {
     )
 }
 
+/// Every command run so far, with the time it took.
+static STEPS: Mutex<Vec<(String, Duration)>> = Mutex::new(Vec::new());
+
+/// Prints and keeps the time of a command that has ended.
+fn ended(line: &str, start: Instant) {
+    let time = start.elapsed();
+    println!("    {:.1} s", time.as_secs_f64());
+    if let Ok(mut steps) = STEPS.lock() {
+        steps.push((line.into(), time));
+    }
+}
+
+/// The commands run so far, in the order in which they ended.
+pub fn steps() -> Vec<(String, Duration)> {
+    STEPS
+        .lock()
+        .map_or_else(|_| Vec::new(), |steps| steps.clone())
+}
+
 /// Runs to the end with its output shown, says how long it took, and fails if it failed.
 pub fn run(mut command: Command) -> Outcome {
     let line = describe(&command);
@@ -62,7 +82,7 @@ pub fn run(mut command: Command) -> Outcome {
     let status = command
         .status()
         .map_err(|error| format!("cannot start `{line}`: {error}"))?;
-    println!("    {:.1} s", start.elapsed().as_secs_f64());
+    ended(&line, start);
     if status.success() {
         Ok(())
     } else {
@@ -82,7 +102,7 @@ pub fn run_keeping_errors(mut command: Command) -> Outcome {
         .map_err(|error| format!("cannot start `{line}`: {error}"))?;
     let said = String::from_utf8_lossy(&output.stderr);
     eprint!("{said}");
-    println!("    {:.1} s", start.elapsed().as_secs_f64());
+    ended(&line, start);
     if output.status.success() {
         return Ok(());
     }

@@ -1,20 +1,25 @@
 //! Everything CI checks, the quick refusals first.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{instructions, licences, package, setup, tools, web, wheel};
+use crate::{licences, setup, times, tools, web, wheel};
 use std::thread;
+use std::time::Instant;
 
 /// Every target that has tests; examples and benchmarks are only checked, with the lints.
 const TESTS: &str = "nextest run --workspace --tests --no-fail-fast";
 /// What property tests draw their cases from: the same on every run, so that a change is judged by what it changed. Other
 /// cases are drawn by `soak`.
 const SEED: (&str, &str) = ("PROPTEST_RNG_SEED", "1");
-/// The one crate with features, without them; its tests are run so by `soak`.
-const BARE: &str =
-    "clippy --package stiction-log --no-default-features --all-targets -- -D warnings";
 
-/// Runs all checks and stops at the first that fails.
+/// Runs all checks, stops at the first that fails, and prints where the time went.
 pub fn run() -> Outcome {
+    let start = Instant::now();
+    let outcome = checks();
+    times::print(start.elapsed());
+    outcome
+}
+
+fn checks() -> Outcome {
     shell::run(cargo("fmt --all --check"))?;
     // Installing waits for the network and is not in the way of the compiler.
     let aside = thread::spawn(|| {
@@ -26,7 +31,6 @@ pub fn run() -> Outcome {
         .join()
         .unwrap_or_else(|_| Err("set-up panicked".into()))?;
     built?;
-    instructions::compare()?;
     // One more than there are cores: some tests wait, for LinuxCNC's own clock or for a program that is to be ended.
     let at_once = 1 + thread::available_parallelism().map_or(1, usize::from);
     let tests = format!("{TESTS} --test-threads {at_once}");
@@ -42,12 +46,7 @@ pub fn run() -> Outcome {
 /// What needs the compiler alone.
 fn build() -> Outcome {
     shell::run(cargo("clippy --workspace --all-targets -- -D warnings"))?;
-    shell::run(cargo(BARE))?;
-    let mut doc = cargo("doc --workspace --no-deps");
-    doc.env("RUSTDOCFLAGS", "-D warnings");
-    shell::run(doc)?;
     licences::run()?;
-    package::run()?;
     // With the tests, the library of the Python package: of the same dependencies, which are built once; and the program
     // that its tests compare it with.
     shell::run(cargo("build --workspace --lib --bins --tests"))

@@ -294,6 +294,7 @@ parameter = [
 /// A model of Maxwell-slip elements is planned for as such: an interval for each parameter of each, and reversals that grow inside each
 /// other; limits alone say too little, and what to type is said.
 #[test]
+#[ignore = "soak: a plan for another law"]
 fn a_plan_for_elements_expects_an_interval_of_each() {
     let folder = folder(AXIS);
     let at = folder.path();
@@ -709,6 +710,7 @@ fn a_log_is_put_beside_its_plan() {
 
 /// A wish is granted by the shortest motion that is enough, or it is said what would grant it.
 #[test]
+#[ignore = "soak: several plans"]
 fn a_wish_is_granted_or_it_is_said_what_would() {
     let folder = folder(AXIS);
     let at = folder.path();

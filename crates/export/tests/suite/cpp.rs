@@ -238,6 +238,7 @@ const AVR: &str = "-std=gnu++11 -Os -flto -ffunction-sections -Wl,--gc-sections"
 
 /// The sketches for an AVR, where `fabsf` is `fabs` and both are single, with what they call of the Arduino core; the self-test on a simulated one.
 #[test]
+#[ignore = "soak: free-standing builds run on a simulator"]
 fn the_self_test_passes_on_a_simulated_avr() {
     if !have(&["avr-g++", "simavr"]) {
         return;
@@ -263,6 +264,7 @@ fn the_self_test_passes_on_a_simulated_avr() {
 /// For ARM without an operating system: compiled under every warning for what microcontrollers have, and run where numbers are
 /// computed by hardware, by hardware that rounds a product with its sum once, and by software.
 #[test]
+#[ignore = "soak: free-standing builds run on a simulator"]
 fn the_self_test_passes_on_a_simulated_arm() {
     if !have(&["arm-none-eabi-g++", "qemu-arm"]) {
         return;

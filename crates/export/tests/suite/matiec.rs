@@ -92,6 +92,7 @@ fn lreal_agrees() {
 }
 
 #[test]
+#[ignore = "soak: the same in single precision"]
 fn real_agrees() {
     if let Some(matiec) = matiec() {
         st::real("matiec", |model, samples| {

@@ -566,6 +566,7 @@ fn a_unit_begins_with_its_name() {
 
 /// A second parser, made for TwinCAT's files, takes the text and the objects.
 #[test]
+#[ignore = "soak: a slow parser; iecst and matiec read the same text in every run"]
 fn blark_reads_it() {
     let local = stiction_testkit::workspace().join(".venv/bin/python");
     let python = std::env::var_os("STICTION_PYTHON").map_or(local, PathBuf::from);
