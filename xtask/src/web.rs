@@ -115,7 +115,7 @@ pub fn measure() -> Outcome {
         ),
         row("pyramid of a channel of 1e8 values", &pyramid()?, "1 s"),
     ];
-    let program = shell::target().join("release/stiction");
+    let program = shell::target().join("dist/stiction");
     let guide = shell::root().join(GUIDE);
     let arguments = [
         "test/measure.mjs",
@@ -133,12 +133,12 @@ fn row(what: &str, found: &str, bar: &str) -> String {
     [what, found, bar].join(" | ")
 }
 
-/// Bytes of the release build.
+/// Bytes of the program as archives have it.
 fn program_size(features: &str) -> Result<u64, String> {
     shell::run(shell::cargo(&format!(
-        "build --release --package stiction-cli {features}"
+        "build --profile dist --package stiction-cli {features}"
     )))?;
-    let program = shell::target().join("release/stiction");
+    let program = shell::target().join("dist/stiction");
     let about = fs::metadata(&program).map_err(|e| format!("{}: {e}", program.display()))?;
     Ok(about.len())
 }

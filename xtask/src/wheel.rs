@@ -63,7 +63,7 @@ fn packed(python: &str, folder: &Path) -> Result<PathBuf, String> {
 /// Builds the wheel that users get, runs the tests of the package with it, and measures it against its bars.
 pub fn release() -> Outcome {
     let wheel = released("release", None)?;
-    tested(&wheel, "release")?;
+    tested(&wheel, "dist")?;
     measured(&wheel, &python::bare()?)
 }
 
@@ -71,20 +71,20 @@ pub fn release() -> Outcome {
 pub fn release_free_threaded() -> Outcome {
     let python = interpreter::find()?;
     let wheel = released("release-free-threaded", Some(&python))?;
-    tested_free_threaded(&wheel, "release")?;
+    tested_free_threaded(&wheel, "dist")?;
     measured(&wheel, &python::free_threaded()?)
 }
 
 /// Builds a wheel as users get it, for a Python or for all, and what it is compared with.
 fn released(folder: &str, python: Option<&str>) -> Result<PathBuf, String> {
     shell::run(cargo(
-        "build --release --package stiction-cli --package stiction --bins --example timed",
+        "build --profile dist --package stiction-cli --package stiction --bins --example timed",
     ))?;
     let folder = shell::target().join(FOLDER).join(folder);
     // Of another version there may be one.
     let _ = fs::remove_dir_all(&folder);
     let out = text(&folder);
-    let mut arguments = vec!["-m", "maturin", "build", "--release", "--out", &out];
+    let mut arguments = vec!["-m", "maturin", "build", "--profile", "dist", "--out", &out];
     arguments.extend(python.iter().flat_map(|python| ["--interpreter", *python]));
     shell::run(shell::command(&python::environment()?, &arguments))?;
     let wheels = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -94,7 +94,7 @@ fn released(folder: &str, python: Option<&str>) -> Result<PathBuf, String> {
 
 /// Measures a wheel that is installed beside a Python.
 fn measured(wheel: &Path, python: &str) -> Outcome {
-    let timed = text(&shell::target().join("release/examples/timed"));
+    let timed = text(&shell::target().join("dist/examples/timed"));
     let measure = ["bench/python/measure.py", &timed, &text(wheel)];
     shell::run(shell::command(python, &measure))
 }
@@ -163,7 +163,7 @@ fn tests(wheel: &Path, profile: &str, python: &str, files: &[&str]) -> Command {
     let mut tests = shell::command(python, &arguments);
     tests.env("STICTION_PROGRAM", program(profile));
     // What users get is held small: the build of the tests checks every sum for overflow besides.
-    if profile == "release" {
+    if profile == "dist" {
         tests.env("STICTION_WHEEL", text(wheel));
     }
     tests

@@ -27,7 +27,7 @@ const FILES: [&str; 5] = [
 /// the same bytes.
 pub fn make(version: &str) -> Result<Vec<String>, String> {
     shell::run(shell::cargo(
-        "build --release --locked --workspace --bin stiction",
+        "build --profile dist --locked --workspace --bin stiction",
     ))?;
     let name = format!("stiction-{version}-{}", host()?);
     let all = shell::root().join(FOLDER);
@@ -36,7 +36,7 @@ pub fn make(version: &str) -> Result<Vec<String>, String> {
         fs::remove_dir_all(&all).map_err(|e| format!("{FOLDER}: {e}"))?;
     }
     let program = folder.join("bin/stiction");
-    let built = shell::target().join("release/stiction");
+    let built = shell::target().join("dist/stiction");
     copy(&built, &program)?;
     for file in FILES {
         let name = file.rsplit('/').next().unwrap_or(file);
