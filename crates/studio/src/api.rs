@@ -76,7 +76,7 @@ struct Token {
 async fn session(State(shared): App, Json(asked): Json<Token>) -> Answer {
     let Some((cookie, key)) = shared.keys.exchange(&asked.token) else {
         return Err(Refused::forbidden(
-            "this is not the token of this run; open the address that stiction studio printed",
+            "this address was opened already, or is of an earlier run. Each opens one session: start stiction studio again for another",
         ));
     };
     let body = Json(serde_json::json!({ "key": key }));

@@ -2,13 +2,17 @@
 //! writes it is refused as everything else is, with the place in it.
 
 use crate::refused::Refused;
+use crate::server::Shared;
 use axum::body::Bytes;
 use axum::extract::{FromRequest, FromRequestParts, Request};
+use axum::http::StatusCode;
 use axum::http::header::{CONTENT_TYPE, HeaderMap};
 use axum::http::request::Parts;
 use axum::response::{IntoResponse, Response};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::sync::Arc;
+use tokio::time::timeout;
 
 const JSON: &str = "application/json";
 
@@ -20,12 +24,12 @@ pub struct Json<T>(pub T);
 #[derive(Debug)]
 pub struct Query<T>(pub T);
 
-impl<T: DeserializeOwned, S: Send + Sync> FromRequest<S> for Json<T> {
+impl<T: DeserializeOwned> FromRequest<Arc<Shared>> for Json<T> {
     type Rejection = Refused;
 
-    async fn from_request(request: Request, state: &S) -> Result<Self, Refused> {
+    async fn from_request(request: Request, shared: &Arc<Shared>) -> Result<Self, Refused> {
         said_to_be_json(request.headers())?;
-        let bytes = Bytes::from_request(request, state).await;
+        let bytes = in_time(shared, Bytes::from_request(request, shared)).await?;
         let bytes = bytes.map_err(|e| Refused::with(e.status(), e.body_text()))?;
         let read = serde_json::from_slice(&bytes);
         Ok(Self(read.map_err(|e| unlike_the_page("body", &e))?))
@@ -57,6 +61,15 @@ pub fn sent(bytes: Vec<u8>) -> Response {
     ([(CONTENT_TYPE, JSON)], bytes).into_response()
 }
 
+/// Waits for a body, or a piece of it, and gives up on one that does not arrive.
+pub async fn in_time<T>(shared: &Shared, arrives: impl Future<Output = T>) -> Result<T, Refused> {
+    let arrived = timeout(shared.patience, arrives).await;
+    arrived.map_err(|_| {
+        let late = "the body of the request did not arrive in time";
+        Refused::with(StatusCode::REQUEST_TIMEOUT, late)
+    })
+}
+
 /// A page elsewhere may send text and forms unasked; for JSON its browser has to ask first.
 fn said_to_be_json(headers: &HeaderMap) -> Result<(), Refused> {
     let said = headers.get(CONTENT_TYPE);
@@ -64,9 +77,10 @@ fn said_to_be_json(headers: &HeaderMap) -> Result<(), Refused> {
     let kind = said.split(';').next().unwrap_or_default().trim();
     match kind.eq_ignore_ascii_case(JSON) {
         true => Ok(()),
-        false => Err(Refused::media(format!(
-            "the body is said to be {said:?}; what is taken here is {JSON}"
-        ))),
+        false => Err(Refused::with(
+            StatusCode::UNSUPPORTED_MEDIA_TYPE,
+            format!("the body is said to be {said:?}; what is taken here is {JSON}"),
+        )),
     }
 }
 

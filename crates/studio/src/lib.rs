@@ -7,8 +7,10 @@
 mod api;
 mod asked;
 mod assets;
+mod forward;
 mod given;
 mod guard;
+mod held;
 mod jobs;
 mod listen;
 mod logs;
@@ -20,4 +22,4 @@ mod server;
 mod tickets;
 mod workspace;
 
-pub use server::{Served, Studio};
+pub use server::Studio;

@@ -1,36 +1,61 @@
-//! Connections: as many as are taken at once, none of which may hold its place by sending slowly.
+//! Connections: bounds on how many are open at once and on how long a request may take to arrive.
+//!
+//! A connection without the cookie of the session is a stranger. Strangers have few places, and the oldest is dropped for a new
+//! one: whoever opens connections and sends nothing cannot shut out a browser with a session.
 
+use crate::held::held;
+use crate::server::Shared;
 use axum::Router;
-use axum::body::{Body, BodyDataStream, Bytes};
-use axum::extract::Request;
-use axum::middleware::Next;
-use axum::response::Response;
-use futures_core::Stream;
 use hyper::server::conn::http1;
 use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
-use std::future::Future;
-use std::pin::Pin;
-use std::sync::Arc;
-use std::task::{Context, Poll};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex};
 use std::time::Duration;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
-use tokio::time::{Instant, Sleep, sleep};
+use tokio::task::{self, AbortHandle};
+use tokio::time::sleep;
 
-/// How long the head of a request, and its body, may take to arrive.
+/// How long the body of a request may take to arrive.
 pub const PATIENCE: Duration = Duration::from_secs(30);
+/// How long its head may take, at most.
+const HEAD: Duration = Duration::from_secs(10);
 /// Connections at once; further ones wait to be accepted.
 const CONNECTIONS: usize = 256;
+/// Connections at once on which nobody has shown the cookie.
+const STRANGERS: usize = 64;
 /// Until it is tried again where no connection can be accepted, as when the process has too many files open.
 const AGAIN: Duration = Duration::from_millis(200);
 
+/// Connections on which nobody has shown the cookie of the session, the oldest first.
+#[derive(Debug, Default)]
+pub struct Strangers(Mutex<VecDeque<AbortHandle>>);
+
+impl Strangers {
+    /// Takes the connection of the running task out: it has shown the cookie, or ends.
+    pub fn leave(&self) {
+        let own = task::id();
+        held(&self.0).retain(|other| other.id() != own);
+    }
+
+    /// Adds a connection, and drops the oldest where there are too many.
+    fn add(&self, connection: AbortHandle) {
+        let mut all = held(&self.0);
+        all.push_back(connection);
+        if all.len() > STRANGERS {
+            all.pop_front().iter().for_each(AbortHandle::abort);
+        }
+    }
+}
+
 /// Answers until the process ends.
-pub async fn serve(listener: TcpListener, router: Router, patience: Duration) {
+pub async fn serve(listener: TcpListener, router: Router, shared: Arc<Shared>) {
     let places = Arc::new(Semaphore::new(CONNECTIONS));
     let mut http = http1::Builder::new();
     // The time for a head counts between the requests of a connection as well.
-    http.timer(TokioTimer::new()).header_read_timeout(patience);
+    http.timer(TokioTimer::new())
+        .header_read_timeout(shared.patience.min(HEAD));
     loop {
         let Ok(place) = places.clone().acquire_owned().await else {
             return;
@@ -43,50 +68,15 @@ pub async fn serve(listener: TcpListener, router: Router, patience: Duration) {
         let _ = stream.set_nodelay(true);
         let service = TowerToHyperService::new(router.clone());
         let connection = http.serve_connection(TokioIo::new(stream), service);
-        tokio::spawn(async move {
+        let own = shared.clone();
+        let connection = task::spawn(async move {
             // A connection that breaks off is nobody's fault here.
             let _ = connection.await;
+            own.strangers.leave();
             drop(place);
         });
-    }
-}
-
-/// Gives up on a body that does not arrive: as a whole, and for an upload, which may be long, on the next piece of it.
-pub async fn in_time(patience: Duration, request: Request, next: Next) -> Response {
-    let renewed = request.uri().path() == "/api/upload";
-    let timed = |body: Body| {
-        Body::from_stream(Timed {
-            body: body.into_data_stream(),
-            left: Box::pin(sleep(patience)),
-            renewed: renewed.then_some(patience),
-        })
-    };
-    next.run(request.map(timed)).await
-}
-
-/// A body that has to arrive in time.
-struct Timed {
-    body: BodyDataStream,
-    left: Pin<Box<Sleep>>,
-    /// What is left after each piece.
-    renewed: Option<Duration>,
-}
-
-impl Stream for Timed {
-    type Item = Result<Bytes, axum::BoxError>;
-
-    fn poll_next(mut self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Option<Self::Item>> {
-        if let Poll::Ready(piece) = Pin::new(&mut self.body).poll_next(context) {
-            if let Some(patience) = self.renewed {
-                self.left.as_mut().reset(Instant::now() + patience);
-            }
-            return Poll::Ready(piece.map(|piece| piece.map_err(Into::into)));
-        }
-        match self.left.as_mut().poll(context) {
-            Poll::Ready(()) => Poll::Ready(Some(Err(
-                "the body of the request did not arrive in time".into(),
-            ))),
-            Poll::Pending => Poll::Pending,
-        }
+        shared.strangers.add(connection.abort_handle());
+        // It may show its cookie before the next is let in.
+        task::yield_now().await;
     }
 }

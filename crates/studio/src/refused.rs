@@ -48,11 +48,6 @@ impl Refused {
         Self::with(StatusCode::INTERNAL_SERVER_ERROR, message)
     }
 
-    /// A body of another kind than is taken.
-    pub fn media(message: impl Into<String>) -> Self {
-        Self::with(StatusCode::UNSUPPORTED_MEDIA_TYPE, message)
-    }
-
     /// With a status of its own.
     pub fn with(status: StatusCode, message: impl Into<String>) -> Self {
         Self {

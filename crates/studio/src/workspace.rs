@@ -1,6 +1,7 @@
 //! The folder that the page works in. Nothing outside of it is read or written: a name that could lead out of it, by its own
 //! form or through a link, is refused.
 
+use crate::forward;
 use crate::refused::Refused;
 use serde::Serialize;
 use std::fs;
@@ -175,16 +176,20 @@ impl Workspace {
         out
     }
 
-    /// Removes uploads that an earlier run left unfinished.
+    /// Removes what an earlier run left when it was ended: unfinished uploads, and files that open its page.
     pub fn tidy(&self) {
         let entries = fs::read_dir(&self.real).into_iter().flatten().flatten();
         for entry in entries {
             let name = entry.file_name();
-            let is_file = entry.file_type().is_ok_and(|kind| kind.is_file());
-            if is_file && name.to_string_lossy().starts_with(UNFINISHED) {
-                // What cannot be removed is in nobody's way.
-                let _ = fs::remove_file(entry.path());
-            }
+            let (name, path) = (name.to_string_lossy(), entry.path());
+            // What cannot be removed is in nobody's way.
+            let _ = match entry.file_type() {
+                Ok(kind) if kind.is_file() && name.starts_with(UNFINISHED) => fs::remove_file(path),
+                Ok(kind) if kind.is_dir() && name.starts_with(forward::PREFIX) => {
+                    fs::remove_dir_all(path)
+                }
+                _ => Ok(()),
+            };
         }
     }
 }

@@ -5,8 +5,8 @@ use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;
 use std::io::Write;
-use std::path::Path;
-use std::process::{Command, Stdio};
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
 use stiction::Error;
 use stiction::commands::FileError;
 use stiction_studio::Studio;
@@ -19,36 +19,32 @@ pub fn run(typed: &arguments::Studio, common: &Common) -> Result<Exit, Error> {
     interrupt::usual_end();
     std::env::set_current_dir(folder).map_err(refused)?;
     let studio = Studio::open(Path::new("."), typed.port.unwrap_or(0)).map_err(refused)?;
-    let listening = |address: &str| {
-        let told = match common.json {
-            true => output::json(&serde_json::json!({ "address": address })),
-            false => output::print(&format!(
-                "{address}\nopen this address on this machine; Ctrl-C ends the page\n"
-            )),
-        };
-        if told.is_ok() && !typed.no_open {
-            open(address);
-        }
+    let address = studio.address().map_err(refused)?;
+    let told = match common.json {
+        true => output::json(&serde_json::json!({ "address": address })),
+        false => output::print(&format!(
+            "{address}\nopen this address on this machine, where it works once; Ctrl-C ends the page\n"
+        )),
     };
-    studio.serve(listening).map_err(refused)?;
+    if told.is_ok() && !typed.no_open && studio.forward().and_then(open).is_err() {
+        // The address is there to be opened by hand.
+        let _ = writeln!(std::io::stderr(), "stiction: no browser could be started");
+    }
+    studio.serve().map_err(refused)?;
     Ok(Exit::Done)
 }
 
-/// Opens the browser of the desktop, where there is one.
-fn open(address: &str) {
+/// Opens a file in the browser of the desktop, where there is one. Other users see what it is started with.
+fn open(file: PathBuf) -> std::io::Result<Child> {
     let program = match std::env::consts::OS {
         "macos" => "open",
         "windows" => "explorer",
         _ => "xdg-open",
     };
-    let started = Command::new(program)
-        .arg(address)
+    Command::new(program)
+        .arg(file)
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
-        .spawn();
-    if started.is_err() {
-        // The address is there to be opened by hand.
-        let _ = writeln!(std::io::stderr(), "stiction: no browser could be started");
-    }
+        .spawn()
 }

@@ -24,6 +24,8 @@ mod procedures;
 mod resumed;
 mod rows;
 mod searches;
+#[cfg(all(unix, feature = "studio"))]
+mod studio;
 mod study;
 mod wrapped;
 

@@ -1,7 +1,7 @@
 //! A log that was dropped on the page, streamed into the folder: under its name only once it is whole.
 
 use super::App;
-use crate::given::{Json, Query};
+use crate::given::{Json, Query, in_time};
 use crate::refused::Refused;
 use crate::workspace::UNFINISHED;
 use axum::body::Body;
@@ -73,7 +73,7 @@ pub async fn upload(
     let mut body = body.into_data_stream();
     let mut taken_bytes = 0_u64;
     loop {
-        let chunk = poll_fn(|cx| Pin::new(&mut body).poll_next(cx)).await;
+        let chunk = in_time(&shared, poll_fn(|cx| Pin::new(&mut body).poll_next(cx))).await?;
         let Some(chunk) = chunk else { break };
         let bytes = chunk.map_err(|_| Refused::bad("the upload broke off"))?;
         taken_bytes += bytes.len() as u64;

@@ -3,7 +3,6 @@
 use std::io::{Read, Write};
 use std::net::{Shutdown, TcpStream};
 use std::path::Path;
-use std::sync::mpsc::channel;
 use std::time::Duration;
 use stiction_studio::Studio;
 
@@ -43,9 +42,8 @@ pub fn serve() -> Served {
 pub fn serve_with(set: impl FnOnce(Studio) -> Studio) -> Served {
     let folder = tempfile::tempdir().unwrap();
     let studio = set(Studio::open(folder.path(), 0).unwrap());
-    let (sender, receiver) = channel();
-    std::thread::spawn(move || studio.serve(|address| sender.send(address.to_string()).unwrap()));
-    let address = receiver.recv_timeout(Duration::from_secs(60)).unwrap();
+    let address = studio.address().unwrap();
+    std::thread::spawn(move || studio.serve());
     let (place, token) = address.split_once("/#token=").unwrap();
     let port = place.rsplit_once(':').unwrap().1.parse().unwrap();
     Served {
@@ -70,15 +68,16 @@ impl Served {
         self.folder.path()
     }
 
+    /// Exchanges a token.
+    pub fn exchange(&self, token: &str) -> Answer {
+        let body = format!("{{\"token\":\"{token}\"}}");
+        let headers = [json(), self.origin()];
+        self.send("POST", "/api/session", &headers, body.as_bytes())
+    }
+
     /// With a session.
     pub fn begin(mut self) -> Self {
-        let body = format!("{{\"token\":\"{}\"}}", self.token);
-        let answer = self.send(
-            "POST",
-            "/api/session",
-            &[json(), self.origin()],
-            body.as_bytes(),
-        );
+        let answer = self.exchange(&self.token);
         assert_eq!(answer.status, 200, "{}", answer.text());
         let cookie = answer
             .head

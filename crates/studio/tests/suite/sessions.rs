@@ -1,6 +1,8 @@
 //! Who may ask: tried as those would who may not.
 
-use crate::client::{json, open, serve};
+use crate::client::{Served, json, open, serve};
+use std::path::PathBuf;
+use stiction_studio::Studio;
 
 /// An address that any page may be after.
 const ASKED: &str = "/api/workspace";
@@ -74,11 +76,93 @@ fn only_both_secrets_open_the_folder() {
 fn a_wrong_token_gives_nothing() {
     let served = serve();
     for token in ["", "0", &"0".repeat(64), &served.token[..63]] {
-        let body = format!("{{\"token\":\"{token}\"}}");
-        let headers = [json(), served.origin()];
-        let answer = served.send("POST", "/api/session", &headers, body.as_bytes());
+        let answer = served.exchange(token);
         assert_eq!(answer.status, 403, "{token}");
         assert!(!answer.head.contains("set-cookie"), "{}", answer.head);
+    }
+}
+
+#[test]
+fn a_token_is_good_once() {
+    let served = open();
+    let again = served.exchange(&served.token);
+    assert_eq!(again.status, 403, "{}", again.text());
+    assert!(!again.head.contains("set-cookie"), "{}", again.head);
+    assert!(!again.text().contains("key"), "{}", again.text());
+    // The session that it was exchanged for goes on.
+    assert_eq!(served.ask("GET", ASKED, "").status, 200);
+}
+
+/// A server with the file that opens it; `folder` is served.
+fn forwarded(folder: tempfile::TempDir) -> (Served, PathBuf) {
+    let studio = Studio::open(folder.path(), 0).unwrap();
+    let (address, file) = (studio.address().unwrap(), studio.forward().unwrap());
+    std::thread::spawn(move || studio.serve());
+    let (place, token) = address.split_once("/#token=").unwrap();
+    let served = Served {
+        folder,
+        port: place.rsplit_once(':').unwrap().1.parse().unwrap(),
+        token: token.into(),
+        session: None,
+    };
+    (served, file)
+}
+
+#[cfg(unix)]
+#[test]
+fn the_file_that_opens_the_page_is_private_and_goes_when_it_has() {
+    use std::os::unix::fs::PermissionsExt;
+    let (served, file) = forwarded(tempfile::tempdir().unwrap());
+    let folder = file.parent().unwrap();
+    let mode = |path: &std::path::Path| path.metadata().unwrap().permissions().mode() & 0o777;
+    assert_eq!((mode(&file), mode(folder)), (0o600, 0o700));
+    let text = std::fs::read_to_string(&file).unwrap();
+    let (_, rest) = text.split_once("url=http://127.0.0.1:").unwrap();
+    let (address, _) = rest.split_once('"').unwrap();
+    let (port, token) = address.split_once("/#token=").unwrap();
+    assert_eq!(port, served.port.to_string());
+    // The printed address has another one, so that each opens the page once.
+    assert!(token != served.token && !file.to_string_lossy().contains(token));
+    assert_eq!(served.exchange(token).status, 200);
+    assert!(!file.exists() && !folder.exists());
+    assert_eq!(served.exchange(token).status, 403);
+    assert_eq!(served.begin().ask("GET", ASKED, "").status, 200);
+}
+
+#[test]
+fn a_file_that_a_dead_server_left_goes_with_the_next_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let left = folder.path().join(".stiction-open-aBc");
+    std::fs::create_dir(&left).unwrap();
+    std::fs::write(left.join("x.html"), "x").unwrap();
+    let (_served, _) = forwarded(folder);
+    assert!(!left.exists());
+}
+
+/// A file that opens the page is of another origin, as every file is.
+#[test]
+fn a_tab_may_be_sent_to_the_page_and_to_nothing_else() {
+    let served = open();
+    let own = served.own();
+    let sent = |path: &str, to: &str| {
+        let mut headers = own.clone();
+        headers.pop();
+        headers.extend(
+            ["cross-site", to]
+                .iter()
+                .zip(["site", "dest"])
+                .map(|(value, name)| format!("sec-fetch-{name}: {value}")),
+        );
+        served.send("GET", path, &headers, b"").status
+    };
+    assert_eq!(sent("/", "document"), 200);
+    for (path, to) in [
+        ("/", "iframe"),
+        ("/", "empty"),
+        ("/studio.js", "script"),
+        (ASKED, "document"),
+    ] {
+        assert_eq!(sent(path, to), 403, "{path} {to}");
     }
 }
 

@@ -1,9 +1,9 @@
 //! Who sends slowly holds no place.
 
-use crate::client::{Served, json, serve_with};
+use crate::client::{Served, json, open, serve_with};
 use std::io::{Read, Write};
 use std::net::TcpStream;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// Longer than a request of this test takes, and short for those who wait for it.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -62,6 +62,43 @@ fn bodies_that_do_not_come_are_given_up() {
     assert_eq!(std::fs::read_dir(served.path()).unwrap().count(), 0);
     let up = |name: &str| served.send("POST", name, &served.own(), b"x").status;
     assert_eq!(up("/api/upload?name=b.csv"), 200);
+}
+
+/// With the usual patience, which is longer than anybody waits for a page.
+#[test]
+fn connections_without_a_session_do_not_hold_up_one_that_has() {
+    let served = open();
+    let (own, origin) = (served.own().join("\r\n"), served.origin());
+    let host = format!("host: 127.0.0.1:{}", served.port);
+    let mut kept = begun(
+        &served,
+        &format!("GET /api/workspace HTTP/1.1\r\n{host}\r\n{own}\r\n\r\n"),
+    );
+    let mut first = [0; 12];
+    kept.read_exact(&mut first).unwrap();
+    let halves = [
+        String::new(),
+        format!("GET / HTTP/1.1\r\n{host}\r\nx: "),
+        // A body that nobody has to show anything for.
+        format!(
+            "POST /api/session HTTP/1.1\r\n{host}\r\n{origin}\r\n{}\r\ncontent-length: 100\r\n\r\n{{",
+            json()
+        ),
+    ];
+    for half in &halves {
+        let all: Vec<TcpStream> = (0..385).map(|_| begun(&served, half)).collect();
+        let began = Instant::now();
+        for _ in 0..10 {
+            assert_eq!(served.ask("GET", "/api/workspace", "").status, 200);
+            assert_eq!(served.send("GET", "/", &[], b"").status, 200);
+        }
+        assert!(began.elapsed() < Duration::from_secs(5), "{half:?}");
+        drop(all);
+    }
+    // A connection that was there before is open still.
+    let again = format!("GET /api/jobs HTTP/1.1\r\nconnection: close\r\n{host}\r\n{own}\r\n\r\n");
+    kept.write_all(again.as_bytes()).unwrap();
+    assert!(rest(kept).contains("\r\n\r\n[]"));
 }
 
 /// An upload may take long, as long as something comes.
