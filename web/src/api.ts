@@ -2,7 +2,9 @@
 
 const KEY = "stiction-key";
 
-export interface Entry { name: string; kind: string; bytes: number; modified: number }
+/** A log that a result, a model or a study comes from: its name, or its path where it is not in the folder, and its SHA-256 then. */
+export interface Source { name: string; sha256: string }
+export interface Entry { name: string; kind: string; bytes: number; modified: number; of: Source[] }
 export interface Workspace { folder: string; version: string; files: Entry[] }
 export interface Column { number: number; name: string; role: string | null; unit: string; reason: string; assumed: boolean; range: Stretch | null }
 export interface Channel { name: string; unit: string; derived: boolean }
@@ -11,7 +13,7 @@ export interface LeftOut { code: string; from_s: number; to_s: number }
 export type Stretch = [from: number, to: number];
 export interface Marks { crop: Stretch | null; fit: Stretch[]; validate: Stretch[]; validate_all: boolean }
 export interface About {
-  samples: number; rate_hz: number; seconds: number; motion: string; force_unit: string; detected: string[];
+  sha256: string; samples: number; rate_hz: number; seconds: number; motion: string; force_unit: string; detected: string[];
   findings: Found[]; excluded: LeftOut[]; columns: Column[]; channels: Channel[]; marks: Marks; refused: string | null;
 }
 /** The axis file that a log is read with, and one that is there and is of another log. */
@@ -41,7 +43,7 @@ async function request(path: string, init: RequestInit = {}): Promise<Response> 
   return response;
 }
 
-/** Exchanges the token of the address for the session, and takes it out of the address. */
+/** Exchanges the token of the address, which is good once, for the session, and takes it out of the address. */
 export async function begin(): Promise<void> {
   const token = new URLSearchParams(location.hash.slice(1)).get("token");
   if (!token) return;
@@ -51,7 +53,12 @@ export async function begin(): Promise<void> {
     headers: { "content-type": "application/json" },
     body: JSON.stringify({ token }),
   });
-  if (!response.ok) throw await refusal(response);
+  if (!response.ok) {
+    const refused = await refusal(response);
+    // An address that was opened before needs no token where the session is there.
+    await get("/api/workspace").catch(() => { throw refused; });
+    return;
+  }
   localStorage.setItem(KEY, ((await response.json()) as { key: string }).key);
 }
 

@@ -6,7 +6,7 @@ import { begin, NoSession, upload, watch } from "./api";
 import { attempt, choice, field, h, put, say } from "./dom";
 import { Working } from "./jobs";
 import { bytes } from "./numbers";
-import { changed, choose, chooseLog, exists, files, onChange, readAddress, refresh, state, VIEWS, type View } from "./state";
+import { changed, choose, chooseLog, exists, files, follow, logsOf, onChange, readAddress, refresh, state, VIEWS, type View } from "./state";
 import { ExportView } from "./views/export";
 import { IdentifyView } from "./views/identify";
 import { LogView } from "./views/log";
@@ -68,7 +68,7 @@ function drawSide(): void {
     field("Axis file", choice([["", "none: as found"], ...axes.map((file): [string, string] => [file.name, file.name])], chosen.axis ?? "", (axis) => choose({ axis: axis || null }))),
     h("h2", {}, "Results"),
     files("result").length
-      ? h("ul", { class: "files" }, ...files("result").map((file) => h("li", {}, h("button", { "aria-current": file.name === chosen.result ? "true" : null, title: file.name, onclick: () => choose({ result: file.name, view: "identify" }) }, h("span", { class: "name" }, file.name)))))
+      ? h("ul", { class: "files" }, ...files("result").map((file) => h("li", {}, h("button", { "aria-current": file.name === chosen.result ? "true" : null, title: file.name, onclick: () => void follow(file.name, { result: file.name, view: "identify" }) }, h("span", { class: "name" }, file.name), h("span", { class: "size" }, `of ${logsOf(file)}`)))))
       : h("p", { class: "muted" }, "None yet."),
   );
 }

@@ -5,7 +5,7 @@
 //     node test/chain.mjs STICTION CHROMIUM PICTURES
 
 import { execFileSync, spawn } from "node:child_process";
-import { copyFileSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -33,14 +33,27 @@ function recording() {
 }
 
 /** The server, and the address that it prints. */
-async function serve() {
-  const server = spawn(program, ["studio", space, "--no-open", "--json"], { stdio: ["ignore", "pipe", "inherit"] });
+async function serve(options = ["--no-open"], env = process.env) {
+  const server = spawn(program, ["studio", space, "--json", ...options], { stdio: ["ignore", "pipe", "inherit"], env });
   let said = "";
   for await (const part of server.stdout) {
     said += part;
     if (said.trimEnd().endsWith("}")) break;
   }
   return { server, address: JSON.parse(said).address };
+}
+
+/** The file with which a server opens the page by itself, which another program is given to show. */
+async function openedBy() {
+  const [bin, shown] = [join(folder, "bin"), join(folder, "shown")];
+  mkdirSync(bin);
+  writeFileSync(join(bin, "xdg-open"), `#!/bin/sh\nprintf %s "$*" > "${shown}.part" && mv "${shown}.part" "${shown}"\n`, { mode: 0o755 });
+  const { server } = await serve([], { ...process.env, PATH: `${bin}:${process.env.PATH}` });
+  for (let tries = 0; !existsSync(shown); tries += 1) {
+    if (tries > 100) throw new Error("no browser was started");
+    await new Promise((done) => setTimeout(done, 100));
+  }
+  return { server, file: readFileSync(shown, "utf8") };
 }
 
 /** Files of two folders, but for the seconds that work took. */
@@ -98,6 +111,15 @@ try {
   await page.getByText("Begin with a log").waitFor();
   equal(await page.evaluate(() => location.hash.includes("token")), false, "the token is gone from the address");
   await look("begin");
+  // The address is good once: the same browser has the session already, another is told so.
+  const twice = await context.newPage();
+  await twice.goto(address);
+  await twice.getByText("Begin with a log").waitFor();
+  await twice.close();
+  const late = await (await browser.newContext()).newPage();
+  await late.goto(address);
+  await late.getByText("This browser has no session here.").waitFor();
+  await late.close();
 
   // A log is dropped.
   const dropped = Date.now();
@@ -191,13 +213,27 @@ try {
   await page.getByText("Text of slide.axis.toml", { exact: true }).first().click();
   await page.locator("textarea").fill(`${readFileSync(join(space, "slide.axis.toml"), "utf8")}# a draft\n`);
   await page.getByRole("button", { name: "Identify", exact: true }).first().click();
-  await page.getByText("Not of slide.csv").waitFor();
+  // Nothing of the first log is shown with it, and no line is of another log than what stands above it.
+  await page.getByText("No result of slide.csv yet").waitFor();
+  equal(await page.getByText(/May be used for compensation|Not to be used/).count(), 0, "results of another log");
   equal(await page.getByLabel("Folder for the result").inputValue(), "result-slide", "a folder of its own");
-  await page.getByRole("button", { name: "slide.csv" }).click();
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction identify slide.csv"));
+  await page.getByRole("button", { name: "Study" }).click();
+  await page.getByText("No study of slide.csv yet").waitFor();
+  equal(await page.locator(".try").isVisible(), false, "the study of another log");
+  await page.getByRole("button", { name: "Export" }).first().click();
+  await page.getByText("There is no model of slide.csv yet").waitFor();
+  equal(await page.getByRole("button", { name: "Export", exact: true }).count(), 1, "code of another log");
+  // A result is chosen with its log.
+  await page.getByRole("button", { name: "result of run.csv" }).click();
+  await page.getByText(/May be used for compensation|Not to be used/).waitFor();
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction identify run.csv --axis axis.toml"));
+  equal(await page.getByText(/^Not of /).count(), 0, "the log of the result");
+  await page.getByRole("button", { name: "slide.csv" }).first().click();
   await page.locator("textarea").waitFor();
   equal((await page.locator("textarea").inputValue()).endsWith("# a draft\n"), true, "the draft is kept");
   await page.getByRole("button", { name: "Take back" }).click();
-  await page.getByRole("button", { name: "run.csv" }).click();
+  await page.getByRole("button", { name: "run.csv" }).first().click();
   await page.getByRole("button", { name: /Position.*position · mm/ }).waitFor();
   passed("a log of another machine");
 
@@ -305,6 +341,20 @@ try {
   const stranger = await (await browser.newContext()).newPage();
   await stranger.goto(new URL(address).origin);
   await stranger.getByText("This browser has no session here.").waitFor();
+  // A server that starts the browser hands it a file, which is gone once the page is there.
+  const own = await openedBy();
+  try {
+    equal(/token|127\.0\.0\.1/.test(own.file), false, "the address is in the arguments");
+    const forwarded = await (await browser.newContext()).newPage();
+    await forwarded.goto(`file://${own.file}`);
+    await forwarded.getByRole("button", { name: "run.csv" }).first().waitFor();
+    equal(forwarded.url().includes("token"), false, "the token is gone from the address");
+    equal(existsSync(own.file), false, "the file is there still");
+    await forwarded.reload();
+    await forwarded.getByRole("button", { name: "run.csv" }).first().waitFor();
+  } finally {
+    own.server.kill();
+  }
   if (wrong.length) throw new Error(`errors on the page: ${wrong.join("; ")}`);
   passed("done");
 } finally {

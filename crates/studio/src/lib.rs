@@ -15,6 +15,7 @@ mod jobs;
 mod listen;
 mod logs;
 mod named;
+mod origin;
 pub mod pyramid;
 mod refused;
 mod secret;

@@ -11,6 +11,7 @@ pub use drawn::{MAPPED, map, tiles};
 pub use runs::runs;
 pub use series::{Channel, Series};
 
+use crate::held::held;
 use crate::named::read_axis;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
@@ -52,6 +53,8 @@ pub struct Loaded {
 /// What is told of a log.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct About {
+    /// SHA-256 of the file, hexadecimal; empty where it could not be read.
+    pub sha256: String,
     pub samples: usize,
     pub rate_hz: f64,
     pub seconds: f64,
@@ -192,9 +195,8 @@ impl Logs {
         key: Key,
         read: impl FnOnce() -> Result<Loaded, Refused>,
     ) -> Result<Arc<Loaded>, Refused> {
-        let fault = |_| Refused::internal("a lock");
         {
-            let mut kept = self.0.lock().map_err(fault)?;
+            let mut kept = held(&self.0);
             if let Some(at) = kept.iter().position(|(own, _)| *own == key) {
                 let found = kept.remove(at);
                 kept.push(found.clone());
@@ -207,8 +209,7 @@ impl Logs {
             }
         }
         let found = Arc::new(read()?);
-        let mut kept = self.0.lock().map_err(fault)?;
-        kept.push((key, found.clone()));
+        held(&self.0).push((key, found.clone()));
         Ok(found)
     }
 }
@@ -245,6 +246,7 @@ fn loaded(source: Source, marks: Stretches) -> Loaded {
         })
     });
     let mut about = About {
+        sha256: source.sha256.clone(),
         samples: log.time.len(),
         rate_hz: log.rate_hz,
         seconds: log.time.last().copied().unwrap_or(0.0),

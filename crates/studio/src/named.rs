@@ -42,6 +42,6 @@ pub fn read_as<T, E: Into<Refused>>(
 /// A study of the workspace, which reads what it names, its model first of all.
 pub fn read_study(workspace: &Workspace, name: &str) -> Result<Study, Refused> {
     let file = workspace.file(name)?;
-    workspace.holds_named(&std::fs::read_to_string(&file)?, &file)?;
+    workspace.holds_named(&workspace.text(name)?, &file)?;
     Ok(Study::read(file)?)
 }

@@ -2,9 +2,11 @@
 //! form or through a link, is refused.
 
 use crate::forward;
+use crate::origin::{self, Log};
 use crate::refused::Refused;
 use serde::Serialize;
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 use stiction::Axis;
@@ -17,6 +19,8 @@ const LISTED_DEEP: usize = 3;
 const MOST_LISTED: usize = 2000;
 /// Longest name of a file or folder, bytes.
 const LONGEST: usize = 200;
+/// Largest text that is read, bytes.
+const LARGEST_TEXT: u64 = 64 << 20;
 /// Beginning of the names of uploads that are not whole yet.
 pub const UNFINISHED: &str = ".stiction-upload-";
 
@@ -48,6 +52,8 @@ pub struct Entry {
     pub bytes: u64,
     /// When it was changed last, ms since 1970.
     pub modified: u64,
+    /// The logs that it comes from.
+    pub of: Vec<Log>,
 }
 
 impl Workspace {
@@ -123,8 +129,7 @@ impl Workspace {
         }
         // What the engine cannot read is not written over, and its words say what is wrong.
         Axis::read(self.file(name)?)?;
-        let text = fs::read_to_string(&path)?;
-        Ok((path, Some(text)))
+        Ok((path, Some(self.text(name)?)))
     }
 
     /// Refuses a path that a file of the workspace names and that lies outside of it.
@@ -143,29 +148,51 @@ impl Workspace {
         }
     }
 
-    /// Refuses a TOML text whose words lead to a file outside, seen from the folder that it is in. Whatever a word means there,
-    /// what it would be the path of is known before the engine reads it.
+    /// Refuses a TOML text whose words lead to a file outside, seen from the folder that it is in.
     pub fn holds_named(&self, text: &str, file: &Path) -> Result<(), Refused> {
+        self.named(text, file)
+            .iter()
+            .try_for_each(|path| self.holds(path))
+    }
+
+    /// What the words of a TOML text lead to, seen from the folder that it is in. Whatever a word means there, what it would be
+    /// the path of is known before the engine reads it.
+    pub fn named(&self, text: &str, file: &Path) -> Vec<PathBuf> {
+        let folder = self.real.join(file.parent().unwrap_or(Path::new("")));
         // What cannot be parsed names nothing; the engine says what is wrong with it.
-        let Ok(root) = text.parse::<toml::Table>() else {
-            return Ok(());
-        };
-        let folder = file.parent().unwrap_or(Path::new(""));
+        let root = text.parse::<toml::Table>().unwrap_or_default();
         let mut rest: Vec<&toml::Value> = root.values().collect();
+        let mut paths = Vec::new();
         while let Some(value) = rest.pop() {
             match value {
                 toml::Value::Array(all) => rest.extend(all),
                 toml::Value::Table(all) => rest.extend(all.values()),
-                toml::Value::String(word) => {
-                    let named = self.real.join(folder).join(word);
-                    if named.symlink_metadata().is_ok() {
-                        self.holds(&named)?;
-                    }
-                }
+                toml::Value::String(word) => paths.push(folder.join(word)),
                 _ => {}
             }
         }
-        Ok(())
+        paths.retain(|path| path.symlink_metadata().is_ok());
+        paths
+    }
+
+    /// The name of a file that is there, by its path from the working directory of who wrote it, which was the folder.
+    pub fn name(&self, path: &Path) -> Option<String> {
+        let real = self.real.join(path).canonicalize().ok()?;
+        let own = real.strip_prefix(&self.real).ok()?.to_str()?;
+        Some(own.replace(std::path::MAIN_SEPARATOR, "/"))
+    }
+
+    /// The text of a file that is there.
+    pub fn text(&self, name: &str) -> Result<String, Refused> {
+        let mut out = String::new();
+        let file = fs::File::open(self.file(name)?)?;
+        file.take(LARGEST_TEXT + 1).read_to_string(&mut out)?;
+        match out.len() as u64 > LARGEST_TEXT {
+            true => Err(Refused::too_large(format!(
+                "{name}: more than {LARGEST_TEXT} bytes"
+            ))),
+            false => Ok(out),
+        }
     }
 
     /// What is in it, sorted by name; links and what begins with a dot are left out.
@@ -173,6 +200,9 @@ impl Workspace {
         let mut out = Vec::new();
         walk(&self.real, "", LISTED_DEEP, &mut out);
         out.sort_by(|a, b| a.name.cmp(&b.name));
+        for entry in &mut out {
+            entry.of = origin::logs(self, entry);
+        }
         out
     }
 
@@ -269,6 +299,7 @@ fn walk(dir: &Path, before: &str, deep: usize, out: &mut Vec<Entry>) {
             name: whole.clone(),
             bytes: about.len(),
             modified: modified.map_or(0, |since| since.as_millis() as u64),
+            of: Vec::new(),
         });
         if about.is_dir() && deep > 1 {
             walk(&entry.path(), &whole, deep - 1, out);

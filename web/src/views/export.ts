@@ -5,7 +5,7 @@ import { commandLine } from "../command";
 import { attempt, choice, field, h, put } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { older, whenceOf } from "../origin";
-import { changedAt, exists, files, onChange, state } from "../state";
+import { changedAt, exists, files, fits, follow, labelled, onChange, state } from "../state";
 
 const WORDS: Record<string, string> = {
   c: "C99", cpp: "C++ for Arduino and others", ros2: "C++ as a ROS 2 node's class", st: "Structured Text (IEC 61131-3)", tcpou: "TwinCAT 3 objects", plcopen: "PLCopen XML",
@@ -39,10 +39,12 @@ export class ExportView {
 
   constructor() {
     put(this.element, h("div", { class: "head" }, h("h2", {}, "Export"), h("span", { class: "muted" }, "the compensator as code or numbers for a controller")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.whence, this.found)), this.command.element);
-    const own = `${state.chosen.result}/model.toml`;
-    this.model = exists(own) ? own : (files("model")[0]?.name ?? "");
+    this.model = this.usual();
     this.stop = onChange((reason) => {
-      if (reason === "files") this.drawForm();
+      const moves = reason !== "jobs" && (!this.model || !fits(this.model));
+      if (moves) this.model = this.usual();
+      if (reason === "files" || moves) this.drawForm();
+      else if (reason === "chosen") void this.drawOrigin();
       this.drawFound();
     });
     void attempt(async () => {
@@ -53,6 +55,20 @@ export class ExportView {
   }
 
   end(): void { this.stop(); }
+
+  /** The model of the chosen result, else another one of the chosen log. */
+  private usual(): string {
+    const own = `${state.chosen.result}/model.toml`;
+    return exists(own) ? own : (files("model").find((file) => fits(file.name))?.name ?? "");
+  }
+
+  private pick(model: string): void {
+    this.model = model;
+    this.drawForm();
+    this.drawFound();
+    const result = model.replace(/\/?[^/]*$/, "");
+    void follow(model, exists(`${result}/result.json`) ? { result } : {});
+  }
 
   /** Whether the target is code that runs on a controller, and no table or joint of a simulator. */
   private get runs(): boolean {
@@ -73,8 +89,13 @@ export class ExportView {
       this.command.show("stiction export result/model.toml --target c --out code");
       return;
     }
-    if (!this.model) this.model = models[0]!.name;
     void this.drawOrigin();
+    const model = field("Model", choice([...(this.model ? [] : [["", "choose"] as [string, string]]), ...labelled("model")], this.model, (value) => { if (value) this.pick(value); }));
+    if (!this.model) {
+      put(this.form, h("p", {}, `There is no model of ${state.chosen.log} yet: identify it first, or choose another model.`), model);
+      this.command.show("stiction export MODEL --target c --out code");
+      return;
+    }
     const folder = this.model.includes("/") ? this.model.slice(0, this.model.lastIndexOf("/") + 1) : "";
     this.out = `${folder}${this.target}`;
     const again = () => this.command.of(this.asked());
@@ -95,7 +116,7 @@ export class ExportView {
     const simulated = this.targets.find((own) => own.name === this.target)?.simulated ?? false;
     put(
       this.form,
-      field("Model", choice(models.map((file): [string, string] => [file.name, file.name]), this.model, (value) => { this.model = value; this.drawForm(); })),
+      model,
       field("Target", choice(this.targets.map((own): [string, string] => [own.name, WORDS[own.name] ?? own.name]), this.target, (value) => { this.target = value; this.drawForm(); })),
       field("Time between two calls [s]", number(this.cycle, "0.001", (value) => { this.cycle = value; })),
       simulated || this.target === "drive-table" ? null : field("Share that is compensated", number(this.gain, "0.75", (value) => { this.gain = value; }), "0 to 1; what is left keeps the loop calm"),
@@ -118,7 +139,7 @@ export class ExportView {
   }
 
   private drawFound(): void {
-    const job = latest("export");
+    const job = latest("export", (own) => own.about === this.model);
     if (!job) {
       put(this.found, h("p", { class: "muted" }, "Nothing exported yet. Every export comes with vectors with which the target can test itself."));
       return;

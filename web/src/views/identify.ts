@@ -6,8 +6,8 @@ import { attempt, choice, field, h, put } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { PointMap, type Points } from "../map";
 import { short, unit } from "../numbers";
-import { isOf, ofAnother, readResult, whence, type Origin } from "../origin";
-import { choose, exists, files, nameOf, onChange, state, stem } from "../state";
+import { readResult, whence, type Origin } from "../origin";
+import { choose, entry, files, labelled, nameOf, onChange, state, stem } from "../state";
 import { Trace } from "../trace";
 
 const LAWS: [string, string][] = [
@@ -28,7 +28,7 @@ const METHODS: [string, string][] = [
 interface Parameter { name: string; symbol: string; value: number; unit: string; std: number | null; ci95: [number | null, number | null] | null; identifiable: boolean; origin: string; reason: string; advice: string }
 interface Fit { signal: string; unit: string; rmse: number; relative_error_percent: number; r2: number | null; samples: number }
 interface Result extends Origin {
-  law: string; asymmetric: boolean; method: string; inputs: { path: string; samples: number; part?: string | null }[];
+  law: string; asymmetric: boolean; method: string; inputs: { path: string; sha256: string; samples: number; part?: string | null }[];
   parameters: Parameter[]; fit: Fit; validation: (Fit & { path: string })[];
   trust: { trustworthy: boolean; reasons: string[]; cause?: Cause | null; constants: string[]; next: string; compensation: { friction_left_percent: number; judged_on: string } | null };
   laws?: { law: string; asymmetric: boolean; held_out_percent?: number; relative_error_percent?: number }[];
@@ -104,6 +104,9 @@ export class IdentifyView {
   private drawForm(): void {
     const { log, axis } = state.chosen;
     const again = () => this.command.of(this.asked());
+    // A folder of its own for a log where that of the usual name is of another one, which would be written over.
+    const usual = entry("result");
+    if (!this.named && log) this.out = !usual?.of.length || usual.of.some((own) => own.name === log) ? "result" : `result-${stem(log.replaceAll("/", "-"))}`;
     const others = files("log").filter((file) => file.name !== log);
     const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); this.named = true; again(); } });
     const asymmetric = h("input", { type: "checkbox", checked: this.asymmetric, onchange: () => { this.asymmetric = asymmetric.checked; again(); } });
@@ -118,18 +121,6 @@ export class IdentifyView {
       h("button", { class: "primary wide", disabled: !log, onclick: () => void this.run() }, "Identify"),
     );
     again();
-    void this.apart(out, again);
-  }
-
-  /** A folder of its own for a log where that of the usual name is of another one, which would be written over. */
-  private async apart(out: HTMLInputElement, again: () => void): Promise<void> {
-    const { log } = state.chosen;
-    if (this.named || !log || !exists("result/result.json")) return;
-    const there = await attempt(() => readResult<Result>("result"));
-    if (!there || this.named || log !== state.chosen.log) return;
-    this.out = isOf(there, log) ? "result" : `result-${stem(log.replaceAll("/", "-"))}`;
-    out.value = this.out;
-    again();
   }
 
   private async run(): Promise<void> {
@@ -138,7 +129,8 @@ export class IdentifyView {
   }
 
   private drawWork(): void {
-    const job = latest("identify");
+    const { log } = state.chosen;
+    const job = latest("identify", (own) => own.about === log);
     if (!job) {
       put(this.work);
       return;
@@ -153,15 +145,19 @@ export class IdentifyView {
       // The list of files may not have it yet.
       if (state.workspace.files.some((file) => file.name === folder)) choose({ result: folder });
       else {
-        const stop = onChange((reason) => { if (reason === "files") { stop(); choose({ result: folder }); } });
+        const stop = onChange((reason) => {
+          if (reason !== "files") return;
+          stop();
+          if (log === state.chosen.log) choose({ result: folder });
+        });
       }
     }
   }
 
   private async drawResult(): Promise<void> {
-    const { result } = state.chosen;
+    const { log, result } = state.chosen;
     const file = state.workspace.files.find((own) => own.name === `${result}/result.json`);
-    const now = JSON.stringify([result, file?.modified, this.beside]);
+    const now = JSON.stringify([result ?? [log], file?.modified, this.beside]);
     if (now === this.shown) {
       this.drawOrigin();
       return;
@@ -170,14 +166,14 @@ export class IdentifyView {
     this.origin = null;
     this.clear();
     if (!result) {
-      put(this.found, h("p", { class: "muted" }, "No result yet. Choose a log and press Identify; the defaults are meant to be right."));
+      put(this.found, h("p", { class: "muted" }, `${log ? `No result of ${log} yet. Press` : "No result yet. Choose a log and press"} Identify; the defaults are meant to be right.`));
       return;
     }
     const own = await attempt(() => readResult<Result>(result));
     const other = this.beside && this.beside !== result ? await attempt(() => readResult<Result>(this.beside)) : undefined;
     if (!own || this.shown !== now) return;
-    const others = files("result").filter((entry) => entry.name !== result);
-    const compare = choice([["", "nothing"], ...others.map((entry): [string, string] => [entry.name, entry.name])], this.beside, (value) => { this.beside = value; void this.drawResult(); });
+    const others = labelled("result").filter(([name]) => name !== result);
+    const compare = choice([["", "nothing"], ...others], this.beside, (value) => { this.beside = value; void this.drawResult(); });
     put(
       this.found,
       h("div", { class: "row spread" }, h("h3", {}, result), others.length ? h("label", { class: "row" }, "beside ", compare) : null),
@@ -202,7 +198,7 @@ export class IdentifyView {
 
   /** What the result is of, which may change after it. */
   private drawOrigin(): void {
-    if (this.origin) put(this.whence, ...whence(this.origin.of, this.origin.folder), ofAnother(this.origin.of));
+    if (this.origin) put(this.whence, ...whence(this.origin.of, this.origin.folder));
   }
 
   /** Measured, model and what is left over the time, and what is left in a stretch that is brushed. */
@@ -324,7 +320,7 @@ function parameters(own: Result, other: Result | undefined, beside: string): HTM
     "table",
     { class: other ? "beside" : null },
     h("caption", {}, `${own.law}${own.asymmetric ? ", asymmetric" : ""}: parameters with 95 % intervals`),
-    h("thead", {}, h("tr", {}, ...["parameter", "value", "unit", "interval", "of the machine"].map((text) => h("th", { scope: "col" }, text)), other ? h("th", { scope: "col", colspan: "2" }, `${beside}: ${other.law}${other.inputs.some((input) => isOf(own, nameOf(input.path))) ? "" : `, of ${nameOf(other.inputs[0]?.path ?? "")}`}`) : null)),
+    h("thead", {}, h("tr", {}, ...["parameter", "value", "unit", "interval", "of the machine"].map((text) => h("th", { scope: "col" }, text)), other ? h("th", { scope: "col", colspan: "2" }, `${beside}: ${other.law}${other.inputs.some((input) => own.inputs.some((one) => one.sha256 === input.sha256)) ? "" : `, of ${nameOf(other.inputs[0]?.path ?? "")}`}`) : null)),
     h("tbody", {}, ...own.parameters.map(row)),
   );
 }

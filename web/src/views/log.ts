@@ -1,13 +1,13 @@
 // A log: what it holds, its traces, the stretches that are used, and friction beside them.
 
-import { binary, get, post, type About, type Column, type Marks, type Stretch } from "../api";
+import { binary, post, type About, type Column, type Marks, type Stretch } from "../api";
 import { commandLine } from "../command";
 import { attempt, choice, field, h, put, say } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { PointMap } from "../map";
 import { short, unit } from "../numbers";
 import { editor } from "../editor";
-import { AXIS, axisToWrite, changedAt, choose, files, onChange, refresh, state } from "../state";
+import { aboutLog, AXIS, axisToWrite, changedAt, choose, files, onChange, refresh, state } from "../state";
 import { Trace, type Band, type Panel, type Tick } from "../trace";
 
 const ROLES: [string, string][] = ["time", "position", "velocity", "acceleration", "force", "reference", "external", "temperature", "load"].map((role) => [role, role]);
@@ -79,7 +79,7 @@ export class LogView {
     // Marks are drawn already; nothing else of the log has changed with them.
     if (this.marking) return;
     this.command.of({ kind: "check", log, axis });
-    const about = await attempt(() => get<About>("/api/log", { name: log, axis }));
+    const about = await aboutLog(log, axis);
     if (this.shown !== now) return;
     if (!about) {
       this.clear();

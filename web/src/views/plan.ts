@@ -7,7 +7,7 @@ import { editor } from "../editor";
 import { begin, isRunning, latest, printed, progress, verdict } from "../jobs";
 import { short } from "../numbers";
 import { older } from "../origin";
-import { AXIS, changedAt, choose, exists, files, nameOf, onChange, state, stem } from "../state";
+import { AXIS, changedAt, choose, exists, files, labelled, nameOf, onChange, state, stem } from "../state";
 import { Trace } from "../trace";
 
 interface Expected { name: string; interval_percent: number; interval90_percent: number }
@@ -68,7 +68,7 @@ export class PlanView {
       this.form,
       field("Axis file", choice(axes.map((file): [string, string] => [file.name, file.name]), this.axis, (value) => { this.axis = value; choose({ axis: value }); })),
       place,
-      field("For what this model leaves open", choice([["", "none: for the nameplate"], ...files("model").map((file): [string, string] => [file.name, file.name])], this.model, (value) => { this.model = value; again(); })),
+      field("For what this model leaves open", choice([["", "none: for the nameplate"], ...labelled("model")], this.model, (value) => { this.model = value; again(); })),
       field("Longest motion [s]", time),
       field("Folder for the plan", out),
       h("button", { class: "primary wide", onclick: () => void begin(this.asked()) }, "Plan"),

@@ -7,7 +7,7 @@ import { editor } from "../editor";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { length, short } from "../numbers";
 import { older, whenceOf } from "../origin";
-import { changedAt, exists, files, onChange, refresh, state } from "../state";
+import { changedAt, entry, exists, files, fits, follow, labelled, nameOf, onChange, refresh, state } from "../state";
 import { Lines } from "../lines";
 import { Plane, type PlaneData } from "../plane";
 import { Trace } from "../trace";
@@ -18,7 +18,7 @@ interface Row { path: string; controller: string; compensator: string; parameter
 interface OnContour { unit: string; plane: PlaneData; runs: { name: string; time: number[]; deviation: number[] }[] }
 interface Table { from: number | null; to: number | null; channels: Channel[]; runs: string[] }
 interface Promised { path: string; controller: string; compensator: string; left90_percent: [number, number]; draws: number; gain: number }
-interface StudyFile { promise?: Promised[]; results: Row[]; warnings: { code: string; message: string }[] }
+interface StudyFile { inputs: { path: string; sha256: string }[]; promise?: Promised[]; results: Row[]; warnings: { code: string; message: string }[] }
 
 export class StudyView {
   readonly element = h("div", { class: "view study" });
@@ -45,12 +45,12 @@ export class StudyView {
 
   constructor() {
     put(this.element, h("div", { class: "head" }, h("h2", {}, "Study"), h("span", { class: "muted" }, "the axis with and without compensation, simulated")), h("div", { class: "split" }, this.form, h("div", { class: "center" }, this.whence, this.tried.element, this.work, this.found)), this.command.element);
-    const { result } = state.chosen;
-    const own = `${result}/study.toml`;
-    this.lacks = result && !exists(own) && exists(`${result}/model.toml`) ? result : "";
-    this.pick(result && exists(own) ? own : this.lacks ? "" : (files("study")[0]?.name ?? ""));
+    this.usual();
     this.stop = onChange((reason) => {
-      if (reason === "files") this.drawForm();
+      const moves = reason !== "jobs" && (!this.study || !fits(this.study));
+      if (moves) this.usual();
+      if (reason === "files" || moves) this.drawForm();
+      else if (reason === "chosen") void this.drawOrigin();
       this.drawWork();
       if (reason !== "jobs") void this.drawStudied();
     });
@@ -72,37 +72,56 @@ export class StudyView {
     this.deviation = null;
   }
 
+  /** The study of the chosen result, else another one of the chosen log. */
+  private usual(): void {
+    const { result } = state.chosen;
+    const own = `${result}/study.toml`;
+    this.lacks = result && !exists(own) && exists(`${result}/model.toml`) ? result : "";
+    this.pick(result && exists(own) ? own : this.lacks ? "" : (files("study").find((file) => fits(file.name))?.name ?? ""));
+  }
+
   private pick(study: string): void {
     this.study = study;
     this.out = study.replace(/\.toml$/, "");
     this.course = "";
   }
 
+  /** Shows another study, and moves to the log that it comes from. */
+  private choose(study: string): void {
+    this.pick(study);
+    this.drawForm();
+    this.drawWork();
+    void this.drawStudied();
+    const result = study.replace(/\/?[^/]*$/, "");
+    void follow(study, exists(`${result}/result.json`) ? { result } : {});
+  }
+
   private asked() { return { kind: "simulate", study: this.study, out: this.out }; }
 
   private drawForm(): void {
-    const all = files("study");
-    if (!this.study && !this.lacks && all[0]) this.pick(all[0].name);
+    const all = labelled("study");
     this.tried.of(this.study);
     void this.drawOrigin();
-    if (this.lacks && !this.study) {
+    const another = all.length ? field("Another study", choice([["", "choose"], ...all], "", (value) => { if (value) this.choose(value); })) : null;
+    if (!this.study && this.lacks) {
       put(
         this.form,
         older(`${this.lacks} has no study`, "An identification begins one where it may be relied on and its force is in N or N·m. Of a current or a voltage, say in the log view what one of it is worth, such as 96 N/A, and identify again."),
-        all.length ? field("Another study", choice([["", "choose"], ...all.map((file): [string, string] => [file.name, file.name])], "", (value) => { if (value) { this.pick(value); this.drawForm(); this.drawWork(); void this.drawStudied(); } })) : null,
+        another,
       );
       this.command.show("stiction simulate STUDY.toml --out FOLDER");
       return;
     }
-    if (!all.length) {
-      put(this.form, h("p", {}, "A study needs a model. An identification that may be used writes one with it."), ...this.beginning("study.toml"));
+    if (!this.study) {
+      const { log } = state.chosen;
+      put(this.form, h("p", {}, `${log ? `No study of ${log} yet. A` : "A"} study needs a model. An identification that may be used writes one with it.`), another, ...this.beginning(exists("study.toml") ? "circle-study.toml" : "study.toml"));
       return;
     }
     const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); this.command.of(this.asked()); } });
     const place = h("div", {});
     put(
       this.form,
-      field("Study file", choice(all.map((file): [string, string] => [file.name, file.name]), this.study, (value) => { this.pick(value); this.drawForm(); void this.drawStudied(); })),
+      field("Study file", choice(all, this.study, (value) => this.choose(value))),
       place,
       field("Folder for the result", out),
       h("button", { class: "primary wide", onclick: () => void begin(this.asked()) }, "Simulate"),
@@ -126,16 +145,15 @@ export class StudyView {
 
   /** What a study is begun of: a model, or two along a circle. */
   private beginning(file: string): HTMLElement[] {
-    const models = files("model").map((own) => own.name);
-    const usual = models.find((name) => name === `${state.chosen.result}/model.toml`) ?? models[0] ?? null;
+    const models = labelled("model");
+    const usual = models.find(([name]) => name === `${state.chosen.result}/model.toml`)?.[0] ?? files("model").find((file) => fits(file.name))?.name ?? null;
     const asked = (this.beginsOf ??= { model: usual, second: null, name: file });
     const show = () => this.command.of(asked, "/api/study/command");
-    const of = (names: string[]) => names.map((name): [string, string] => [name, name]);
     const name = h("input", { type: "text", value: asked.name, spellcheck: "false", oninput: () => { asked.name = name.value.trim(); show(); } });
     show();
     return [
-      field("Axis", choice([...of(models), ["", "a known one, a linear motor"]], asked.model ?? "", (value) => { asked.model = value || null; if (!value) asked.second = null; show(); })),
-      models.length ? field("Second axis, y", choice([["", "none: one axis by itself"], ...of(models)], asked.second ?? "", (value) => { asked.second = value || null; show(); }), "It may be the same model. Both go along a circle; radius and feed are in the text of the study.") : null,
+      field("Axis", choice([...models, ["", "a known one, a linear motor"]], asked.model ?? "", (value) => { asked.model = value || null; if (!value) asked.second = null; show(); })),
+      models.length ? field("Second axis, y", choice([["", "none: one axis by itself"], ...models], asked.second ?? "", (value) => { asked.second = value || null; show(); }), "It may be the same model. Both go along a circle; radius and feed are in the text of the study.") : null,
       field("Study file", name),
       h("button", { class: "primary wide", onclick: () => void this.start(asked) }, "Begin"),
     ].filter((own) => own !== null);
@@ -147,7 +165,7 @@ export class StudyView {
       say(`${asked.name} is begun`);
       [this.begins, this.beginsOf] = [false, null];
       await refresh();
-      this.pick(asked.name);
+      this.choose(asked.name);
     });
     this.drawForm();
     void this.drawStudied();
@@ -173,15 +191,19 @@ export class StudyView {
     this.shown = now;
     this.clear();
     if (!file) {
-      put(this.found, this.lacks && !this.study ? null : h("p", { class: "muted" }, "Not simulated as a whole yet. A study of a few paths takes seconds."));
+      put(this.found, !this.study ? null : h("p", { class: "muted" }, "Not simulated as a whole yet. A study of a few paths takes seconds."));
       return;
     }
     const read = await attempt(async () => JSON.parse((await get<{ text: string }>("/api/text", { name: file.name })).text) as StudyFile);
     const job = latest("simulate", (own) => own.folder === this.out && own.state === "done");
     if (!read || this.shown !== now) return;
+    const of = entry(this.study)?.of ?? [];
+    const models = read.inputs.map((input) => entry(nameOf(input.path))).filter((own) => own?.kind === "model" && own.of.length);
+    const other = of.length && models.length && !models.some((model) => model!.of.some((own) => of.some((one) => one.sha256 === own.sha256)));
     put(
       this.found,
       h("div", { class: "row" }, h("button", { onclick: () => void attempt(() => open(`${this.out}/report.html`, "show")) }, "Full report"), h("button", { class: "quiet", onclick: () => void attempt(() => open(this.out, "zip")) }, "Download as zip")),
+      other ? older(`Not of ${this.study}`, `What ${this.out} holds was simulated of ${models.map((model) => model!.name).join(", ")}.`) : null,
       [this.study, this.study.replace(/[^/]*$/, "model.toml")].some((name) => changedAt(name) > file.modified) ? older("Older than its study or model", "One of them changed after this was simulated. Simulate again.") : null,
       promised(read.promise ?? []),
       results(read),

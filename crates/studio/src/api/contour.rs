@@ -98,7 +98,7 @@ fn beside(keys: &[Vec<String>], run: usize) -> Option<Vec<usize>> {
 /// From when on the samples of a contour count, s.
 fn counts_from(workspace: &Workspace, folder: &str, keys: &[String]) -> Result<f64, Refused> {
     let name = format!("{folder}/study.json");
-    let text = std::fs::read_to_string(workspace.file(&name)?)?;
+    let text = workspace.text(&name)?;
     let study: StudyFile =
         serde_json::from_str(&text).map_err(|e| Refused::bad(format!("{name}: {e}")))?;
     let path = study

@@ -8,13 +8,9 @@ use crate::refused::Refused;
 use crate::workspace::{Workspace, kind_of_file};
 use axum::extract::State;
 use serde::{Deserialize, Serialize};
-use std::io::Read;
 use std::path::Path;
 use stiction::commands::{study, visible, write_atomic};
 use stiction::{Axis, ModelFile, Study};
-
-/// Largest text that is read, bytes.
-const LARGEST: u64 = 64 << 20;
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -31,7 +27,7 @@ pub struct Text {
 /// Reads a text file.
 pub async fn read(State(shared): App, Query(asked): Query<Named>) -> Answer {
     blocking(shared, move |shared| {
-        let text = text(&shared.workspace.file(&asked.name)?)?;
+        let text = shared.workspace.text(&asked.name)?;
         Ok(Text { text })
     })
     .await
@@ -67,7 +63,7 @@ fn written(workspace: &Workspace, asked: &Written) -> Result<(), Refused> {
     }
     let path = workspace.place(name)?;
     let now = match path.is_file() {
-        true => text(&path)?,
+        true => workspace.text(name)?,
         false => String::new(),
     };
     if now != *before {
@@ -154,14 +150,4 @@ pub async fn study(State(shared): App, Json(asked): Json<Begun>) -> Answer {
         Ok(())
     })
     .await
-}
-
-fn text(path: &Path) -> Result<String, Refused> {
-    let mut out = String::new();
-    let file = std::fs::File::open(path)?;
-    file.take(LARGEST + 1).read_to_string(&mut out)?;
-    match out.len() as u64 > LARGEST {
-        true => Err(Refused::too_large(format!("more than {LARGEST} bytes"))),
-        false => Ok(out),
-    }
 }

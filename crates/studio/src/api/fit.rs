@@ -45,11 +45,8 @@ pub async fn fit(State(shared): App, Query(asked): Query<Named>) -> Answer {
         let loaded = shared
             .logs
             .table(&shared.workspace, &format!("{result}/fit.csv"), 0)?;
-        let model = shared.workspace.file(&format!("{result}/model.toml"));
-        let text = model
-            .ok()
-            .and_then(|file| std::fs::read_to_string(file).ok());
-        let model = text.and_then(|text| ModelFile::parse(&text).ok());
+        let text = shared.workspace.text(&format!("{result}/model.toml"));
+        let model = text.ok().and_then(|text| ModelFile::parse(&text).ok());
         let series = &loaded.series;
         Ok(Fit {
             from: series.time.first().copied(),

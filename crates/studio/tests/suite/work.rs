@@ -432,6 +432,68 @@ fn work_that_is_stopped_keeps_what_it_found() {
 }
 
 #[test]
+fn results_models_and_studies_say_which_log_they_come_from() {
+    let served = open();
+    log(&served, "run.csv");
+    let asked = "{\"kind\":\"identify\",\"logs\":[\"run.csv\"],\"law\":\"coulomb-viscous\",\"out\":\"sub/result\"}";
+    std::fs::create_dir(served.path().join("sub")).unwrap();
+    let begun = served.ask("POST", "/api/jobs", asked);
+    let job = ended(&served, begun.json().as_u64().unwrap());
+    assert_eq!(job["state"], "done", "{job}");
+    let outside = tempfile::tempdir().unwrap();
+    let model = served.path().join("sub/result/model.toml");
+    std::fs::copy(&model, outside.path().join("model.toml")).unwrap();
+    let write = |name: &str, text: String| std::fs::write(served.path().join(name), text).unwrap();
+    write(
+        "sub/study.toml",
+        "[axis]\nmodel = \"result/model.toml\"\n".into(),
+    );
+    write(
+        "known-study.toml",
+        "[axis]\nknown = \"linear-motor\"\n".into(),
+    );
+    let path = outside.path().display();
+    write(
+        "outside-study.toml",
+        format!("[axis]\nmodel = '{path}/model.toml'\n"),
+    );
+    write("broken-model.toml", "[source]\ninputs = 3\n".into());
+    let of = |name: &str| {
+        let all = served.ask("GET", "/api/workspace", "").json();
+        let mut files = all["files"].as_array().unwrap().iter();
+        files.find(|file| file["name"] == name).unwrap()["of"].clone()
+    };
+    let hash = || {
+        let about = served.ask("GET", "/api/log?name=run.csv", "").json();
+        about["sha256"].as_str().unwrap().to_string()
+    };
+    let before = hash();
+    let own = serde_json::json!([{ "name": "run.csv", "sha256": before }]);
+    for name in ["sub/result", "sub/result/model.toml", "sub/study.toml"] {
+        assert_eq!(of(name), own, "{name}");
+    }
+    for name in [
+        "run.csv",
+        "sub",
+        "known-study.toml",
+        "outside-study.toml",
+        "broken-model.toml",
+    ] {
+        assert_eq!(of(name), serde_json::json!([]), "{name}");
+    }
+    // Another recording of that name is another log.
+    let text = std::fs::read_to_string(served.path().join("run.csv")).unwrap();
+    write(
+        "run.csv",
+        text.lines()
+            .take(7000)
+            .fold(String::new(), |all, line| all + line + "\n"),
+    );
+    assert_ne!(hash(), before);
+    assert_eq!(of("sub/result"), own);
+}
+
+#[test]
 fn what_a_file_names_outside_of_the_folder_is_not_read() {
     let served = open();
     log(&served, "run.csv");
