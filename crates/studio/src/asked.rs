@@ -8,7 +8,7 @@ mod simulate;
 
 use crate::refused::Refused;
 use crate::workspace::Workspace;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 use stiction::commands::Bundle;
 use stiction::commands::shell::quoted;
@@ -26,16 +26,26 @@ pub enum Asked {
 }
 
 /// What became of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Done {
-    pub verdict: Verdict,
-    /// What the command line prints.
+    /// `trustworthy`, `not-trustworthy` or `interrupted`.
+    pub verdict: Option<&'static str>,
+    /// What the command line prints, or why it failed.
     pub text: String,
     /// The folder that the files are in; another one than was asked for where work was stopped and a complete result was there.
     pub folder: Option<String>,
     pub written: Vec<String>,
     /// The outcome as `--json` gives it, where no file has it.
     pub json: Option<serde_json::Value>,
+}
+
+/// A verdict in a word, once there is one.
+fn word(verdict: Verdict) -> Option<&'static str> {
+    Some(match verdict {
+        Verdict::Trustworthy => "trustworthy",
+        Verdict::NotTrustworthy => "not-trustworthy",
+        Verdict::Interrupted => "interrupted",
+    })
 }
 
 /// What a piece of work is done with.
@@ -46,16 +56,20 @@ pub struct Run<'a> {
     pub stopped: &'a dyn Fn() -> bool,
 }
 
-/// A kind of work.
-trait Work {
-    /// What it is called.
-    fn kind(&self) -> &'static str;
-
-    /// The file that it is about.
-    fn about(&self) -> String;
-
+/// What a piece of work is.
+pub struct What<'a> {
+    /// The command.
+    pub kind: &'static str,
+    /// The log or file that it is about.
+    pub about: String,
     /// The folder that it writes into.
-    fn out(&self) -> Option<&str>;
+    pub out: Option<&'a str>,
+}
+
+/// A kind of work.
+pub trait Work {
+    /// What it is.
+    fn what(&self) -> What<'_>;
 
     /// Arguments and options of the command line, but for the folder.
     fn words(&self, words: &mut Words);
@@ -65,7 +79,8 @@ trait Work {
 }
 
 impl Asked {
-    fn work(&self) -> &dyn Work {
+    /// The work itself.
+    pub fn work(&self) -> &dyn Work {
         match self {
             Asked::Check(work) => work,
             Asked::Identify(work) => work,
@@ -75,32 +90,14 @@ impl Asked {
         }
     }
 
-    /// What it is called.
-    pub fn kind(&self) -> &'static str {
-        self.work().kind()
-    }
-
-    /// The file that it is about.
-    pub fn about(&self) -> String {
-        self.work().about()
-    }
-
-    /// The folder that it writes into.
-    pub fn out(&self) -> Option<&str> {
-        self.work().out()
-    }
-
     /// The command line that does the same in the folder of the page.
     pub fn command(&self) -> String {
-        let mut words = Words::of(self.kind());
-        self.work().words(&mut words);
-        words.option("--out", self.out());
+        let work = self.work();
+        let what = work.what();
+        let mut words = Words::of(what.kind);
+        work.words(&mut words);
+        words.option("--out", what.out);
         words.line()
-    }
-
-    /// Does it.
-    pub fn run(&self, run: Run<'_>) -> Result<Done, Refused> {
-        self.work().run(run)
     }
 }
 
@@ -148,6 +145,7 @@ impl Words {
 
 /// What was found, to be written.
 struct Found<'a> {
+    workspace: &'a Workspace,
     bundle: &'a Bundle,
     /// The folder, and its name.
     out: (&'a Path, &'a str),
@@ -159,12 +157,18 @@ struct Found<'a> {
 impl Found<'_> {
     /// Writes it; `text` is told the folder that took it.
     fn done(self, text: impl FnOnce(&Path) -> String) -> Result<Done, Refused> {
-        let (folder, written) = put(self.bundle, self.out, self.schema, self.stopped)?;
+        let (folder, written) = put(
+            self.workspace,
+            self.bundle,
+            self.out,
+            self.schema,
+            self.stopped,
+        )?;
         Ok(Done {
-            verdict: match self.stopped {
+            verdict: word(match self.stopped {
                 true => Verdict::Interrupted,
                 false => self.verdict,
-            },
+            }),
             text: text(Path::new(&folder)),
             folder: Some(folder),
             written,
@@ -176,6 +180,7 @@ impl Found<'_> {
 /// Writes files into a folder, or beside it where they are of work that was stopped and a complete result is there; the name of
 /// the folder, and of the files in it.
 fn put(
+    workspace: &Workspace,
     bundle: &Bundle,
     (dir, name): (&Path, &str),
     schema: &str,
@@ -184,18 +189,7 @@ fn put(
     let beside = bundle::beside_complete(bundle, dir, schema, stopped);
     let out = beside.as_deref().unwrap_or(dir);
     let written = bundle.write(out)?;
-    let name = match (beside.as_ref(), name.rsplit_once('/')) {
-        (None, _) => name.to_string(),
-        // Beside a folder it is named after that, within it `interrupted`.
-        (Some(other), before) => {
-            let last = other.file_name().unwrap_or_default().to_string_lossy();
-            match (other.starts_with(dir), before) {
-                (true, _) => format!("{name}/{last}"),
-                (false, Some((before, _))) => format!("{before}/{last}"),
-                (false, None) => last.into_owned(),
-            }
-        }
-    };
+    let name = workspace.name(out).unwrap_or_else(|| name.into());
     let names = written.iter().filter_map(|path| path.file_name());
     let names = names.map(|name| name.to_string_lossy().into_owned());
     Ok((name, names.collect()))

@@ -1,14 +1,15 @@
 //! Long work: started by one tab, seen by all of them, and still there after a reload.
 
 use crate::asked::{Asked, Done, Run};
+use crate::held::held;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
 use serde::Serialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use stiction::{Control, Observer, Progress, Verdict};
+use stiction::{Control, Observer, Progress};
 use tokio::sync::mpsc;
 
 /// Work that runs at once; more is refused, and the page says so.
@@ -45,7 +46,7 @@ struct Job {
 }
 
 /// What a tab sees of a piece of work.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct View {
     pub id: u64,
     /// The command: `identify`.
@@ -64,27 +65,24 @@ pub struct View {
     pub left: Option<f64>,
     /// rms(residual)/rms(measured), in percent.
     pub error_percent: Option<f64>,
-    /// `trustworthy`, `not-trustworthy` or `interrupted`.
-    pub verdict: Option<&'static str>,
-    /// What the command line prints, or why it failed.
-    pub text: String,
-    pub folder: Option<String>,
-    pub written: Vec<String>,
-    pub json: Option<serde_json::Value>,
+    /// What became of it; before, the folder alone.
+    #[serde(flatten)]
+    pub done: Done,
 }
 
 impl Jobs {
     /// Begins a piece of work.
     pub fn begin(self: &Arc<Self>, workspace: &Workspace, asked: Asked) -> Result<u64, Refused> {
-        let mut board = self.board();
+        let mut board = held(&self.0);
         let running = || board.jobs.iter().filter(|job| job.is_running());
         if running().count() >= RUNNING {
             return Err(Refused::busy(format!(
                 "{RUNNING} pieces of work are running; stop one, or wait"
             )));
         }
-        let out = asked.out().map(String::from);
-        if out.is_some() && running().any(|job| job.view.folder == out) {
+        let what = asked.work().what();
+        let out = what.out.map(String::from);
+        if out.is_some() && running().any(|job| job.view.done.folder == out) {
             return Err(Refused::conflict("other work is writing into that folder"));
         }
         board.last += 1;
@@ -93,20 +91,15 @@ impl Jobs {
         let now = Instant::now();
         let view = View {
             id,
-            kind: asked.kind(),
+            kind: what.kind,
             command: asked.command(),
-            about: asked.about(),
+            about: what.about,
             state: "running",
-            stage: None,
-            fraction: 0.0,
-            seconds: 0.0,
-            left: None,
-            error_percent: None,
-            verdict: None,
-            text: String::new(),
-            folder: out,
-            written: Vec::new(),
-            json: None,
+            done: Done {
+                folder: out,
+                ..Done::default()
+            },
+            ..View::default()
         };
         let watch = Watch {
             jobs: self.clone(),
@@ -122,7 +115,7 @@ impl Jobs {
             let work = || {
                 let mut watch = watch;
                 let stopped = || stopped.load(Ordering::Relaxed);
-                asked.run(Run {
+                asked.work().run(Run {
                     workspace: &workspace,
                     observer: &mut watch,
                     stopped: &stopped,
@@ -153,7 +146,7 @@ impl Jobs {
 
     /// Asks work to stop; what it found until then is kept.
     pub fn stop(&self, id: u64) -> Result<(), Refused> {
-        let mut board = self.board();
+        let mut board = held(&self.0);
         let job = board.job(id).filter(|job| job.is_running());
         let job = job.ok_or_else(|| Refused::missing("no such work is running"))?;
         job.stop.store(true, Ordering::Relaxed);
@@ -164,7 +157,7 @@ impl Jobs {
 
     /// All work, the oldest first.
     pub fn all(&self) -> Vec<View> {
-        self.board()
+        held(&self.0)
             .jobs
             .iter()
             .map(|job| job.view.clone())
@@ -173,7 +166,7 @@ impl Jobs {
 
     /// What becomes of all work from now on, each message the JSON of one piece; first come all as they are.
     pub fn watch(&self) -> Result<mpsc::Receiver<String>, Refused> {
-        let mut board = self.board();
+        let mut board = held(&self.0);
         board.watchers.retain(|watcher| !watcher.is_closed());
         if board.watchers.len() >= WATCHERS {
             return Err(Refused::busy("too many tabs"));
@@ -188,7 +181,7 @@ impl Jobs {
     }
 
     fn end(&self, id: u64, ended: Result<Done, Refused>) {
-        let mut board = self.board();
+        let mut board = held(&self.0);
         if let Some(job) = board.job(id) {
             let view = &mut job.view;
             view.seconds = job.began.elapsed().as_secs_f64();
@@ -196,28 +189,15 @@ impl Jobs {
             match ended {
                 Ok(done) => {
                     view.state = "done";
-                    view.verdict = Some(match done.verdict {
-                        Verdict::Trustworthy => "trustworthy",
-                        Verdict::NotTrustworthy => "not-trustworthy",
-                        Verdict::Interrupted => "interrupted",
-                    });
-                    view.text = done.text;
-                    view.folder = done.folder;
-                    view.written = done.written;
-                    view.json = done.json;
+                    view.done = done;
                 }
                 Err(refused) => {
                     view.state = "failed";
-                    view.text = refused.message().into();
+                    view.done.text = refused.message().into();
                 }
             }
         }
         board.tell(id);
-    }
-
-    fn board(&self) -> MutexGuard<'_, Board> {
-        // Work that panicked left the board as it was.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -262,7 +242,7 @@ impl Observer for Watch {
     fn progress(&mut self, progress: &Progress) -> Control {
         if self.told.is_none_or(|told| told.elapsed() >= BETWEEN) {
             self.told = Some(Instant::now());
-            let mut board = self.jobs.board();
+            let mut board = held(&self.jobs.0);
             if let Some(job) = board.job(self.id) {
                 job.progress(progress);
             }

@@ -1,23 +1,34 @@
 //! Addresses under which a browser opens or saves a file by itself: such a request carries no header of the page, so its
 //! address carries a secret, and the cookie comes with it all the same.
 
+use crate::held::held;
 use crate::refused::Refused;
 use crate::secret::secret;
+use serde::Deserialize;
 use std::collections::VecDeque;
 use std::sync::Mutex;
 
 /// Most addresses that are known at once; the oldest go first.
 const MOST: usize = 512;
 
-/// What an address stands for.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Opened {
-    /// A file of the workspace, shown in a tab.
-    Shown(String),
-    /// A file of the workspace, saved.
-    Saved(String),
-    /// A folder of the workspace, saved as a zip.
-    Zipped(String),
+/// What an address stands for: a file or folder of the workspace.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Opened {
+    pub name: String,
+    pub how: How,
+}
+
+/// What a browser does with it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum How {
+    /// Shows a file in a tab.
+    Show,
+    /// Saves a file.
+    Save,
+    /// Saves a folder.
+    Zip,
 }
 
 /// The addresses that were given out.
@@ -27,7 +38,7 @@ pub struct Tickets(Mutex<VecDeque<(String, Opened)>>);
 impl Tickets {
     /// The address of something; the same for the same.
     pub fn give(&self, opened: Opened) -> Result<String, Refused> {
-        let mut known = self.0.lock().map_err(|_| Refused::internal("a lock"))?;
+        let mut known = held(&self.0);
         if let Some((ticket, _)) = known.iter().find(|(_, own)| *own == opened) {
             return Ok(ticket.clone());
         }
@@ -41,7 +52,7 @@ impl Tickets {
 
     /// What an address stands for.
     pub fn take(&self, ticket: &str) -> Option<Opened> {
-        let known = self.0.lock().ok()?;
+        let known = held(&self.0);
         let mut found = known.iter().filter(|(own, _)| own == ticket);
         found.next().map(|(_, opened)| opened.clone())
     }

@@ -5,17 +5,16 @@ use crate::given::Json;
 use crate::guard::SHOWN;
 use crate::refused::Refused;
 use crate::server::Shared;
-use crate::tickets::Opened;
+use crate::tickets::{How, Opened};
 use axum::body::Body;
 use axum::extract::{Path, State};
 use axum::http::HeaderValue;
 use axum::http::header::{CONTENT_DISPOSITION, CONTENT_SECURITY_POLICY, CONTENT_TYPE};
 use axum::response::IntoResponse;
 use futures_core::Stream;
-use serde::Deserialize;
 use std::convert::Infallible;
 use std::fs::File;
-use std::io::{Read, Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom};
 use std::pin::Pin;
 use std::task::{Context, Poll};
 use tokio::sync::mpsc;
@@ -29,31 +28,19 @@ const WAITING: usize = 4;
 const MOST_FILES: usize = 2000;
 const DEEPEST: usize = 6;
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Asked {
-    name: String,
-    /// `show`, `save` or `zip`.
-    how: String,
-}
-
 /// The address under which a browser opens a file, or saves it or a folder.
-pub async fn ticket(State(shared): App, Json(asked): Json<Asked>) -> Answer {
-    let Asked { name, how } = asked;
-    let last = name.rsplit('/').next().unwrap_or_default().to_string();
-    let (opened, last) = match how.as_str() {
-        "show" if name.ends_with(".html") => (Opened::Shown(name.clone()), last),
-        "save" => (Opened::Saved(name.clone()), last),
-        "zip" => (Opened::Zipped(name.clone()), format!("{last}.zip")),
-        _ => {
-            return Err(Refused::bad(
-                "show an HTML file, save a file, or zip a folder",
-            ));
+pub async fn ticket(State(shared): App, Json(opened): Json<Opened>) -> Answer {
+    let Opened { name, how } = &opened;
+    let mut last = name.rsplit('/').next().unwrap_or_default().to_string();
+    match how {
+        How::Show if !name.ends_with(".html") => {
+            return Err(Refused::bad(format!("{name}: only HTML files are shown")));
         }
-    };
-    match &opened {
-        Opened::Zipped(name) => shared.workspace.dir(name)?,
-        Opened::Shown(name) | Opened::Saved(name) => shared.workspace.file(name)?,
+        How::Show | How::Save => shared.workspace.file(name)?,
+        How::Zip => {
+            last.push_str(".zip");
+            shared.workspace.dir(name)?
+        }
     };
     let ticket = shared.tickets.give(opened)?;
     Ok(Json(format!("/open/{ticket}/{}", escaped(&last))).into_response())
@@ -78,10 +65,10 @@ pub async fn open(State(shared): App, Path((ticket, _)): Path<(String, String)>)
     let own = opened.clone();
     let work: Work<File> = Box::new(move |shared| file_of(shared, &own));
     let file = in_turn(shared, work).await?;
-    let (kind, shown) = match &opened {
-        Opened::Shown(_) => ("text/html; charset=utf-8", "inline"),
-        Opened::Saved(_) => ("application/octet-stream", "attachment"),
-        Opened::Zipped(_) => ("application/zip", "attachment"),
+    let (kind, shown) = match opened.how {
+        How::Show => ("text/html; charset=utf-8", "inline"),
+        How::Save => ("application/octet-stream", "attachment"),
+        How::Zip => ("application/zip", "attachment"),
     };
     let mut response = Body::from_stream(Sent::of(file)).into_response();
     let headers = response.headers_mut();
@@ -92,18 +79,17 @@ pub async fn open(State(shared): App, Path((ticket, _)): Path<(String, String)>)
 }
 
 fn file_of(shared: &Shared, opened: &Opened) -> Result<File, Refused> {
-    match opened {
-        Opened::Shown(name) | Opened::Saved(name) => Ok(File::open(shared.workspace.file(name)?)?),
-        Opened::Zipped(name) => {
-            let dir = shared.workspace.dir(name)?;
-            let mut zip = zip::ZipWriter::new(tempfile::tempfile()?);
-            let mut left = MOST_FILES;
-            pack(&mut zip, &dir, "", DEEPEST, &mut left)?;
-            let mut file = zip.finish().map_err(|e| Refused::internal(e.to_string()))?;
-            file.seek(SeekFrom::Start(0))?;
-            Ok(file)
-        }
+    let Opened { name, how } = opened;
+    if *how != How::Zip {
+        return Ok(File::open(shared.workspace.file(name)?)?);
     }
+    let dir = shared.workspace.dir(name)?;
+    let mut zip = zip::ZipWriter::new(tempfile::tempfile()?);
+    let mut left = MOST_FILES;
+    pack(&mut zip, &dir, "", DEEPEST, &mut left)?;
+    let mut file = zip.finish().map_err(|e| Refused::internal(e.to_string()))?;
+    file.seek(SeekFrom::Start(0))?;
+    Ok(file)
 }
 
 /// Packs the files of a folder, sorted, all with the same date: the same files give the same bytes.
@@ -133,14 +119,7 @@ fn pack(
             let fault = |e: zip::result::ZipError| Refused::internal(e.to_string());
             zip.start_file(whole, SimpleFileOptions::default())
                 .map_err(fault)?;
-            let mut file = File::open(entry.path())?;
-            let mut buffer = vec![0; CHUNK];
-            loop {
-                match file.read(&mut buffer)? {
-                    0 => break,
-                    read => zip.write_all(&buffer[..read])?,
-                }
-            }
+            std::io::copy(&mut File::open(entry.path())?, zip)?;
         }
     }
     Ok(())

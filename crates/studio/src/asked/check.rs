@@ -1,6 +1,6 @@
 //! `stiction check`: what a log can determine.
 
-use super::{Done, Run, Words, Work};
+use super::{Done, Run, What, Words, Work, word};
 use crate::named::read_axis;
 use crate::refused::Refused;
 use serde::Deserialize;
@@ -14,16 +14,12 @@ pub struct Check {
 }
 
 impl Work for Check {
-    fn kind(&self) -> &'static str {
-        "check"
-    }
-
-    fn about(&self) -> String {
-        self.log.clone()
-    }
-
-    fn out(&self) -> Option<&str> {
-        None
+    fn what(&self) -> What<'_> {
+        What {
+            kind: "check",
+            about: self.log.clone(),
+            out: None,
+        }
     }
 
     fn words(&self, words: &mut Words) {
@@ -40,11 +36,10 @@ impl Work for Check {
         let axis = axis.transpose()?;
         let found = stiction::commands::check::check(&logs, axis.as_deref(), run.observer)?;
         Ok(Done {
-            verdict: found.verdict(),
+            verdict: word(found.verdict()),
             text: text::check(&found),
-            folder: None,
-            written: Vec::new(),
             json: serde_json::to_value(&found).ok(),
+            ..Done::default()
         })
     }
 }

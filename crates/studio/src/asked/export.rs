@@ -1,6 +1,6 @@
 //! `stiction export`: a compensator for a controller.
 
-use super::{Done, Run, Words, Work};
+use super::{Done, Run, What, Words, Work, word};
 use crate::refused::Refused;
 use serde::Deserialize;
 use std::path::Path;
@@ -35,16 +35,12 @@ impl Export {
 }
 
 impl Work for Export {
-    fn kind(&self) -> &'static str {
-        "export"
-    }
-
-    fn about(&self) -> String {
-        self.model.clone()
-    }
-
-    fn out(&self) -> Option<&str> {
-        Some(&self.out)
+    fn what(&self) -> What<'_> {
+        What {
+            kind: "export",
+            about: self.model.clone(),
+            out: Some(&self.out),
+        }
     }
 
     fn words(&self, words: &mut Words) {
@@ -80,7 +76,7 @@ impl Work for Export {
             false => exported.write(&dir)?,
         }
         Ok(Done {
-            verdict: exported.verdict(),
+            verdict: word(exported.verdict()),
             text: text::exported(&exported, Path::new(&self.out)),
             folder: Some(self.out.clone()),
             written: exported.written.clone(),

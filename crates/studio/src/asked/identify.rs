@@ -1,6 +1,6 @@
 //! `stiction identify`: friction from logs.
 
-use super::{Done, Found, Run, Words, Work};
+use super::{Done, Found, Run, What, Words, Work};
 use crate::named::read_axis;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
@@ -26,19 +26,15 @@ pub struct Identify {
 }
 
 impl Work for Identify {
-    fn kind(&self) -> &'static str {
-        "identify"
-    }
-
-    fn about(&self) -> String {
-        match self.logs.as_slice() {
-            [] => self.axis.clone().unwrap_or_default(),
-            logs => logs.join(", "),
+    fn what(&self) -> What<'_> {
+        What {
+            kind: "identify",
+            about: match self.logs.as_slice() {
+                [] => self.axis.clone().unwrap_or_default(),
+                logs => logs.join(", "),
+            },
+            out: Some(&self.out),
         }
-    }
-
-    fn out(&self) -> Option<&str> {
-        Some(&self.out)
     }
 
     fn words(&self, words: &mut Words) {
@@ -59,6 +55,7 @@ impl Work for Identify {
         let files = self.files(run.workspace, &dir)?;
         let outcome = stiction::commands::identify(&files, &self.options()?, run.observer)?;
         let found = Found {
+            workspace: run.workspace,
             bundle: &bundle::identification_in(&outcome, &dir),
             out: (&dir, &self.out),
             schema,

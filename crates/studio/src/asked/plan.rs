@@ -1,6 +1,6 @@
 //! `stiction plan`: the motion to record.
 
-use super::{Done, Found, Run, Words, Work};
+use super::{Done, Found, Run, What, Words, Work, word};
 use crate::named::read_axis;
 use crate::refused::Refused;
 use serde::Deserialize;
@@ -22,16 +22,12 @@ pub struct Plan {
 }
 
 impl Work for Plan {
-    fn kind(&self) -> &'static str {
-        "plan"
-    }
-
-    fn about(&self) -> String {
-        self.axis.clone()
-    }
-
-    fn out(&self) -> Option<&str> {
-        Some(&self.out)
+    fn what(&self) -> What<'_> {
+        What {
+            kind: "plan",
+            about: self.axis.clone(),
+            out: Some(&self.out),
+        }
     }
 
     fn words(&self, words: &mut Words) {
@@ -61,14 +57,13 @@ impl Work for Plan {
         };
         let Some(planned) = plan_motion(&file, &options, run.observer)? else {
             return Ok(Done {
-                verdict: Verdict::Interrupted,
+                verdict: word(Verdict::Interrupted),
                 text: "stopped before there was a motion; nothing is written".into(),
-                folder: None,
-                written: Vec::new(),
-                json: None,
+                ..Done::default()
             });
         };
         let found = Found {
+            workspace: run.workspace,
             bundle: &bundle::plan(&planned),
             out: (&dir, &self.out),
             schema: plan::SCHEMA,

@@ -1,6 +1,6 @@
 //! `stiction simulate`: a study.
 
-use super::{Done, Found, Run, Words, Work};
+use super::{Done, Found, Run, What, Words, Work};
 use crate::named::read_study;
 use crate::refused::Refused;
 use serde::Deserialize;
@@ -16,16 +16,12 @@ pub struct Simulate {
 }
 
 impl Work for Simulate {
-    fn kind(&self) -> &'static str {
-        "simulate"
-    }
-
-    fn about(&self) -> String {
-        self.study.clone()
-    }
-
-    fn out(&self) -> Option<&str> {
-        Some(&self.out)
+    fn what(&self) -> What<'_> {
+        What {
+            kind: "simulate",
+            about: self.study.clone(),
+            out: Some(&self.out),
+        }
     }
 
     fn words(&self, words: &mut Words) {
@@ -41,6 +37,7 @@ impl Work for Simulate {
         check_inputs(&dir, &inputs)?;
         let outcome = stiction::simulate(&read, run.observer);
         let found = Found {
+            workspace: run.workspace,
             bundle: &bundle::study(&outcome),
             out: (&dir, &self.out),
             schema,
