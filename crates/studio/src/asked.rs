@@ -28,8 +28,7 @@ pub enum Asked {
 /// What became of it.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Done {
-    /// `trustworthy`, `not-trustworthy` or `interrupted`.
-    pub verdict: Option<&'static str>,
+    pub verdict: Option<Verdict>,
     /// What the command line prints, or why it failed.
     pub text: String,
     /// The folder that the files are in; another one than was asked for where work was stopped and a complete result was there.
@@ -37,15 +36,6 @@ pub struct Done {
     pub written: Vec<String>,
     /// The outcome as `--json` gives it, where no file has it.
     pub json: Option<serde_json::Value>,
-}
-
-/// A verdict in a word, once there is one.
-fn word(verdict: Verdict) -> Option<&'static str> {
-    Some(match verdict {
-        Verdict::Trustworthy => "trustworthy",
-        Verdict::NotTrustworthy => "not-trustworthy",
-        Verdict::Interrupted => "interrupted",
-    })
 }
 
 /// What a piece of work is done with.
@@ -165,7 +155,7 @@ impl Found<'_> {
             self.stopped,
         )?;
         Ok(Done {
-            verdict: word(match self.stopped {
+            verdict: Some(match self.stopped {
                 true => Verdict::Interrupted,
                 false => self.verdict,
             }),

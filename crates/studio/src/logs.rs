@@ -68,7 +68,7 @@ pub struct About {
     pub excluded: Vec<LeftOut>,
     pub columns: Vec<Column>,
     pub channels: Vec<Drawable>,
-    pub marks: Stretches,
+    pub marks: Marks,
     /// Why it could not be read, if so; then only columns are known.
     pub refused: Option<String>,
 }
@@ -116,26 +116,6 @@ pub struct Column {
     pub range: Option<(f64, f64)>,
 }
 
-/// Parts of a log, s from its first sample.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Stretches {
-    pub crop: Option<(f64, f64)>,
-    pub fit: Vec<(f64, f64)>,
-    pub validate: Vec<(f64, f64)>,
-    pub validate_all: bool,
-}
-
-impl From<Marks> for Stretches {
-    fn from(marks: Marks) -> Self {
-        Self {
-            crop: marks.crop,
-            fit: marks.fit,
-            validate: marks.validate,
-            validate_all: marks.validate_all,
-        }
-    }
-}
-
 impl Logs {
     /// A log of the workspace as an axis file of it says, or as it is found.
     pub fn log(
@@ -152,7 +132,7 @@ impl Logs {
         let key = Key::of(name, &path, Some(text.unwrap_or_default().to_string()))?;
         self.kept(key, || {
             let axis = read.unwrap_or_default();
-            let marks = axis.marks(&path).into();
+            let marks = axis.marks(&path);
             let whole = axis.of_whole(&path);
             Ok(match load(&path, &whole) {
                 Ok(source) => loaded(source, marks),
@@ -226,7 +206,7 @@ impl Key {
     }
 }
 
-fn loaded(source: Source, marks: Stretches) -> Loaded {
+fn loaded(source: Source, marks: Marks) -> Loaded {
     let log = &source.log;
     let at = |sample: usize| log.time.get(sample).copied();
     let findings = log.findings.iter().take(MOST_TOLD).map(|found| Found {

@@ -5,7 +5,7 @@ mod motion;
 mod shows;
 mod tracking;
 
-pub use init::{Started, init};
+pub use init::{Started, init, names};
 pub use motion::{Motion, speeds};
 pub use shows::Shows;
 pub use tracking::{Peak, Tracking, TrackingChange};

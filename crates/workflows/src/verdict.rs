@@ -6,12 +6,14 @@ use crate::identify::Outcome;
 use crate::plan::Planned;
 use crate::reproduce::Reproduction;
 use crate::study::StudyOutcome;
+use serde::Serialize;
 use stiction_files::batch::BatchFile;
 use stiction_files::compare_file::CompareFile;
 use stiction_files::drift_file::DriftFile;
 
 /// Whether an outcome may be used. What a process exits with follows from it, and from nothing else.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// It may be used.
     Trustworthy,

@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::path::Path;
 
 /// The parts of a log, s from the first sample of its file.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Marks {
     /// What is kept; `None` for all.
     pub crop: Option<(f64, f64)>,

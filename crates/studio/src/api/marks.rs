@@ -2,7 +2,6 @@
 
 use super::{Answer, App, blocking};
 use crate::given::Json;
-use crate::logs::Stretches;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
 use axum::extract::State;
@@ -53,7 +52,7 @@ pub async fn mark(State(shared): App, Json(asked): Json<Asked>) -> Answer {
 }
 
 /// Marks a stretch in the axis file, which is begun where there is none.
-fn marked_in(workspace: &Workspace, asked: &Asked) -> Result<Stretches, Refused> {
+fn marked_in(workspace: &Workspace, asked: &Asked) -> Result<Marks, Refused> {
     let log = workspace.file(&asked.log)?;
     let (file, text) = workspace.axis(&asked.axis)?;
     let text = text.map_or_else(|| Ok(check::init(&log, None)?.text), Ok::<_, Refused>)?;
@@ -83,7 +82,7 @@ fn marked_in(workspace: &Workspace, asked: &Asked) -> Result<Stretches, Refused>
             ))
         })?;
     write_atomic(&file, visible::toml(text).as_bytes())?;
-    Ok(marks.into())
+    Ok(marks)
 }
 
 /// A time to the microsecond, which no log is finer than by hand.

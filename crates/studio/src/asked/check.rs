@@ -1,6 +1,6 @@
 //! `stiction check`: what a log can determine.
 
-use super::{Done, Run, What, Words, Work, word};
+use super::{Done, Run, What, Words, Work};
 use crate::named::read_axis;
 use crate::refused::Refused;
 use serde::Deserialize;
@@ -36,7 +36,7 @@ impl Work for Check {
         let axis = axis.transpose()?;
         let found = stiction::commands::check::check(&logs, axis.as_deref(), run.observer)?;
         Ok(Done {
-            verdict: word(found.verdict()),
+            verdict: Some(found.verdict()),
             text: text::check(&found),
             json: serde_json::to_value(&found).ok(),
             ..Done::default()

@@ -1,6 +1,6 @@
 //! `stiction export`: a compensator for a controller.
 
-use super::{Done, Run, What, Words, Work, word};
+use super::{Done, Run, What, Words, Work};
 use crate::refused::Refused;
 use serde::Deserialize;
 use std::path::Path;
@@ -76,7 +76,7 @@ impl Work for Export {
             false => exported.write(&dir)?,
         }
         Ok(Done {
-            verdict: word(exported.verdict()),
+            verdict: Some(exported.verdict()),
             text: text::exported(&exported, Path::new(&self.out)),
             folder: Some(self.out.clone()),
             written: exported.written.clone(),

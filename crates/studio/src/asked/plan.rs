@@ -1,6 +1,6 @@
 //! `stiction plan`: the motion to record.
 
-use super::{Done, Found, Run, What, Words, Work, word};
+use super::{Done, Found, Run, What, Words, Work};
 use crate::named::read_axis;
 use crate::refused::Refused;
 use serde::Deserialize;
@@ -57,7 +57,7 @@ impl Work for Plan {
         };
         let Some(planned) = plan_motion(&file, &options, run.observer)? else {
             return Ok(Done {
-                verdict: word(Verdict::Interrupted),
+                verdict: Some(Verdict::Interrupted),
                 text: "stopped before there was a motion; nothing is written".into(),
                 ..Done::default()
             });

@@ -129,18 +129,8 @@ fn assumed(columns: &[Column], but: &str) -> Vec<Addition> {
 
 /// Names under which a role stands in an axis file.
 fn names(role: &str) -> Option<&'static [&'static str]> {
-    Some(match role {
-        "time" => &["time"],
-        "position" => &["position"],
-        "velocity" => &["velocity"],
-        "acceleration" => &["acceleration"],
-        "force" => &["force", "torque", "current"],
-        "reference" => &["reference"],
-        "temperature" => &["temperature"],
-        "load" => &["load"],
-        "external" => &["external"],
-        _ => return None,
-    })
+    let mut roles = recording::Role::ALL.into_iter();
+    roles.find(|own| own.name() == role).map(check::names)
 }
 
 /// Writes a correction into the axis file, which is begun as `stiction check --init` begins it where there is none; what changed.

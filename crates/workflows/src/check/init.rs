@@ -266,7 +266,7 @@ fn additions(given: &Axis, log: &Log) -> Vec<Addition> {
 }
 
 /// The names that a column may have in an axis file.
-fn names(role: Role) -> &'static [&'static str] {
+pub fn names(role: Role) -> &'static [&'static str] {
     match role {
         Role::Time => &["time"],
         Role::Position => &["position"],
