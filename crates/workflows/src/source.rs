@@ -499,31 +499,7 @@ impl Source {
         let mut samples = self.samples()?;
         samples.valid = self.log.valid_in_motion();
         samples.at_rest = self.log.at_rest();
-        let range = self.log.fitted();
-        let cut = |x: &mut Vec<f64>| {
-            x.truncate(range.end);
-            x.drain(..range.start);
-        };
-        cut(&mut samples.time);
-        cut(&mut samples.force);
-        let others = [
-            &mut samples.position,
-            &mut samples.velocity,
-            &mut samples.acceleration,
-            &mut samples.load,
-            &mut samples.temperature,
-            &mut samples.external,
-        ];
-        others.into_iter().flatten().for_each(cut);
-        for mask in [&mut samples.valid, &mut samples.at_rest] {
-            mask.truncate(range.end);
-            mask.drain(..range.start);
-        }
-        let breaks = samples.breaks.iter().copied();
-        samples.breaks = breaks
-            .filter(|at| range.contains(at) && *at > range.start)
-            .map(|at| at - range.start)
-            .collect();
+        samples.keep(self.log.fitted());
         Ok(samples)
     }
 

@@ -5,6 +5,7 @@ use crate::conditioning::channels::Channels;
 use crate::conditioning::losses::Losses;
 use crate::conditioning::shift::Shift;
 use std::borrow::Cow;
+use std::ops::Range;
 use stiction_signal::{Reading, Sos, Thinning, Travel, noise_deviation};
 
 /// One log in SI units on its own time axis: m or rad, m/s or rad/s, N or N·m (or A, V).
@@ -35,6 +36,35 @@ pub struct Samples {
     /// Samples at which something new starts (after a jump of the position, say), in order; the
     /// record is split there even if the time goes on.
     pub breaks: Vec<usize>,
+}
+
+impl Samples {
+    /// Keeps the rows of this range.
+    pub fn keep(&mut self, range: Range<usize>) {
+        fn cut<T>(x: &mut Vec<T>, range: &Range<usize>) {
+            x.truncate(range.end);
+            x.drain(..range.start.min(x.len()));
+        }
+        let others = [
+            &mut self.position,
+            &mut self.velocity,
+            &mut self.acceleration,
+            &mut self.load,
+            &mut self.temperature,
+            &mut self.external,
+        ];
+        let of_each = [&mut self.time, &mut self.force].into_iter();
+        for values in of_each.chain(others.into_iter().flatten()) {
+            cut(values, &range);
+        }
+        cut(&mut self.valid, &range);
+        cut(&mut self.at_rest, &range);
+        self.breaks
+            .retain(|at| *at > range.start && range.contains(at));
+        for at in &mut self.breaks {
+            *at -= range.start;
+        }
+    }
 }
 
 /// A stretch of uniform samples without gaps.

@@ -1,6 +1,8 @@
-//! The logged force as it acts on the axis in open loop, however it is shifted in time.
+//! A logged force as it acts on the axis, however it is shifted in time: in open loop the whole, in closed loop what acts beside
+//! the controller.
 
 use crate::output_error::run::{Hold, Run};
+use crate::output_error::simulate::{Drive, periods};
 
 /// Distance to a whole sample below which an instant counts as one, in samples.
 const ROUNDING: f64 = 1e-9;
@@ -48,13 +50,19 @@ pub(crate) fn places(substeps: usize, ahead: f64) -> Vec<Place> {
 }
 
 impl<'a> Drawn<'a> {
-    pub fn new(run: &'a Run, hold: Hold, delay: f64, substeps: usize) -> Self {
-        let middle = match hold {
+    /// The delay is that of the force that drives the axis.
+    pub fn new(run: &'a Run, drive: &Drive, delay: f64) -> Self {
+        let (force, delay) = match drive.controller {
+            None => (&run.force, delay),
+            Some(_) => (&run.external, 0.0),
+        };
+        let substeps = periods(run) * drive.substeps;
+        let middle = match drive.hold {
             Hold::Held => 0.0,
             Hold::Centred => 0.5,
         };
         Self {
-            force: &run.force,
+            force,
             steps: places(substeps, middle + delay / run.step),
             rate: substeps as f64 / run.step,
         }
@@ -67,9 +75,12 @@ impl<'a> Drawn<'a> {
         self.force[k.saturating_add_signed(by).min(last)]
     }
 
-    /// The mean force over plant step `j` after sample `k`.
+    /// The mean force over plant step `j` after sample `k`; 0 where nothing acts.
     #[inline]
     pub fn at(&self, k: usize, j: usize) -> f64 {
+        if self.force.is_empty() {
+            return 0.0;
+        }
         let place = &self.steps[j];
         let here = self.row(k, place.row);
         if place.share == 1.0 {

@@ -38,7 +38,10 @@ pub(crate) struct Run {
     pub step: f64,
     pub time: Vec<f64>,
     pub position: Vec<f64>,
+    /// The force that drives the axis: in closed loop that of the controller alone, in open loop all that acts.
     pub force: Vec<f64>,
+    /// What acts beside the controller in closed loop; empty for nothing.
+    pub external: Vec<f64>,
     /// What the controller is asked for, at every control instant; empty in open loop.
     pub wanted: Vec<Wanted>,
     /// Which samples count.
@@ -135,13 +138,20 @@ pub(crate) fn runs(
                 None => &[],
             };
             stretch += 1;
+            let mut force = grid.resample(&samples.force[range.clone()]);
+            let beside = samples.external.as_ref().filter(|_| controller.is_some());
+            let external = beside.map_or(Vec::new(), |x| grid.resample(&x[range.clone()]));
+            for (force, external) in force.iter_mut().zip(&external) {
+                *force -= external;
+            }
             let whole = Run {
                 log,
                 stretch: stretch - 1,
                 step,
                 time: grid.times(),
                 position: grid.resample(&position[range.clone()]),
-                force: grid.resample(&samples.force[range.clone()]),
+                force,
+                external,
                 wanted: reference.map_or(Vec::new(), |r| {
                     wanted(&grid.resample(&r[range.clone()]), step, periods)
                 }),
@@ -244,6 +254,7 @@ impl Run {
                     time: self.time[range.clone()].to_vec(),
                     position: self.position[range.clone()].to_vec(),
                     force: self.force[range.clone()].to_vec(),
+                    external: Vec::new(),
                     wanted: Vec::new(),
                     keep: self.keep[range].to_vec(),
                 }

@@ -105,7 +105,7 @@ fn plain<P: Plant>(
     let mut state = plant.start(initial);
     let mut memory = memory(initial, control);
     let mut before = None;
-    let drawn = Drawn::new(run, drive.hold, axis.delay, drive.substeps);
+    let drawn = Drawn::new(run, drive, axis.delay);
     let is_late = drive.controller.is_some() && axis.delay < 0.0;
     let mut late = is_late.then(|| Late::new(axis.delay, control, drive.substeps));
     for k in 0..n {
@@ -131,12 +131,13 @@ fn plain<P: Plant>(
             }
             if k + 1 < n {
                 for j in 0..drive.substeps {
-                    let force = match (&late, drive.controller) {
+                    let own = match (&late, drive.controller) {
                         (Some(late), _) => late.at(j),
                         (None, Some(_)) => force,
-                        (None, None) => drawn.at(k, j),
+                        (None, None) => 0.0,
                     };
-                    state = plant.step(state, h, force);
+                    let logged = drawn.at(k, i * drive.substeps + j);
+                    state = plant.step(state, h, own + logged);
                 }
             }
         }
@@ -194,7 +195,7 @@ fn with_slopes<P: Plant>(
     let mut force_slopes = [0.0; MOST];
     let mut logged_slopes = [0.0; MOST];
     let mut before = None;
-    let drawn = Drawn::new(run, drive.hold, axis.delay, drive.substeps);
+    let drawn = Drawn::new(run, drive, axis.delay);
     let delay = layout.place(Unknown::Delay);
     let is_late = drive.controller.is_some() && (axis.delay < 0.0 || delay.is_some());
     let mut late = is_late.then(|| Late::new(axis.delay, control, drive.substeps));
@@ -236,7 +237,7 @@ fn with_slopes<P: Plant>(
             }
             if k + 1 < n {
                 for j in 0..drive.substeps {
-                    let (force, by) = match (&late, drive.controller) {
+                    let (own, by) = match (&late, drive.controller) {
                         (Some(late), _) => {
                             late.slopes(j, delay, &mut acting[..count]);
                             (late.at(j), &acting)
@@ -246,9 +247,10 @@ fn with_slopes<P: Plant>(
                             if let Some(own) = delay {
                                 force_slopes[own] = drawn.slope(k, j);
                             }
-                            (drawn.at(k, j), &force_slopes)
+                            (0.0, &force_slopes)
                         }
                     };
+                    let force = own + drawn.at(k, i * drive.substeps + j);
                     let slopes = &mut slopes[..count];
                     state = plant.advance(state, h, force, layout, by, slopes);
                 }

@@ -208,7 +208,19 @@ fn run(n: usize, periods: usize, closed: bool) -> Run {
         } else {
             Vec::new()
         },
+        external: match closed {
+            true => (0..n).map(|k| 7.0 * (0.04 * k as f64).sin()).collect(),
+            false => Vec::new(),
+        },
         keep: vec![true; n],
+    }
+}
+
+fn open(hold: Hold, substeps: usize) -> Drive<'static> {
+    Drive {
+        controller: None,
+        hold,
+        substeps,
     }
 }
 
@@ -395,7 +407,8 @@ fn a_row_acts_where_hold_and_delay_say() {
     for substeps in [1, 4] {
         for delay in [-2.5, -1.0, -0.3, 0.0, 0.6, 1.0, 3.2] {
             for (hold, half) in [(Hold::Held, 0.0), (Hold::Centred, 0.5)] {
-                let drawn = Drawn::new(&run, hold, delay * step, substeps);
+                let drive = open(hold, substeps);
+                let drawn = Drawn::new(&run, &drive, delay * step);
                 let mut mean = 0.0;
                 for j in 0..substeps {
                     mean += drawn.at(10, j) / substeps as f64;
@@ -414,9 +427,9 @@ fn a_row_acts_where_hold_and_delay_say() {
         }
     }
     // Beyond the ends the end values go on.
-    let early = Drawn::new(&run, Hold::Held, -30.0 * step, 1);
+    let early = Drawn::new(&run, &open(Hold::Held, 1), -30.0 * step);
     assert_eq!(early.at(5, 0), 0.0);
-    let late = Drawn::new(&run, Hold::Held, 30.0 * step, 1);
+    let late = Drawn::new(&run, &open(Hold::Held, 1), 30.0 * step);
     assert_eq!(late.at(5, 0), 19.0);
 }
 
@@ -430,11 +443,7 @@ fn an_evaluation_costs() {
         delay: Delay::Fitted,
         ..Terms::default()
     };
-    let drive = Drive {
-        controller: None,
-        hold: Hold::Held,
-        substeps: 1,
-    };
+    let drive = open(Hold::Held, 1);
     let run = run(SAMPLES, 1, false);
     let initial = Initial([0.0; 4]);
     let with = |kind| Law {

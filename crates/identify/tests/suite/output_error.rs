@@ -76,6 +76,18 @@ fn controller(cascade: &Cascade) -> Controller {
 
 /// A closed loop as the drive logs it; the controller sees the encoder, the log's force has noise.
 fn closed(cascade: &Cascade, seconds: f64, count: f64, force_noise: f64, seed: u64) -> Recording {
+    beside(cascade, seconds, count, force_noise, seed, |_| 0.0)
+}
+
+/// The same beside a known force.
+fn beside(
+    cascade: &Cascade,
+    seconds: f64,
+    count: f64,
+    force_noise: f64,
+    seed: u64,
+    external: impl Fn(f64) -> f64,
+) -> Recording {
     let h = 1e-3;
     let plant = machine();
     let encoder = Encoder::new(count).unwrap();
@@ -83,7 +95,7 @@ fn closed(cascade: &Cascade, seconds: f64, count: f64, force_noise: f64, seed: u
     let mut state = CascadeState::default();
     let mut motion = Motion::default();
     let mut out = Recording::default();
-    let (mut position, mut reference) = (Vec::new(), Vec::new());
+    let (mut position, mut reference, mut beside) = (Vec::new(), Vec::new(), Vec::new());
     for k in 0..(seconds / h) as usize {
         let t = k as f64 * h;
         let wanted = Reference {
@@ -96,13 +108,17 @@ fn closed(cascade: &Cascade, seconds: f64, count: f64, force_noise: f64, seed: u
         out.samples.time.push(t);
         position.push(x);
         reference.push(path(t));
-        out.samples.force.push(force + force_noise * noise.normal());
+        let outside = external(t);
+        let logged = force + force_noise * noise.normal();
+        out.samples.force.push(logged + outside);
+        beside.push(outside);
         for _ in 0..FINE {
             motion = plant
-                .step(motion, h / FINE as f64, Load::force(force))
+                .step(motion, h / FINE as f64, Load::force(force + outside))
                 .motion;
         }
     }
+    out.samples.external = Some(beside).filter(|x| x.iter().any(|u| *u != 0.0));
     out.samples.position = Some(position);
     out.reference = Some(reference);
     out

@@ -39,11 +39,22 @@ force_limit = "500 N"
 
 /// The machine axis in closed loop, as its drive would write it: steps of 0.1 um, volts.
 fn log(bench: &Bench, name: &str, n: usize, phase: f64) -> PathBuf {
+    pushed(bench, name, n, phase, |_| 0.0)
+}
+
+/// The same beside a force from outside, the column `e` in N.
+fn pushed(
+    bench: &Bench,
+    name: &str,
+    n: usize,
+    phase: f64,
+    external: impl Fn(f64) -> f64,
+) -> PathBuf {
     let h = 1e-3;
     let axis = known::find("machine").unwrap();
     let plant = Plant::new(axis.mass, axis.law).unwrap();
     let (mut state, mut motion) = (CascadeState::default(), Motion::default());
-    let mut text = String::from("t [s],r,x,u\n");
+    let mut text = String::from("t [s],r,x,u,e\n");
     for k in 0..n {
         let t = k as f64 * h;
         let path = 0.01 * ((2.0 * t + phase).sin() - phase.sin()) + 0.004 * (9.0 * t).sin();
@@ -56,13 +67,15 @@ fn log(bench: &Bench, name: &str, n: usize, phase: f64) -> PathBuf {
         let force = CASCADE.force(&mut state, h, wanted, x);
         let _ = writeln!(
             text,
-            "{t:.3},{:.9},{:.4},{:.6}",
+            "{t:.3},{:.9},{:.4},{:.6},{:.6}",
             1e3 * path,
             1e3 * x,
-            force / 50.0
+            force / 50.0,
+            external(t)
         );
+        let load = Load::force(force + external(t));
         for _ in 0..10 {
-            motion = plant.step(motion, h / 10.0, Load::force(force)).motion;
+            motion = plant.step(motion, h / 10.0, load).motion;
         }
     }
     bench.write(name, &text)
@@ -154,6 +167,28 @@ fn a_closed_loop_is_identified_from_its_file() {
         text.contains("simulation  closed loop, one run from a fitted start (4 values); force"),
         "{text}"
     );
+}
+
+/// What acts from outside acts on the simulated axis, and the controller does not ask for it; on what is held out, too.
+#[test]
+fn a_closed_loop_feels_the_external_force() {
+    let bench = Bench::new();
+    let push = |t: f64| 12.0 + 10.0 * (7.0 * t).sin();
+    let only = pushed(&bench, "pushed.csv", 6000, 0.0, push);
+    let columns = format!("{AXIS}external = {{ column = \"e\", unit = \"N\" }}\n");
+    let options = simulated(&bench, &format!("{columns}{CONTROLLER}"), |o| {
+        o.files.logs = vec![only];
+        o.split = Some(0.7);
+    });
+    let outcome = run(&options).unwrap();
+    let result = &outcome.result;
+    assert!(result.trust.trustworthy, "{:?}", result.trust.reasons);
+    for (name, truth) in [("sigma0", 1.2e5), ("coulomb", 20.0), ("mass", 10.0)] {
+        let p = result.parameters.iter().find(|p| p.name == name).unwrap();
+        assert!((p.value / truth - 1.0).abs() < 0.01, "{name} {}", p.value);
+    }
+    let held_out = result.validation[0].fit.rmse;
+    assert!(held_out < 2.0 * result.fit.rmse, "{held_out}");
 }
 
 #[test]

@@ -253,23 +253,13 @@ fn split(recordings: &mut [Recording], part: f64) -> Result<Vec<Recording>, Erro
         ));
     }
     let rest = |r: &mut Recording| {
-        let at = (part * r.samples.time.len() as f64) as usize;
-        let s = &mut r.samples;
-        let tail = |x: &mut Vec<f64>| x.split_off(at.min(x.len()));
-        let breaks: Vec<usize> = s.breaks.iter().filter_map(|b| b.checked_sub(at)).collect();
-        s.breaks.retain(|b| *b < at);
-        Recording {
-            samples: engine::Samples {
-                time: tail(&mut s.time),
-                position: s.position.as_mut().map(tail),
-                velocity: s.velocity.as_mut().map(tail),
-                force: tail(&mut s.force),
-                valid: s.valid.split_off(at.min(s.valid.len())),
-                breaks: breaks.into_iter().filter(|b| *b > 0).collect(),
-                ..engine::Samples::default()
-            },
-            reference: r.reference.as_mut().map(tail),
-        }
+        let whole = r.samples.time.len();
+        let at = (part * whole as f64) as usize;
+        let mut rest = r.clone();
+        rest.samples.keep(at..whole);
+        rest.reference = r.reference.as_mut().map(|x| x.split_off(at));
+        r.samples.keep(0..at);
+        rest
     };
     Ok(recordings.iter_mut().map(rest).collect())
 }

@@ -28,6 +28,29 @@ fn a_closed_loop_without_noise_gives_the_truth() {
     }
 }
 
+/// A known force acts on the simulated axis too, and is no part of what the controller asks for.
+#[test]
+fn a_known_force_beside_the_controller_leaves_the_truth() {
+    for integral_gain in [0.0, 60_000.0] {
+        let cascade = Cascade {
+            integral_gain,
+            ..CASCADE
+        };
+        let log = beside(&cascade, 4.0, 0.0, 0.0, 1, |t| {
+            12.0 + 10.0 * (7.0 * t).sin()
+        });
+        let simulation = Simulation {
+            controller: Some(controller(&cascade)),
+            ..Simulation::default()
+        };
+        let found = fit(&[log], &simulation);
+        assert_eq!(found.fitted.status, Status::Converged);
+        for (name, off) in off(&found) {
+            assert!(off <= 0.1, "{name} off by {off} %");
+        }
+    }
+}
+
 #[test]
 fn an_open_loop_without_noise_gives_the_truth() {
     let log = open(4.0, 0.0, 0.0, 0.0, 1);
