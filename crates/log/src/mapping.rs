@@ -11,8 +11,10 @@
 //! sample by sample, or all but one of them never change. A column that never changes is taken where its name says so as no other's
 //! does, and never for its unit alone. Motion and force are of one axis: beside `X act` and `X current`, `Y act` is a position
 //! too, and the one is taken whose force is named. Columns that a mapping names are taken as named; only what it leaves
-//! open is filled in: time where neither time nor rate is given, force where none is given, and
-//! position and velocity only where neither is given.
+//! open is filled in: time where neither time nor rate is given, force where none is given,
+//! position and velocity only where neither is given, and acceleration, reference, temperature and load where the mapping does
+//! not say that there is none. A reference in the unit in which the file has a named position is read as that one is, and both it
+//! and an acceleration turn with the sign of a named motion; where such a column does not fit, it is left out.
 //!
 //! # Missing units
 //! * A unit in the mapping takes precedence over the unit in the file; a difference is a finding.
@@ -125,6 +127,8 @@ pub struct Mapping {
     pub load: Option<Channel>,
     /// Force or torque that acts on the axis from outside, towards positive position.
     pub external: Option<Channel>,
+    /// Those of [`Role::OPTIONAL`] that no column has, whatever it is called.
+    pub absent: Vec<Role>,
     /// Column that says in which rows the axis is enabled, or in which mode it is; `None` keeps every row.
     pub enable: Option<Enable>,
     /// Where the position wraps.
@@ -158,7 +162,7 @@ impl Mapping {
     }
 
     /// Gives a role another channel.
-    pub(crate) fn set(&mut self, role: Role, channel: Channel) {
+    pub fn set(&mut self, role: Role, channel: Channel) {
         *self.slot(role) = Some(channel);
     }
 

@@ -77,6 +77,16 @@ fn parse(text: &str) -> Result<Axis, Error> {
     Axis::parse(text)
 }
 
+/// A column that the log may lack is left out by a word; the columns that it needs are not.
+#[test]
+fn none_leaves_out_a_column_that_would_be_found() {
+    let text = "[columns]\nreference = \"none\"\nforce = \"none\"\n";
+    let mapping = Axis::parse(text).unwrap().mapping;
+    assert_eq!(mapping.absent, [Role::Reference]);
+    assert_eq!(mapping.reference, None);
+    assert_eq!(mapping.force, Some(Channel::named("none")));
+}
+
 #[test]
 fn every_key_is_understood() {
     use std::f64::consts::PI;

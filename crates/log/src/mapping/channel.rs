@@ -92,6 +92,14 @@ impl Role {
         Role::External,
     ];
 
+    /// Those that a log may lack: found by name where the axis file neither names them nor says that there is none.
+    pub const OPTIONAL: [Role; 4] = [
+        Role::Acceleration,
+        Role::Reference,
+        Role::Temperature,
+        Role::Load,
+    ];
+
     /// The role's name, as its key in the axis file.
     pub fn name(self) -> &'static str {
         match self {

@@ -9,7 +9,7 @@ use super::select::{distinct, select};
 use super::still::{has_to_change, never_changes};
 use super::{Detected, Mapping, bases, counted, describe, endings, motion, offered, rate, wanted};
 use crate::findings::{Finding, Severity};
-use crate::{Dimension, Error, Kind, Table, Unit};
+use crate::{Dimension, Error, Kind, Table, Unit, Value};
 use stiction_codes::Code;
 
 /// Sample times, s, that a file may give: those of the rates that an axis file may give.
@@ -127,9 +127,6 @@ pub(super) fn columns(
     if nothing_told && describe::unnamed(table) {
         return Err(nameless(table));
     }
-    let none_named = Role::ALL
-        .iter()
-        .all(|r| *r == Role::Time || given.channel(*r).is_none());
     if let Some(hertz) = given.rate_hz {
         let stamps = scan.pick(Role::Time).ok().flatten();
         let stamps = stamps.map(|column| (column, scan.units[column].as_ref()));
@@ -179,20 +176,14 @@ pub(super) fn columns(
             Err(e) => refused.push(e),
         }
     }
-    if none_named {
-        for role in [
-            Role::Acceleration,
-            Role::Reference,
-            Role::Temperature,
-            Role::Load,
-        ] {
-            match scan.pick(role) {
-                Ok(Some(column)) => *out.mapping.slot(role) = Some(scan.take(column)),
-                Ok(None) => {}
-                Err(_) => out
-                    .phrases
-                    .push(format!("{role}: several columns fit, so none is taken")),
-            }
+    let is_open = |role: &Role| given.channel(*role).is_none() && !given.absent.contains(role);
+    for role in Role::OPTIONAL.into_iter().filter(is_open) {
+        match scan.pick(role) {
+            Ok(Some(column)) => *out.mapping.slot(role) = scan.beside(&given, role, column),
+            Ok(None) => {}
+            Err(_) => out
+                .phrases
+                .push(format!("{role}: several columns fit, so none is taken")),
         }
     }
     Ok(())
@@ -409,6 +400,36 @@ impl<'a> Scan<'a> {
         }
     }
 
+    /// A column that is found beside those of a mapping: with the sign of its motion, and a reference as its position where the
+    /// file has both in one unit. `None` where the motion has a scale, such as that of a gear, and nothing tells whether the
+    /// column needs it too.
+    fn beside(&mut self, given: &Mapping, role: Role, column: usize) -> Option<Channel> {
+        let motion = given.position.as_ref().or(given.velocity.as_ref());
+        let moves = matches!(role, Role::Reference | Role::Acceleration);
+        let Some(motion) = motion.filter(|_| moves) else {
+            return Some(self.take(column));
+        };
+        let of_position = given.position.is_some() && role == Role::Reference;
+        let at = select(self.table, &motion.column, Role::Position).ok();
+        if of_position && at.is_some_and(|at| self.units[at] == self.units[column]) {
+            let column = self.take(column).column;
+            return Some(Channel {
+                column,
+                ..motion.clone()
+            });
+        }
+        let counted = |scale: &Value| {
+            let of = [Dimension::LENGTH, Dimension::ANGLE].into_iter();
+            of.map(|d| d.per(scale.unit.dimension()))
+                .any(|unit| unit == Some(Dimension::COUNTS))
+        };
+        let in_si = motion.scale.as_ref().is_none_or(counted);
+        in_si.then(|| Channel {
+            invert: motion.invert,
+            ..self.take(column)
+        })
+    }
+
     /// The one column that fits a role; an error where several fit equally well.
     fn pick(&self, role: Role) -> Result<Option<usize>, Error> {
         let mut fits: Vec<(usize, Hint)> = self
@@ -476,10 +497,13 @@ impl<'a> Scan<'a> {
     }
 
     fn only(&self, mut fits: Vec<usize>, role: Role) -> Result<Option<usize>, Error> {
-        // Of several axes the one whose force or motion is named.
+        // Of several axes the one whose force or motion is named; what a log may lack is of no other one.
         let letter = |c: &usize| names::axis_letter(&self.table.columns[*c].name);
         if MOVED_AND_MOVING.contains(&role) && fits.iter().any(|c| self.axis == letter(c)) {
             fits.retain(|c| self.axis.is_none() || self.axis == letter(c));
+        }
+        if matches!(role, Role::Reference | Role::Acceleration) && self.axis.is_some() {
+            fits.retain(|c| letter(c).is_none_or(|own| self.axis == Some(own)));
         }
         // Of several groups that of what is named.
         let group = |c: &usize| names::group(&self.table.columns[*c].name);

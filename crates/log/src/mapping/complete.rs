@@ -32,6 +32,7 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
         findings: Vec::new(),
         columns: Vec::new(),
     };
+    let is_found = |role| Role::OPTIONAL.contains(&role) && given.channel(role).is_none();
     let mut refused = Vec::new();
     choose::columns(&mut out, table, &mut refused)?;
     let mut parts = Vec::new();
@@ -49,29 +50,36 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
                 unit,
                 assumed: false,
             }),
+            Err(e) if is_found(role) => leave_out(&mut out, role, &e),
             Err(e) => refused.push(e),
         }
     }
     let (kind, seconds) = settled(&mut out, table, &parts, refused)?;
     assume_units(&mut out.findings, table, &mut parts, (kind, seconds))?;
     let mut misfits = Vec::new();
-    for part in &parts {
+    let mut used = Vec::new();
+    for part in parts {
         let unit = part
             .unit
             .clone()
             .unwrap_or_else(|| Unit::si(Dimension::ONE));
         let source = Source::new(table, part.column, &unit, &part.channel, part.role)?;
         if let Err(e) = source.check(table, part.role, kind) {
-            misfits.push((part.role, of_kind(e, (given, part), source.dimension)));
+            if is_found(part.role) {
+                leave_out(&mut out, part.role, &e);
+                continue;
+            }
+            misfits.push((part.role, of_kind(e, (given, &part), source.dimension)));
         }
-        out.phrases.push(phrase(table, part, &unit));
+        out.phrases.push(phrase(table, &part, &unit));
         // A motor makes a force of its current, voltage or duty.
         let driven = part.role == Role::Force && out.mapping.drive.is_some();
-        judge(&mut out.findings, part, (&unit, driven), &source, kind);
+        judge(&mut out.findings, &part, (&unit, driven), &source, kind);
         *out.mapping.slot(part.role) = Some(Channel {
             unit: Some(unit),
             ..part.channel.clone()
         });
+        used.push(part);
     }
     // A wrong kind of motion is one thing, however many columns show it.
     let mut moved = misfits.iter().filter(|(role, _)| is_moved(*role));
@@ -82,8 +90,14 @@ pub(super) fn complete(given: &Mapping, table: &Table) -> Result<Detected, Error
         return Err(e);
     }
     out.findings.extend(enable::ignored(given, table));
-    out.columns = understood::all(table, given, &parts);
+    out.columns = understood::all(table, given, &used);
     Ok(out)
+}
+
+/// Leaves out a column that was found by its name and is of no use as it stands.
+fn leave_out(out: &mut Detected, role: Role, why: &Error) {
+    *out.mapping.slot(role) = None;
+    out.phrases.push(format!("{role} = none: {}", why.found));
 }
 
 /// The refusal of a unit, at the kind of motion where that is given and the unit that the file gives is one of the other kind.

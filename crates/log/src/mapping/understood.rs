@@ -87,6 +87,11 @@ fn used(table: &Table, given: &Mapping, part: &Part) -> Understood {
     }
 }
 
+/// A column that is what its name says no more than others are.
+fn against(role: Role) -> String {
+    format!("could be the {role}, but its unit or others speak against it")
+}
+
 /// A flag, and how rows where it is 0 are left out where there are such.
 fn flag(table: &Table, column: usize) -> String {
     let disturbed = names::says_disturbed(&table.columns[column].name);
@@ -170,6 +175,10 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
         (Some(hint), None) if hint.role == Role::Time && given.rate_hz.is_some() => {
             "could be the time, which the rate of the axis file is taken for".into()
         }
+        (Some(hint), _) if given.absent.contains(&hint.role) => {
+            format!("{} = \"none\" in the axis file", hint.role)
+        }
+        (Some(hint), None) if Role::OPTIONAL.contains(&hint.role) => against(hint.role),
         _ if named => "not named in the axis file".into(),
         _ if names::says_mode(name) => format!(
             "a mode or a state by its name; to leave out rows where it is another than 8: enable = {{ column = {}, equals = 8 \
@@ -177,10 +186,7 @@ fn unused(table: &Table, given: &Mapping, parts: &[Part], column: usize) -> Unde
             describe::line(table, column, "").trim_start_matches(" = ")
         ),
         _ if names::passed_over(name) => "an error, a limit or a state by its name".into(),
-        (Some(hint), None) => format!(
-            "could be the {}, but its unit or others speak against it",
-            hint.role
-        ),
+        (Some(hint), None) => against(hint.role),
         (None, None) if name.is_empty() => "has no name".into(),
         (None, None) if never_changes(table, column) => {
             "its name says nothing known, and it never changes".into()

@@ -7,24 +7,14 @@ use super::convert::of_role;
 use super::{Mapping, bases, choose, endings, names};
 use crate::{Table, Unit};
 
-/// Roles that a mapping which names none of them leaves open.
-const BESIDE: [Role; 4] = [
-    Role::Acceleration,
-    Role::Reference,
-    Role::Temperature,
-    Role::Load,
-];
-
 /// What a mapping may take.
 pub(super) fn by_mapping(mapping: &Mapping, heads: &Table) -> Vec<bool> {
     let given = |role: Role| mapping.channel(role).is_some();
     let motion = given(Role::Position) || given(Role::Velocity);
-    let none_named = Role::ALL.iter().all(|r| *r == Role::Time || !given(*r));
     let is_open = |role: &Role| match role {
         Role::Position | Role::Velocity => !motion,
-        role if BESIDE.contains(role) => none_named,
         Role::External => false,
-        role => !given(*role),
+        role => !given(*role) && !mapping.absent.contains(role),
     };
     let open: Vec<Role> = Role::ALL.into_iter().filter(is_open).collect();
     let named = Role::ALL.into_iter().filter_map(|r| mapping.channel(r));

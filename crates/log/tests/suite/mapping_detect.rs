@@ -287,6 +287,89 @@ fn the_motion_is_that_of_the_axis_whose_force_is_named() {
     assert_eq!(Mapping::clear_columns(&headed(&names)).position, None);
 }
 
+/// What is found by its name stays where another column is named, unless the mapping says that there is none.
+#[test]
+fn naming_one_column_drops_no_other() {
+    let table = headed(&[
+        "t [s]",
+        "position [mm]",
+        "position reference [mm]",
+        "acceleration [m/s^2]",
+        "temperature [degC]",
+        "force [N]",
+    ]);
+    let detected = Mapping::detect(&table).unwrap().mapping;
+    let given = Mapping {
+        force: Some(Channel::named("force").scale(Value::parse("2 N/N").unwrap())),
+        ..Mapping::default()
+    };
+    let found = given.complete(&table).unwrap().mapping;
+    for role in Role::OPTIONAL {
+        assert_eq!(found.channel(role), detected.channel(role), "{role}");
+    }
+    assert!(found.reference.is_some() && found.acceleration.is_some());
+    assert!(given.wanted(&table).iter().all(|wanted| *wanted));
+    let given = Mapping {
+        absent: vec![Role::Reference, Role::Temperature],
+        ..given
+    };
+    let found = given.complete(&table).unwrap();
+    let there = Role::OPTIONAL.map(|role| found.mapping.channel(role).is_some());
+    assert_eq!(there, [true, false, false, false]);
+    let why = &found.columns[2].reason;
+    assert!(why.contains("reference = \"none\""), "{why}");
+}
+
+/// A reference is read as the position that is named, and neither is taken of another axis or behind a gear.
+#[test]
+fn what_is_found_beside_a_named_motion_is_read_as_that_is() {
+    let table = headed(&[
+        "t [s]",
+        "pos [rad]",
+        "pos ref [rad]",
+        "acc [rad/s^2]",
+        "torque [N m]",
+    ]);
+    let position = Channel::named("pos").inverted();
+    let with = |position: Channel| {
+        let given = Mapping {
+            position: Some(position),
+            ..Mapping::default()
+        };
+        given.complete(&table).unwrap().mapping
+    };
+    let turned = with(position.clone());
+    assert!(turned.reference.unwrap().invert && turned.acceleration.unwrap().invert);
+    let geared = with(position.scale(Value::parse("0.01").unwrap()));
+    let reference = geared.reference.unwrap();
+    assert_eq!(reference.scale, geared.position.unwrap().scale);
+    assert_eq!(geared.acceleration, None);
+
+    let two = headed(&[
+        "t [s]",
+        "X act [mm]",
+        "X current [A]",
+        "Y act [mm]",
+        "Y current [A]",
+        "Y ref [mm]",
+    ]);
+    for (force, is_found) in [("X current", false), ("Y current", true)] {
+        let given = Mapping {
+            force: Some(Channel::named(force)),
+            ..Mapping::default()
+        };
+        let found = given.complete(&two).unwrap().mapping;
+        assert_eq!(found.reference.is_some(), is_found, "{force}");
+    }
+    // One that does not fit is left out, and refuses nothing.
+    let degrees = headed(&["t [s]", "x [mm]", "ref position [deg]", "force [N]"]);
+    let given = Mapping {
+        force: Some(Channel::named("force")),
+        ..Mapping::default()
+    };
+    assert_eq!(given.complete(&degrees).unwrap().mapping.reference, None);
+}
+
 #[test]
 fn a_time_without_unit_is_seconds_only_where_that_is_plausible() {
     let milli: Vec<f64> = (0..1000).map(f64::from).collect();

@@ -20,26 +20,22 @@ pub(super) fn columns(
     let Some(table) = root.table("columns")? else {
         return Ok(joined);
     };
-    let mut read = |given: Option<Given<'_>>, role| -> Result<Option<Channel>, Error> {
-        let Some(given) = given else {
-            return Ok(None);
-        };
-        let (channel, from) = column(&given, role, folder)?;
+    let mut read = |given: &Given<'_>, role| -> Result<(), Error> {
+        if given.as_text() == Some("none") && Role::OPTIONAL.contains(&role) {
+            mapping.absent.push(role);
+            return Ok(());
+        }
+        let (channel, from) = column(given, role, folder)?;
         joined.extend(from);
-        Ok(Some(channel))
+        mapping.set(role, channel);
+        Ok(())
     };
-    mapping.time = read(table.get("time"), Role::Time)?;
-    mapping.position = read(table.get("position"), Role::Position)?;
-    mapping.velocity = read(table.get("velocity"), Role::Velocity)?;
-    mapping.acceleration = read(table.get("acceleration"), Role::Acceleration)?;
-    mapping.reference = read(table.get("reference"), Role::Reference)?;
-    mapping.temperature = read(table.get("temperature"), Role::Temperature)?;
-    mapping.load = read(table.get("load"), Role::Load)?;
-    mapping.external = read(table.get("external"), Role::External)?;
-    mapping.enable = table
-        .get("enable")
-        .map(|given| enable(&given))
-        .transpose()?;
+    let others = Role::ALL.into_iter().filter(|role| *role != Role::Force);
+    for role in others {
+        if let Some(given) = table.get(role.name()) {
+            read(&given, role)?;
+        }
+    }
     // One column under any of three names.
     let mut taken: Option<Given<'_>> = None;
     for key in ["force", "torque", "current"] {
@@ -50,9 +46,13 @@ pub(super) fn columns(
             let found = format!("a second column of the force, after {}", before.shown());
             return Err(given.refuse(found, "one of force, torque, current"));
         }
-        taken = Some(given.clone());
-        mapping.force = read(Some(given), Role::Force)?;
+        read(&given, Role::Force)?;
+        taken = Some(given);
     }
+    mapping.enable = table
+        .get("enable")
+        .map(|given| enable(&given))
+        .transpose()?;
     table.end()?;
     Ok(joined)
 }
