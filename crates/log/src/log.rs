@@ -41,9 +41,9 @@ use crate::error::Settled;
 use crate::findings::{self, Finding, Severity};
 use crate::join::Joined;
 use crate::mapping::{
-    Enable, MAX_CUT_SHARE, Mapping, Motion, Role, Source, Understood, Wrap, parts,
+    Enable, MAX_CUT_SHARE, Mapping, Motion, Role, Source, Understood, Wrap, another_unit, parts,
 };
-use crate::{Dimension, Error, Kind, Table};
+use crate::{Channel, Dimension, Error, Kind, Table, Unit, Value};
 use cells::LeftOut;
 pub use chosen::NotEnabled;
 use std::borrow::Cow;
@@ -353,6 +353,19 @@ impl Log {
             .or(time.scale.as_ref().map(|scale| &scale.unit))?;
         let source = Source::of(mapping, table, Role::Time).ok()??;
         clock::rate_of_coarse(&table.columns[source.column].values, &source)
+    }
+
+    /// The column of a role in the next larger unit, for numbers that come out too small, or in the next smaller one; `None` where the
+    /// log has no such column, or its scale says what the unit is worth.
+    pub fn in_another_unit(&self, role: Role, too_small: bool) -> Option<Channel> {
+        let own = self.mapping.channel(role).filter(|c| c.scale.is_none())?;
+        let unit = own.unit.as_ref()?;
+        let (unit, scale) = another_unit(unit, unit.dimension(), role, too_small);
+        Some(Channel {
+            unit: Unit::parse(&unit).ok(),
+            scale: scale.and_then(|scale| Value::parse(&scale.to_string()).ok()),
+            ..own.clone()
+        })
     }
 
     /// Counts of the counter that overflows where the position jumps by this much, m or rad; `None` where the position is not

@@ -65,7 +65,7 @@ pub use bases::OwnStamps;
 pub use channel::{Channel, Motion, Role, Selector};
 pub(crate) use choose::clear;
 pub(crate) use complete::time_source;
-pub(crate) use convert::{LARGEST_VALUE, Source};
+pub(crate) use convert::{LARGEST_VALUE, Source, another_unit};
 pub(crate) use drive::Gain;
 pub use drive::{BACK_EMFS, Drive, FORCE_CONSTANTS, RESISTANCES, SUPPLIES};
 pub use enable::Enable;

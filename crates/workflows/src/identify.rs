@@ -23,6 +23,7 @@ mod left;
 mod load;
 mod logs;
 mod lowered;
+mod machine;
 mod method;
 mod mixed;
 mod options;

@@ -6,6 +6,46 @@ use super::select::select;
 use super::{Mapping, counted, describe};
 use crate::{Dimension, Error, Kind, Table, Unit};
 
+/// The next larger unit for the numbers of a role that come out too small, the next smaller one where they are too large; with a
+/// scale where there is none.
+pub(crate) fn another_unit(
+    own: &Unit,
+    dimension: Dimension,
+    role: Role,
+    too_small: bool,
+) -> (String, Option<f64>) {
+    let rotary = Motion::Rotary;
+    let angular = [rotary.position(), rotary.velocity(), rotary.acceleration()];
+    let of_si = |si: String| [format!("m{si}"), si.clone(), format!("k{si}")];
+    let known = |units: [&str; 3]| units.map(String::from);
+    // From small to large.
+    let units = match (role, angular.contains(&dimension)) {
+        (Role::Time, _) => known(["us", "ms", "s"]),
+        (Role::Position | Role::Reference, false) => known(["um", "mm", "m"]),
+        (Role::Position | Role::Reference, true) => known(["deg", "rad", "rev"]),
+        (Role::Velocity, false) => known(["um/s", "mm/s", "m/s"]),
+        (Role::Velocity, true) => known(["deg/s", "rad/s", "rev/s"]),
+        _ => match dimension.si_text() {
+            si if si == "1" => known(["%", "%", "1"]),
+            si => of_si(si),
+        },
+    };
+    let own = own.to_string();
+    let at = units.iter().position(|unit| *unit == own);
+    let next = match (at, too_small) {
+        (Some(at), true) => (at + 1).min(units.len() - 1),
+        (Some(at), false) => at.saturating_sub(1),
+        (None, true) => units.len() - 1,
+        (None, false) => 1,
+    };
+    let scale = match (at == Some(next), too_small) {
+        (false, _) => None,
+        (true, true) => Some(1000.0),
+        (true, false) => Some(0.001),
+    };
+    (units[next].clone(), scale)
+}
+
 /// Largest number that can be a measurement, in SI units (for time stamps in the unit of the file). Larger ones mark
 /// missing samples; the largest `f32`, 3.4e38, is a common marker.
 pub(crate) const LARGEST_VALUE: f64 = 1e30;
@@ -115,36 +155,9 @@ impl Source {
 
     /// The line of the axis file that gives it another unit: a larger one for numbers that come out too small.
     pub fn line(&self, table: &Table, role: Role, too_small: bool) -> String {
-        let rotary = Motion::Rotary;
-        let angular = [rotary.position(), rotary.velocity(), rotary.acceleration()];
-        let of_si = |si: String| [format!("m{si}"), si.clone(), format!("k{si}")];
-        let known = |units: [&str; 3]| units.map(String::from);
-        // From small to large.
-        let units = match (role, angular.contains(&self.dimension)) {
-            (Role::Time, _) => known(["us", "ms", "s"]),
-            (Role::Position | Role::Reference, false) => known(["um", "mm", "m"]),
-            (Role::Position | Role::Reference, true) => known(["deg", "rad", "rev"]),
-            (Role::Velocity, false) => known(["um/s", "mm/s", "m/s"]),
-            (Role::Velocity, true) => known(["deg/s", "rad/s", "rev/s"]),
-            _ => match self.dimension.si_text() {
-                si if si == "1" => known(["%", "%", "1"]),
-                si => of_si(si),
-            },
-        };
-        let own = self.unit.to_string();
-        let at = units.iter().position(|unit| *unit == own);
-        let next = match (at, too_small) {
-            (Some(at), true) => (at + 1).min(units.len() - 1),
-            (Some(at), false) => at.saturating_sub(1),
-            (None, true) => units.len() - 1,
-            (None, false) => 1,
-        };
-        let scale = match (at == Some(next), too_small) {
-            (false, _) => "",
-            (true, true) => ", scale = 1000",
-            (true, false) => ", scale = 0.001",
-        };
-        let with = format!("unit = \"{}\"{scale}", units[next]);
+        let (unit, scale) = another_unit(&self.unit, self.dimension, role, too_small);
+        let scale = scale.map_or(String::new(), |scale| format!(", scale = {scale}"));
+        let with = format!("unit = \"{unit}\"{scale}");
         describe::line_with(table, self.column, role, &with)
     }
 

@@ -36,5 +36,6 @@ mod study_size;
 mod study_sweep;
 mod terms;
 mod unexplained;
+mod unlikely;
 mod workflow;
 mod worlds;

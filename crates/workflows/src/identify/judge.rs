@@ -6,6 +6,7 @@ use super::fit::Fitted;
 use super::late;
 use super::load::{Asked, Loaded};
 use super::logs::{log_warnings, path_of, validation_warnings};
+use super::machine;
 use super::mixed;
 use super::stated;
 use super::trust::{self, Judged};
@@ -46,7 +47,9 @@ pub(super) fn judge(
     late::stated(asked, loaded, law, &mut warnings);
     let unused = unused(loaded, conditioned);
     let of_limits = stated::against_limits(asked, loaded, &law.parameters);
-    let contradicted = loaded.contradicted.as_ref().or(of_limits.as_ref());
+    let odd = machine::unlikely(asked, loaded, law);
+    let stated = loaded.contradicted.as_ref().or(of_limits.as_ref());
+    let contradicted = stated.or(odd.as_ref());
     let evidence = trust::Evidence {
         law,
         signal: "force",

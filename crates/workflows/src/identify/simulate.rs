@@ -6,6 +6,7 @@ use super::conditioning::{self, conditioned};
 use super::disagree;
 use super::load::{Asked, Loaded};
 use super::logs::{log_warnings, refused, validation_warnings};
+use super::machine;
 use super::mixed;
 use super::outcome::{Found, Outcome, Simulated};
 use super::procedure::break_away;
@@ -128,6 +129,7 @@ pub(super) fn run(
     }
 
     let held_back = unfit::above_every_force(&found.fitted, sources);
+    let odd = machine::unlikely(asked, &loaded, &found.fitted);
     let evidence = Evidence {
         law: &found.fitted,
         signal: "position",
@@ -146,7 +148,7 @@ pub(super) fn run(
         can_be_simulated: false,
         motion,
         apart: None,
-        contradicted: None,
+        contradicted: odd.as_ref(),
         unused: None,
     };
     let mut warnings = log_warnings(sources);
