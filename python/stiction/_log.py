@@ -275,5 +275,5 @@ def write_demo_log(path: PathLike, seed: int = 0) -> Path:
 
 
 def allow_memory(size: int) -> None:
-    """Memory that reading a log may take, bytes; half of the machine's if it is not set."""
+    """Memory that reading a log may take, bytes; a quarter of the machine's if it is not set."""
     _native.allow_memory(whole(size, "size", 1_000_000))

@@ -49,11 +49,11 @@ thread_local! {
     static OF_THREAD: Cell<Option<u64>> = const { Cell::new(None) };
 }
 
-/// Bytes that a log of this process may take: what [`allow_memory`] said, and half of the memory of this machine, or of its
-/// control group, where it said nothing.
+/// Bytes that a log of this process may take: what [`allow_memory`] said, and a quarter of the memory of this machine, or of
+/// its control group, where it said nothing.
 pub fn allowed_memory() -> u64 {
     match ALLOWED.load(Ordering::Relaxed) {
-        0 => memory_of_machine() / 2,
+        0 => memory_of_machine() / 4,
         allowed => allowed,
     }
 }
@@ -194,6 +194,11 @@ mod tests {
         let panics = std::panic::catch_unwind(|| within_memory(10, || panic!("inside")));
         assert!(panics.is_err());
         assert_eq!(Limits::default(), before);
+    }
+
+    #[test]
+    fn a_log_may_take_a_quarter_of_the_memory_where_nothing_is_said() {
+        assert_eq!(Limits::default().memory, memory_of_machine() / 4);
     }
 
     #[test]

@@ -240,7 +240,7 @@ fn binary(
         #[cfg(feature = "arrow")]
         Format::Arrow => crate::arrow::read(file, bytes, limits),
         #[cfg(feature = "mcap")]
-        Format::Mcap => crate::mcap::read(file, limits),
+        Format::Mcap => crate::mcap::read(file, bytes, limits),
         #[cfg(feature = "tdms")]
         Format::Tdms => crate::tdms::read(file, bytes, limits),
         #[cfg(feature = "mdf")]

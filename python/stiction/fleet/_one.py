@@ -92,7 +92,7 @@ def identify_uri(
     machine, time, temperature: what is known of the log, as the columns of a list (docs/fleet.md); time in s since 1970 UTC,
     as ISO 8601 text, or of datetime, numpy or pandas.
     storage_options: of the store of an address, as fsspec takes them. retries: how often a store that fails is asked again.
-    max_memory: bytes that reading the log may take; half of the machine's if it is not given.
+    max_memory: bytes that reading the log may take; a quarter of the machine's if it is not given.
 
     Returns the columns of results.parquet that are the same for all parameters of a log, and `parameters`, a list with those
     that are not (`parameter`, `value`, `unit`, `low`, `high`, `std`, `identifiable`, `origin`). `warnings` is a list.

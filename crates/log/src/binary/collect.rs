@@ -59,6 +59,9 @@ impl Layout {
     }
 }
 
+/// Most bytes that a byte of a file unpacks to; deflate, which gains most, makes 1032 of one.
+const MAX_GAIN: u64 = 1100;
+
 /// A table in the making, with what it may still grow by.
 #[derive(Debug)]
 pub(crate) struct Collector {
@@ -66,6 +69,8 @@ pub(crate) struct Collector {
     budget: Budget,
     samples: u64,
     entries: usize,
+    /// Bytes that may still be unpacked, whether they are kept or not.
+    unpacked: u64,
 }
 
 impl Collector {
@@ -75,7 +80,25 @@ impl Collector {
             budget: budget.into(),
             samples: 0,
             entries: 0,
+            unpacked: u64::MAX,
         }
+    }
+
+    /// For a file of this many bytes, which unpack to no more than compression gains, or `some` bytes where that is more.
+    #[cfg(any(feature = "hdf5", feature = "mcap"))]
+    pub(crate) fn packed(budget: impl Into<Budget>, bytes: u64, some: u64) -> Self {
+        Self {
+            unpacked: bytes.saturating_mul(MAX_GAIN).max(some),
+            ..Self::new(budget)
+        }
+    }
+
+    /// Whether so many bytes more may be unpacked, which are counted then.
+    #[cfg(any(feature = "hdf5", feature = "mcap"))]
+    pub(crate) fn unpacks(&mut self, bytes: u64) -> bool {
+        let left = self.unpacked.checked_sub(bytes);
+        self.unpacked = left.unwrap_or(self.unpacked);
+        left.is_some()
     }
 
     /// Counts one more variable, field or cell.
@@ -131,7 +154,7 @@ impl Collector {
     /// Counts bytes that a reader holds beside the samples: what a file says of its columns, a block that is unpacked.
     ///
     /// To be asked for before they are allocated.
-    #[cfg(feature = "mdf")]
+    #[cfg(any(feature = "json", feature = "mcap", feature = "mdf"))]
     pub(crate) fn hold(&mut self, bytes: u64) -> Result<(), Error> {
         let samples = bytes.div_ceil(crate::limits::PER_SAMPLE);
         let total = self.samples.saturating_add(samples);

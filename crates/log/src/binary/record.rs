@@ -31,16 +31,19 @@ pub(crate) struct Record {
 }
 
 impl Record {
-    /// A record of this many bytes, if it is of a sane size and its numbers lie inside it.
+    /// A record of this many bytes, if it is of a sane size and its numbers lie inside it, each in bytes of its own.
     pub(crate) fn new(bytes: usize, fields: Vec<Field>) -> Option<Self> {
-        let inside = |field: &Field| match field.cell {
-            Cell::Number(number) => field
-                .offset
-                .checked_add(number.width())
-                .is_some_and(|end| end <= bytes),
-            Cell::Other(_) => true,
+        let width = |field: &Field| match field.cell {
+            Cell::Number(number) => number.width(),
+            Cell::Other(_) => 0,
         };
-        let sane = (1..=MAX_BYTES).contains(&bytes) && fields.iter().all(inside);
+        let inside = |field: &Field| match width(field) {
+            0 => true,
+            width => (field.offset.checked_add(width)).is_some_and(|end| end <= bytes),
+        };
+        let taken = fields.iter().map(width).sum::<usize>();
+        let sane = (1..=MAX_BYTES).contains(&bytes) && taken <= bytes;
+        let sane = sane && fields.iter().all(inside);
         sane.then_some(Self { bytes, fields })
     }
 

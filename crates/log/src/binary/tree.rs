@@ -1,6 +1,7 @@
 //! Numbers by where they stand in a tree of objects and lists (JSON, messages): a path of keys, and the lists around them.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 
 use super::{Collector, Order, Values};
 use crate::text::{Moment, unwrap_midnight};
@@ -17,11 +18,14 @@ const SOME_ABSENT: u64 = 1 << 22;
 /// One place: a path of keys without the indices of lists.
 #[derive(Debug, Default)]
 pub(crate) struct Node {
-    key: String,
+    /// The key; `None` for the element of a list.
+    key: Option<String>,
     parent: usize,
-    /// Whether it is the element of a list, which has no key.
-    element: bool,
+    /// Bytes of the keys from the root to here.
+    path: usize,
     children: Vec<usize>,
+    /// The index of each child by its key.
+    places: HashMap<Option<String>, usize>,
     /// Which of the children was asked for last: records have their keys in the same order.
     last: usize,
     /// Lists around it, without the one that lines make.
@@ -101,37 +105,40 @@ impl Tree {
 
     /// The child of this key, or the element of a list.
     pub(crate) fn child(&mut self, node: usize, key: Option<&[u8]>) -> Result<usize, Error> {
-        let (key, element) = match key {
-            Some(key) => (String::from_utf8_lossy(key), false),
-            None => (Cow::Borrowed(""), true),
-        };
+        let key = key.map(String::from_utf8_lossy);
         let nodes = &self.nodes;
         let here = &nodes[node];
-        let is = |&child: &usize| nodes[child].element == element && nodes[child].key == key;
-        let count = here.children.len();
-        let next = (here.last + 1) % count.max(1);
-        let likely = here
-            .children
-            .get(next)
-            .filter(|child| is(child))
-            .map(|_| next);
-        let found = likely.or_else(|| here.children.iter().position(is));
+        let next = (here.last + 1) % here.children.len().max(1);
+        let likely = here.children.get(next);
+        let likely = likely.filter(|&&child| nodes[child].key.as_deref() == key.as_deref());
+        let (key, found) = match likely {
+            Some(_) => (None, Some(next)),
+            None => {
+                let key = key.map(Cow::into_owned);
+                let place = here.places.get(&key).copied();
+                (key, place)
+            }
+        };
         if let Some(index) = found {
             self.nodes[node].last = index;
             return Ok(self.nodes[node].children[index]);
         }
         self.collector.entry()?;
-        let lists = here.lists + usize::from(element);
+        let path = here.path + key.as_ref().map_or(0, String::len);
+        // The node, and its path as the name of a column.
+        self.collector.hold((size_of::<Node>() + path) as u64)?;
+        let lists = here.lists + usize::from(key.is_none());
         let made = self.nodes.len();
         self.nodes.push(Node {
-            key: key.into_owned(),
+            key: key.clone(),
             parent: node,
-            element,
+            path,
             lists,
             ..Node::default()
         });
         let parent = &mut self.nodes[node];
         parent.last = parent.children.len();
+        parent.places.insert(key, parent.last);
         parent.children.push(made);
         Ok(made)
     }
@@ -146,16 +153,11 @@ impl Tree {
         let mut index = String::new();
         while node != 0 {
             let here = &self.nodes[node];
-            if here.element {
-                if let Some(outer) = outer.filter(|_| here.lists + usize::from(self.lines) == 1) {
-                    index = format!("{{{}}}", outer + 1);
-                }
-            } else {
-                parts.push(Cow::Owned(format!(
-                    "{}{}",
-                    here.key,
-                    std::mem::take(&mut index)
-                )));
+            if let Some(key) = &here.key {
+                parts.push(Cow::Owned(format!("{key}{}", std::mem::take(&mut index))));
+            } else if let Some(outer) = outer.filter(|_| here.lists + usize::from(self.lines) == 1)
+            {
+                index = format!("{{{}}}", outer + 1);
             }
             node = here.parent;
         }
@@ -170,17 +172,19 @@ impl Tree {
     }
 
     /// A list ends that stands at this place.
-    pub(crate) fn end_list(&mut self, node: usize, length: u64) -> Result<(), String> {
+    pub(crate) fn end_list(&mut self, node: usize, length: u64) -> Result<(), Error> {
         let lists = self.nodes[node].lists + usize::from(self.lines);
         let row = match lists {
             0 => 0,
             1 => self.at[0] as usize,
             _ => return Ok(()),
         };
+        let have = self.nodes[node].lengths.len();
+        let missing = row.checked_sub(have).ok_or_else(second)? as u64;
+        // Every record before this one without the list takes a length.
+        self.miss(missing)?;
+        self.collector.reserve("", &[missing + 1])?;
         let lengths = &mut self.nodes[node].lengths;
-        if lengths.len() > row {
-            return Err("a second value of the same key".to_owned());
-        }
         lengths.resize(row, 0);
         lengths.push(length);
         Ok(())
@@ -253,11 +257,7 @@ impl Tree {
     fn fill(&mut self, node: usize, count: u64) -> Result<(), Error> {
         let have = self.nodes[node].samples.length;
         if have > count {
-            return Err(Error::new(
-                Kind::Format,
-                "a second value of the same key",
-                "every key once in an object",
-            ));
+            return Err(second());
         }
         if have == count {
             return Ok(());
@@ -341,7 +341,7 @@ impl Tree {
         while node != 0 {
             let here = &self.nodes[node];
             node = here.parent;
-            if here.element {
+            if here.key.is_none() {
                 break;
             }
         }
@@ -525,4 +525,9 @@ impl Tree {
             self.collector.are_stamps(first);
         }
     }
+}
+
+fn second() -> Error {
+    let found = "a second value of the same key";
+    Error::new(Kind::Format, found, "every key once in an object")
 }

@@ -6,6 +6,7 @@
 //! `MATLAB_class`) stores arrays with their axes reversed; those are turned back, so `q(:,1)` is the
 //! first column of `q` as its author saw it, from either program.
 
+mod prepare;
 mod pure;
 mod tree;
 mod window;
@@ -23,11 +24,17 @@ use crate::{Error, Kind, Limits, Table};
 /// Deepest nesting of groups or cells; MATLAB and h5py files of recordings use two or three levels.
 const MAX_DEPTH: usize = 16;
 
+/// Bytes that the datasets of the smallest file may have.
+const UNPACKED: u64 = 1 << 20;
+
+/// Bytes that the decoder holds for each chunk, about.
+const CHUNK: u64 = 256;
+
 /// Reads every dataset of numbers.
 pub(crate) fn read(path: &Path, bytes: u64, limits: Limits) -> Result<Table, Error> {
     guard("HDF5", || {
         // The decoder holds the file.
-        let mut collector = Collector::new(Budget::beside(limits, bytes)?);
+        let mut collector = Collector::packed(Budget::beside(limits, bytes)?, bytes, UNPACKED);
         let root = pure::open(path).map_err(broken)?;
         group(root.as_ref(), "", 0, &mut collector)?;
         Ok(collector.finish())
@@ -57,6 +64,7 @@ fn group(
     for (name, member) in members {
         // MATLAB's store of cell elements and objects; what it holds is found from the outside.
         if name.starts_with('#') {
+            collector.entry()?;
             continue;
         }
         let path = match path {
@@ -97,23 +105,32 @@ fn dataset(
         return Ok(());
     }
     let element = dataset.element().map_err(broken)?;
-    if let Element::Other(what) = &element {
-        collector.skip(name, what);
-        return Ok(());
-    }
+    let width = match &element {
+        Element::Other(what) => {
+            collector.skip(name, what);
+            return Ok(());
+        }
+        Element::Reference(width) => *width,
+        Element::Record(record) => record.bytes(),
+        Element::Number(number) => number.width(),
+    };
     let mut dims = dataset.dims().map_err(broken)?;
     let chunk = dataset.chunk().map_err(broken)?;
+    if let Some(why) = beyond(dataset, &dims, &chunk, width, collector).map_err(broken)? {
+        collector.skip(name, why);
+        return Ok(());
+    }
     // A chunk is unpacked as a whole, whatever its elements are.
     let mut unpacked = chunk.clone();
     if let Element::Record(record) = &element {
         unpacked.push(record.bytes().div_ceil(8) as u64);
     }
     collector.fits(name, &unpacked)?;
-    let stream = |dims: &[u64], width| Window::new(dataset, dims, &chunk, width);
+    let stream = |dims: &[u64]| Window::new(dataset, dims, &chunk, width);
     let cut = |error: std::io::Error| broken(error.to_string());
     match element {
         Element::Other(_) => {}
-        Element::Reference => cell(dataset, name, &dims, depth, collector)?,
+        Element::Reference(_) => cell(dataset, name, &dims, depth, collector)?,
         Element::Record(_) if class.is_some() => {
             collector.skip(name, "complex numbers; save real(x) and imag(x)");
         }
@@ -122,13 +139,13 @@ fn dataset(
             let rows = rows.unwrap_or(u64::MAX);
             // One row of a dataset of several axes is unpacked as a whole.
             collector.fits(name, &[rows, record.bytes().div_ceil(8) as u64])?;
-            let mut stream = stream(&dims, record.bytes());
+            let mut stream = stream(&dims);
             record.columns(name, rows, collector, |row| {
                 stream.read_exact(row).map_err(cut)
             })?;
         }
         Element::Number(number) => {
-            let mut stream = stream(&dims, number.width());
+            let mut stream = stream(&dims);
             let order = match class {
                 Some(_) => {
                     dims.reverse();
@@ -152,6 +169,38 @@ fn dataset(
         }
     }
     Ok(())
+}
+
+/// Why a dataset, with elements of `width` bytes, is not unpacked: that would take more than the file can hold.
+fn beyond(
+    dataset: &dyn Dataset,
+    dims: &[u64],
+    chunk: &[u64],
+    width: usize,
+    collector: &mut Collector,
+) -> Result<Option<&'static str>, String> {
+    let edges = chunk.iter().copied().chain(std::iter::repeat(1));
+    let counts = dims
+        .iter()
+        .zip(edges)
+        .map(|(&n, edge)| (n.div_ceil(edge.max(1)), edge));
+    let (grid, bytes) = counts.fold((1, width as u64), |(grid, bytes), (count, edge)| {
+        let whole = count.saturating_mul(edge);
+        (
+            u64::saturating_mul(grid, count),
+            u64::saturating_mul(bytes, whole),
+        )
+    });
+    if !collector.unpacks(bytes) {
+        return Ok(Some("larger than the file can hold; was it never written?"));
+    }
+    // More of them than there are places for would be unpacked one over the other.
+    let (chunks, stored) = dataset.chunks(grid, bytes)?;
+    let held = chunks.saturating_mul(CHUNK).saturating_add(stored);
+    if chunks > grid || !collector.unpacks(held) {
+        return Ok(Some("has more chunks than fit in it"));
+    }
+    Ok(None)
 }
 
 /// A cell, or one field of a struct array: `name{1}`, `name{2}` ...

@@ -5,6 +5,7 @@ use hdf5_pure::{
     Object, ReferenceType,
 };
 
+use super::prepare;
 use super::tree::{Dataset, Element, Group, Node};
 use crate::binary::{ByteOrder, Cell, Class, Field, Number, Record};
 
@@ -14,7 +15,10 @@ const FILTERS: [u16; 5] = [1, 2, 3, 6, 32000];
 /// Opens the file, which is read into memory: reading on demand, the crate takes memory for the
 /// sizes that a chunk claims before it looks whether the file is that long.
 pub(super) fn open(path: &std::path::Path) -> Result<Box<dyn Group>, String> {
-    let file = hdf5_pure::File::open(path).map_err(words)?;
+    let mut bytes = std::fs::read(path).map_err(words)?;
+    prepare::check(&bytes)?;
+    prepare::drop_soft_links(&mut bytes);
+    let file = hdf5_pure::File::from_bytes(bytes).map_err(words)?;
     Ok(Box::new(file.root()))
 }
 
@@ -52,6 +56,22 @@ impl Dataset for hdf5_pure::Dataset {
         Ok(self.chunk_shape().map_err(words)?.unwrap_or_default())
     }
 
+    fn chunks(&self, grid: u64, bytes: u64) -> Result<(u64, u64), String> {
+        match self.layout().map_err(words)? {
+            // All of them, one behind the other, which the crate lists without looking at the file.
+            Layout::Chunked {
+                index: ChunkIndex::Implicit,
+                ..
+            } => Ok((grid, bytes)),
+            Layout::Chunked { .. } => {
+                let chunks = self.chunks().map_err(words)?;
+                let bytes = chunks.iter().map(|chunk| chunk.storage_size);
+                Ok((chunks.len() as u64, bytes.fold(0, u64::saturating_add)))
+            }
+            _ => Ok((0, 0)),
+        }
+    }
+
     fn element(&self) -> Result<Element, String> {
         if let Some(filter) = self.filters().iter().find(|id| !FILTERS.contains(id)) {
             return Ok(Element::Other(format!(
@@ -75,7 +95,7 @@ impl Dataset for hdf5_pure::Dataset {
                 ref_type: ReferenceType::DatasetRegion,
                 ..
             } => Element::Other("references to regions".to_owned()),
-            Datatype::Reference { .. } => Element::Reference,
+            Datatype::Reference { size, .. } => Element::Reference(*size as usize),
             plain => match number(plain) {
                 Ok(number) => Element::Number(number),
                 Err(what) => Element::Other(what),
@@ -117,13 +137,20 @@ impl Dataset for hdf5_pure::Dataset {
 
 /// Why the elements of a dataset cannot be found, where that is no damage.
 fn elsewhere(dataset: &hdf5_pure::Dataset) -> Option<&'static str> {
-    match dataset.layout().ok()? {
+    let layout = match dataset.layout() {
+        Err(Error::Format(FormatError::InvalidLayoutVersion(_))) => {
+            return Some("a layout of another version; write it with libver 'v114' or 'earliest'");
+        }
+        layout => layout.ok()?,
+    };
+    match layout {
         Layout::Virtual => Some("a virtual dataset; copy its values into the file"),
         Layout::Chunked {
             index: ChunkIndex::BTreeV2,
             ..
         } => Some("chunks that grow in more than one direction; write it with libver 'earliest'"),
-        Layout::Contiguous { address: None, .. } => match dataset.read_raw_rows(0, 1) {
+        // No row is read, which tells all the same.
+        Layout::Contiguous { address: None, .. } => match dataset.read_raw_rows(u64::MAX, 0) {
             Err(Error::Format(FormatError::UnsupportedExternalStorage)) => {
                 Some("values in another file; copy them into this one")
             }
@@ -160,7 +187,12 @@ fn number(datatype: &Datatype) -> Result<Number, String> {
             byte_order,
             layout,
         } => ieee(layout, *size).then_some((Class::Float, *size, byte_order)),
-        Datatype::Enumeration { base_type, .. } if base_type.is_number() => {
+        Datatype::Enumeration { base_type, .. }
+            if matches!(
+                **base_type,
+                Datatype::FixedPoint { .. } | Datatype::FloatingPoint { .. }
+            ) =>
+        {
             return number(base_type);
         }
         Datatype::String { .. }
@@ -193,19 +225,6 @@ fn ieee(layout: &FloatingPointLayout, size: u32) -> bool {
         && layout.exponent_location == mantissa
         && u16::from(layout.exponent_size) == bits - 1 - u16::from(mantissa)
         && layout.exponent_bias == bias
-}
-
-trait IsNumber {
-    fn is_number(&self) -> bool;
-}
-
-impl IsNumber for Datatype {
-    fn is_number(&self) -> bool {
-        matches!(
-            self,
-            Datatype::FixedPoint { .. } | Datatype::FloatingPoint { .. }
-        )
-    }
 }
 
 /// Appends the members of a compound type that starts at `offset`.

@@ -22,6 +22,10 @@ pub(super) trait Dataset {
     /// Lengths of the axes of one chunk, which is unpacked as a whole; none where there are none.
     fn chunk(&self) -> Result<Vec<u64>, String>;
 
+    /// Chunks that the file has of it, and the bytes that they take there, of a dataset that would have `grid` of them with
+    /// `bytes` unpacked; nothing of a dataset without chunks.
+    fn chunks(&self, grid: u64, bytes: u64) -> Result<(u64, u64), String>;
+
     /// What one element is.
     fn element(&self) -> Result<Element, String>;
 
@@ -43,7 +47,8 @@ pub(super) trait Dataset {
 pub(super) enum Element {
     Number(Number),
     Record(Record),
-    Reference,
+    /// A reference to an object, of this many bytes.
+    Reference(usize),
     /// Not numbers, and what it is instead.
     Other(String),
 }

@@ -147,8 +147,7 @@ impl Reader {
 
     fn end_list(&mut self, node: usize, length: u64) -> Result<(), Error> {
         self.tree.at.pop();
-        let ended = self.tree.end_list(node, length);
-        ended.map_err(|found| self.tokens.bad(found))
+        self.tree.end_list(node, length)
     }
 
     /// The same error, in this column.

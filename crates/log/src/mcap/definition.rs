@@ -3,6 +3,8 @@
 //! Format: the text of `.msg` files, <https://docs.ros.org/en/rolling/Concepts/Basic/About-Interfaces.html>; the definitions of
 //! the types that it uses follow below lines of `=`, each after a line `MSG: package/Type`.
 
+use std::collections::HashMap;
+
 /// Deepest nesting of messages.
 const MAX_DEPTH: usize = 16;
 
@@ -73,13 +75,15 @@ impl Definitions {
                     .push(field);
             }
         }
-        let names: Vec<&str> = sections.iter().map(|(name, _)| name.as_str()).collect();
+        let names = sections.iter().enumerate().rev();
+        let names: HashMap<&str, usize> =
+            names.map(|(at, (name, _))| (name.as_str(), at)).collect();
         let mut all = Vec::new();
-        for (at, (_, fields)) in sections.iter().enumerate() {
+        for (inside, fields) in &sections {
             let field = |(kind, name, count): &(&str, &str, Count)| {
                 Ok(Field {
                     name: (*name).to_owned(),
-                    kind: kind_of(kind, names[at], &names)
+                    kind: kind_of(kind, inside, &names)
                         .ok_or_else(|| format!("the type {kind} of {name} is not defined"))?,
                     count: *count,
                 })
@@ -98,19 +102,21 @@ impl Definitions {
             }
             all.push(fields);
         }
-        let all = Self(all);
-        match all.deep(0, 0) {
-            true => Err(format!("messages nested deeper than {MAX_DEPTH}")),
-            false => Ok(all),
+        // Each round looks one message further down, in a definition that has itself without end.
+        let mut depth = vec![0; all.len()];
+        for _ in 0..=MAX_DEPTH {
+            for (at, fields) in all.iter().enumerate() {
+                let below = fields.iter().filter_map(|field: &Field| match field.kind {
+                    Kind::Message(inner) => Some(depth[inner] + 1),
+                    _ => None,
+                });
+                depth[at] = below.max().unwrap_or(0);
+            }
         }
-    }
-
-    fn deep(&self, at: usize, depth: usize) -> bool {
-        depth > MAX_DEPTH
-            || self.0[at].iter().any(|field| match field.kind {
-                Kind::Message(inner) => self.deep(inner, depth + 1),
-                _ => false,
-            })
+        match depth[0] > MAX_DEPTH {
+            true => Err(format!("messages nested deeper than {MAX_DEPTH}")),
+            false => Ok(Self(all)),
+        }
     }
 }
 
@@ -134,6 +140,8 @@ fn parts(line: &str) -> Option<(&str, &str, Count)> {
     let (kind, count) = match kind.split_once('[') {
         None => (kind, Count::One),
         Some((kind, size)) => match size.strip_suffix(']')?.parse() {
+            // It has no place in a message, and a list of many of them no end.
+            Ok(0) => return None,
             Ok(size) => (kind, Count::Fixed(size)),
             Err(_) => (kind, Count::Said),
         },
@@ -142,7 +150,7 @@ fn parts(line: &str) -> Option<(&str, &str, Count)> {
     Some((kind.split("<=").next()?, name, count))
 }
 
-fn kind_of(kind: &str, inside: &str, names: &[&str]) -> Option<Kind> {
+fn kind_of(kind: &str, inside: &str, names: &HashMap<&str, usize>) -> Option<Kind> {
     let wanted = short(kind);
     Some(match wanted.as_str() {
         "bool" => Kind::Truth,
@@ -167,7 +175,7 @@ fn kind_of(kind: &str, inside: &str, names: &[&str]) -> Option<Kind> {
                 wanted if wanted.contains('/') => wanted.to_owned(),
                 wanted => format!("{package}/{wanted}"),
             };
-            Kind::Message(names.iter().position(|name| *name == full)?)
+            Kind::Message(*names.get(full.as_str())?)
         }
     })
 }

@@ -110,9 +110,7 @@ impl Message<'_> {
             }
             self.tree.at.pop();
         }
-        self.tree
-            .end_list(child, count as u64)
-            .map_err(|_| Trouble::Short)
+        Ok(self.tree.end_list(child, count as u64)?)
     }
 
     fn one(&mut self, kind: Kind, cdr: &mut Cdr<'_>, node: usize) -> Result<(), Trouble> {

@@ -27,11 +27,17 @@ const MAX_RECORD: u64 = 64 << 20;
 /// Most schemas and channels.
 const MAX_CHANNELS: usize = 4096;
 
-/// Reads the numbers of every message.
-pub(crate) fn read(file: File, limits: Limits) -> Result<Table, Error> {
+/// Longest name of a topic in bytes; ROS allows 255.
+const MAX_TOPIC: usize = 1024;
+
+/// Bytes that are held for a byte of a definition, at most: `byte a` is a field.
+const DEFINED: u64 = 24;
+
+/// Reads the numbers of every message in a file of this many bytes.
+pub(crate) fn read(file: File, bytes: u64, limits: Limits) -> Result<Table, Error> {
     guard("MCAP", || {
         let mut reader = Reader {
-            tree: Tree::new(Collector::new(limits)),
+            tree: Tree::new(Collector::packed(limits, bytes, MAX_RECORD)),
             schemas: BTreeMap::new(),
             channels: BTreeMap::new(),
             topics: BTreeMap::new(),
@@ -124,7 +130,7 @@ impl Reader {
                         return Err(self.cut(io::ErrorKind::UnexpectedEof.into()));
                     }
                     let known = match kind {
-                        3 => self.schema(&bytes),
+                        3 => self.schema(&bytes)?,
                         4 => self.channel(&bytes)?,
                         _ => self.message(&bytes)?,
                     };
@@ -156,6 +162,11 @@ impl Reader {
         let size = long(&mut rest).unwrap_or(0);
         let crc = word(&mut rest).unwrap_or(0);
         let length = word(&mut rest).unwrap_or(0);
+        if !self.tree.collector.unpacks(size) {
+            let found = format!("a chunk of {size} bytes, more than this file can hold");
+            let allowed = "the topics that matter: `mcap filter` takes them out of a recording";
+            return Err(Error::new(Kind::Limit, found, allowed).at_byte(self.at));
+        }
         let mut name = vec![0; length.min(64) as usize];
         record
             .read_exact(&mut name)
@@ -192,19 +203,27 @@ impl Reader {
         Ok(())
     }
 
-    fn schema(&mut self, mut bytes: &[u8]) -> Option<()> {
-        let id = half(&mut bytes)?;
-        let name = text(&mut bytes)?;
-        let encoding = text(&mut bytes)?;
-        let length = word(&mut bytes)? as usize;
-        let data = String::from_utf8_lossy(bytes.get(..length)?);
-        if self.schemas.len() < MAX_CHANNELS {
-            self.schemas.entry(id).or_insert_with(|| match &*encoding {
-                "ros2msg" => Definitions::new(&name, &data),
+    fn schema(&mut self, mut bytes: &[u8]) -> Result<Option<()>, Error> {
+        let bytes = &mut bytes;
+        let (Some(id), Some(name), Some(encoding), Some(length)) =
+            (half(bytes), text(bytes), text(bytes), word(bytes))
+        else {
+            return Ok(None);
+        };
+        let Some(data) = bytes.get(..length as usize) else {
+            return Ok(None);
+        };
+        if self.schemas.len() < MAX_CHANNELS && !self.schemas.contains_key(&id) {
+            let definitions = match &*encoding {
+                "ros2msg" => {
+                    self.tree.collector.hold(DEFINED * data.len() as u64)?;
+                    Definitions::new(&name, &String::from_utf8_lossy(data))
+                }
                 other => Err(format!("a definition in {other}, not in ros2msg")),
-            });
+            };
+            self.schemas.insert(id, definitions);
         }
-        Some(())
+        Ok(Some(()))
     }
 
     fn channel(&mut self, mut bytes: &[u8]) -> Result<Option<()>, Error> {
@@ -223,6 +242,11 @@ impl Reader {
                 format!("more than {MAX_CHANNELS} channels"),
                 "record the topics that matter",
             ));
+        }
+        if topic.len() > MAX_TOPIC {
+            return Err(self.bad(format!(
+                "a topic whose name has more than {MAX_TOPIC} bytes"
+            )));
         }
         let name = topic.trim_matches('/').replace('/', ".");
         let why = match self.schemas.get(&schema) {
@@ -304,9 +328,7 @@ impl Reader {
     fn finish(mut self) -> Result<Table, Error> {
         self.tree.at.clear();
         for (node, rows) in std::mem::take(&mut self.topics).into_values() {
-            self.tree
-                .end_list(node, rows)
-                .map_err(|found| self.bad(found))?;
+            self.tree.end_list(node, rows)?;
         }
         Ok(self.tree.finish(0)?.finish())
     }

@@ -8,6 +8,7 @@
 mod binary_common;
 
 mod mdf;
+mod small;
 
 use std::cell::Cell;
 use std::io::Write;
@@ -164,6 +165,7 @@ fn hostile_files() {
     odd_files(scratch.path());
     bombs(&path);
     mdf::hostile(&path);
+    small::hostile(&path);
     arrays(&path);
     wide(&path);
 

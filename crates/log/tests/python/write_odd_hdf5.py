@@ -30,6 +30,15 @@ def links(file):
     file["outside"] = h5py.ExternalLink("other.h5", "/x")
 
 
+def soft(file):
+    """In groups of the old form, which external links turn into new ones."""
+    file["soft"] = h5py.SoftLink("/a")
+    file["z/up"] = h5py.SoftLink("/z")
+    file["z/nowhere"] = h5py.SoftLink("gone/further")
+    for number in range(30):
+        file[f"z/link{number}"] = h5py.SoftLink("/a")
+
+
 def empty(file):
     file["nothing"] = h5py.Empty("f8")
 
@@ -68,6 +77,12 @@ def grown(file):
     file.create_dataset("single", data=values, chunks=(2000,))
 
 
+def packed(file):
+    values = np.arange(2000.0)
+    file.create_dataset("two", data=values.reshape(500, 4), maxshape=(None, None), chunks=(50, 2), compression="gzip")
+    file.create_dataset("one", data=values, maxshape=(None,), chunks=(100,), compression="gzip")
+
+
 values = np.arange(2000.0)
 tables = [("fixed", values), ("one", values), ("single", values)] + [
     (f"two(:,{j + 1})", values.reshape(500, 4)[:, j]) for j in range(4)]
@@ -77,6 +92,7 @@ for version in ["earliest", "v108", "v110", "v114", "latest"]:
 
     # The decoder does not tell of links that are not hard ones.
     all_of("links", links)
+    all_of("soft", soft)
     all_of("empty", empty, "nothing")
     all_of("region", region, "region")
     if version not in ("earliest", "v108"):
@@ -86,5 +102,8 @@ for version in ["earliest", "v108", "v110", "v114", "latest"]:
     all_of("opaque", opaque, "array", "opaque", "quad", "time")
     if version in ("earliest", "v108"):
         all_of("grown", grown, columns=tables)
+        all_of("packed", packed, columns=tables[1:2] + tables[3:])
     else:
         all_of("grown", grown, "two", columns=tables[:3])
+        # HDF5 2.0 has another layout for packed chunks.
+        all_of("packed", packed, *["one"] * (version == "latest"), "two", columns=tables[1:2] * (version != "latest"))

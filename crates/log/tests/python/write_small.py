@@ -68,9 +68,9 @@ def fill(file):
 with h5py.File(folder / "earliest.h5", "w") as file:
     fill(file)
     file["hard"] = file["drive"]
+    file["soft"] = h5py.SoftLink("/t")
 with h5py.File(folder / "v114.h5", "w", libver="v114") as file:
     fill(file)
-    # In groups of the old form the decoder refuses a file with soft links.
     file["soft"] = h5py.SoftLink("/t")
     file["loop"] = h5py.SoftLink("/")
 with h5py.File(folder / "block.h5", "w", userblock_size=512) as file:
