@@ -2,7 +2,8 @@
 //!
 //! A file alone is complete under a temporary name before it is renamed ([`single`]). Files that belong together are all
 //! complete before the first is renamed, and what is to be renamed is on record beside them while that goes on
-//! ([`replace`]): where the program is ended in between, the next one that looks at the folder ends the work ([`settle`]).
+//! ([`replace`]): where the program is ended in between, the next one that writes into the folder ends the work, and one that
+//! reads a file there has what is to be its content ([`whole`]).
 
 mod bundle;
 mod folder;
@@ -17,7 +18,7 @@ mod taken;
 pub use bundle::Bundle;
 pub use folder::{write_folder, write_into_folder};
 pub use journal::Journal;
-pub(crate) use pending::settle;
+pub(crate) use pending::whole;
 pub use runs::{Runs, Work, has_runs};
 pub use single::{Kept, check_writable, write_atomic, write_keeping};
 pub(crate) use staged::Staged;

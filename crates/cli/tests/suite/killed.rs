@@ -90,11 +90,20 @@ impl Bench {
         self.path(case.out).join(".stiction-pending").exists()
     }
 
-    /// What a command leaves in an empty place.
-    fn whole(&self, case: &Case, which: usize) -> Files {
+    /// What a command leaves in an empty place, and what is exported of that.
+    fn whole(&self, case: &Case, which: usize) -> (Files, Option<Files>) {
         self.clear(case);
         self.run(&case.arguments[which]);
-        files(&self.path(case.out))
+        (files(&self.path(case.out)), self.exported(case))
+    }
+
+    /// What reading the model in the folder comes to; `None` where there is none.
+    fn exported(&self, case: &Case) -> Option<Files> {
+        let model = self.path(case.out).join("model.toml");
+        let model = model.exists().then(|| model.to_str().unwrap())?;
+        let _ = std::fs::remove_dir_all(self.path("elsewhere"));
+        self.run(&["export", model, "--target=c", "--out=elsewhere"]);
+        Some(files(&self.path("elsewhere")))
     }
 
     fn clear(&self, case: &Case) {
@@ -193,7 +202,7 @@ fn at_every_change_of_a_folder() {
     let bench = Bench::new();
     for case in cases() {
         let [old, new] = [bench.whole(&case, 0), bench.whole(&case, 1)];
-        assert_ne!(old, new, "{:?}", case.arguments);
+        assert_ne!(old.0, new.0, "{:?}", case.arguments);
         let mut kills = 0;
         let mut between = 0;
         for call in CHANGES {
@@ -207,12 +216,12 @@ fn at_every_change_of_a_folder() {
                 kills += 1;
                 between += usize::from(bench.is_pending(&case));
                 let place = format!("{:?} killed at {call} {nth}", case.arguments[1]);
-                one_or_the_other(&bench, &case, &old, &new, &place);
+                one_or_the_other(&bench, &case, [&old, &new], &place);
             }
         }
         // Before each file gets its name, and before the record goes.
         let counts = format!("{:?}: {kills}, {between}", case.arguments);
-        assert!(kills > between && between > old.len(), "{counts}");
+        assert!(kills > between && between > old.0.len(), "{counts}");
     }
 }
 
@@ -235,31 +244,22 @@ fn at_any_time() {
             let _ = child.kill();
             child.wait().unwrap();
             let place = format!("{:?}, {k}", case.arguments[1]);
-            one_or_the_other(&bench, &case, &old, &new, &place);
+            one_or_the_other(&bench, &case, [&old, &new], &place);
         }
     }
 }
 
-/// A folder has the files of one outcome, or says itself that it is being replaced: then whoever reads it, or writes it
-/// again, ends that first. In the end nothing is left of the killed one.
-fn one_or_the_other(bench: &Bench, case: &Case, old: &Files, new: &Files, place: &str) {
+/// A folder has the files of one outcome, or says itself that it is being replaced: then whoever reads a file of it has that of
+/// the new one and changes nothing, and whoever writes it again ends that first. In the end nothing is left of the killed one.
+fn one_or_the_other(bench: &Bench, case: &Case, all: [&(Files, Option<Files>); 2], place: &str) {
+    let [(old, _), (new, _)] = all;
     let temporary = |path: &Path| path.to_str().unwrap().starts_with(".stiction-part-");
     // Runs that were done, for a later call: no part of an outcome.
     let kept = |path: &Path| path == Path::new(".stiction-runs");
-    let model = bench.path(case.out).join("model.toml");
-    if model.exists() {
-        let model = model.to_str().unwrap();
-        bench.run(&[
-            "export",
-            model,
-            "--target",
-            "c",
-            "--out",
-            "elsewhere",
-            "--force",
-        ]);
-        assert!(!bench.is_pending(case), "{place}");
-    }
+    let there = files(&bench.path(case.out));
+    let exported = bench.exported(case);
+    assert!(all.map(|(_, whole)| whole).contains(&&exported), "{place}");
+    assert!(there == files(&bench.path(case.out)), "{place}");
     if !bench.is_pending(case) {
         let there = files(&bench.path(case.out));
         let own: Files = there

@@ -2,7 +2,7 @@
 
 use super::form::{self, Form};
 use crate::error::Error;
-use crate::output::settle;
+use crate::output::whole;
 use std::path::Path;
 use stiction_log::{Irregular, regular};
 
@@ -38,12 +38,13 @@ pub(super) fn text(file: &Path, form: Form) -> Result<String, NotRead> {
         NotRead::Faulty(found, format!("give the path of {what}"))
     };
     // It may be one of several files that were about to be replaced together.
-    if let Some(dir) = file.parent() {
-        let whole = format!("{what} in a folder that can be completed, or a copy of it elsewhere");
-        settle(dir).map_err(|e| NotRead::Faulty(e.to_string(), whole))?;
-    }
+    let content = whole(file).map_err(|e| {
+        let allowed =
+            format!("{what} in a folder without such a record, or a copy of it elsewhere");
+        NotRead::Faulty(e.to_string(), allowed)
+    })?;
     let other = || form::of_file(file).map(|found| NotRead::Other(form.instead_of(file, found)));
-    let found = match regular(file) {
+    let found = match regular(&content) {
         Ok(about) if about.len() <= MAX_BYTES => None,
         Ok(about) => Some(format!("{} bytes", about.len())),
         Err(Irregular::Io(e)) => return Err(unreadable(e)),
@@ -53,8 +54,8 @@ pub(super) fn text(file: &Path, form: Form) -> Result<String, NotRead> {
         let allowed = format!("{what} is a text file of at most 1 MiB");
         return Err(other().unwrap_or(NotRead::Faulty(found, allowed)));
     }
-    let bytes = std::fs::read(file).map_err(unreadable)?;
-    if stiction_log::is_binary_recording(file) {
+    let bytes = std::fs::read(&content).map_err(unreadable)?;
+    if stiction_log::is_binary_recording(&content) {
         return Err(other().unwrap_or(NotRead::Faulty("a recording".into(), what.into())));
     }
     String::from_utf8(bytes)

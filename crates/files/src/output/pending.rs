@@ -2,8 +2,11 @@
 //!
 //! Renaming several files is no single step. Where the program is ended in between, some are of the new outcome and some of
 //! the old one, and nothing about them tells. So they are renamed under a record: it is made and locked before anything is
-//! written, filled once everything is complete, and removed when the last file has its name. Whoever finds a record that
-//! nobody holds ends what it says; one that is not complete says that nothing was renamed.
+//! written, filled once everything is complete, and removed when the last file has its name. Whoever is about to write into a
+//! folder with a record that nobody holds ends what it says first; one that is not complete says that nothing was renamed.
+//! Whoever reads a file there changes nothing: [`whole`] says which file has the content that is to be.
+//!
+//! A folder may come from elsewhere, and its record with it: no name in it leads out of the folder, also not through a link.
 
 use super::{describe, staged};
 use crate::error::Error;
@@ -40,6 +43,10 @@ impl Rename {
     /// Renames, unless that was done before.
     pub(super) fn run(&self, dir: &Path) -> std::io::Result<()> {
         let (from, to) = self.names();
+        if let Some(link) = linked(dir, from).or_else(|| linked(dir, to)) {
+            let found = format!("{} is a link, which no record may follow", link.display());
+            return Err(std::io::Error::other(found));
+        }
         let (from, to) = (dir.join(from), dir.join(to));
         let there = |path: &Path| path.symlink_metadata().is_ok();
         let done = match self {
@@ -93,6 +100,15 @@ pub(super) fn is_inside(name: &str) -> bool {
     !name.is_empty() && !name.contains(char::is_control) && path.components().all(plain)
 }
 
+/// The first folder of a relative path that is a link.
+pub(super) fn linked(dir: &Path, name: &str) -> Option<PathBuf> {
+    let folders = Path::new(name).ancestors().skip(1);
+    let folders = folders.filter(|folder| !folder.as_os_str().is_empty());
+    folders
+        .map(|folder| dir.join(folder))
+        .find(|folder| folder.is_symlink())
+}
+
 impl Pending {
     /// Makes the record of a folder, and waits for and ends what another program has begun there.
     pub(super) fn begin(dir: &Path) -> Result<Self, Error> {
@@ -129,44 +145,90 @@ impl Pending {
 }
 
 /// Ends what a program began in a folder before it was ended by force; waits for one that is at work there.
-pub(crate) fn settle(dir: &Path) -> Result<(), Error> {
+pub(super) fn settle(dir: &Path) -> Result<(), Error> {
+    let Some(left) = left(dir)? else {
+        return Ok(());
+    };
+    for rename in &left.renames {
+        rename.run(left.dir).map_err(|e| left.fault(&e))?;
+    }
+    staged::sweep(left.dir);
+    fs::remove_file(&left.path).map_err(|e| left.fault(&e))
+}
+
+/// The file that has the content of this one: itself, or the complete one that a program was about to give its name when it
+/// was ended by force. Waits for a program that is at work there, and changes nothing.
+pub(crate) fn whole(file: &Path) -> Result<PathBuf, Error> {
+    let (Some(dir), Some(name)) = (
+        file.parent(),
+        file.file_name().and_then(|name| name.to_str()),
+    ) else {
+        return Ok(file.to_path_buf());
+    };
+    let left = left(dir)?;
+    for rename in left.iter().flat_map(|left| &left.renames) {
+        match rename {
+            Rename::Publish(from, to) if to == name && dir.join(from).is_file() => {
+                return Ok(dir.join(from));
+            }
+            _ => {}
+        }
+    }
+    Ok(file.to_path_buf())
+}
+
+/// What a program that was ended by force has left to do in a folder, which no other does as long as this is held.
+struct Left<'d> {
+    dir: &'d Path,
+    path: PathBuf,
+    _locked: File,
+    renames: Vec<Rename>,
+}
+
+impl Left<'_> {
+    fn fault(&self, e: &std::io::Error) -> Error {
+        let why = describe(e);
+        let found = format!(
+            "was left half replaced, and that cannot be completed: {why}; to keep what is there, remove {NAME}"
+        );
+        Error::output(self.dir, found)
+    }
+}
+
+/// The record of a folder that nobody holds; waits for a program that is at work there.
+fn left(dir: &Path) -> Result<Option<Left<'_>>, Error> {
     let dir = match dir.as_os_str().is_empty() {
         true => Path::new("."),
         false => dir,
     };
     let path = dir.join(NAME);
     // Most folders have none. Opening a pipe of this name would wait for ever.
-    if !path.symlink_metadata().is_ok_and(|m| m.is_file()) {
-        return match path.symlink_metadata() {
-            Ok(_) => Err(Error::output(&path, "is not a file; remove it")),
-            Err(_) => Ok(()),
-        };
+    match path.symlink_metadata() {
+        Err(_) => return Ok(None),
+        Ok(about) if !about.is_file() => {
+            return Err(Error::output(&path, "is not a file; remove it"));
+        }
+        Ok(_) => {}
     }
-    let fail = |e: std::io::Error| {
-        let why = describe(&e);
-        Error::output(
-            dir,
-            format!("was left half replaced, and that cannot be completed: {why}"),
-        )
-    };
     let file = match File::open(&path) {
         Ok(file) => file,
-        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(()),
-        Err(e) => return Err(fail(e)),
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(e) => return Err(Error::output(&path, describe(&e))),
     };
     let _ = file.lock();
     if !is_the_file(&file, &path) {
         // Its program has ended the work meanwhile.
-        return Ok(());
+        return Ok(None);
     }
     let mut text = String::new();
     // What is no text is no complete record.
     let _ = (&file).take(MOST_BYTES).read_to_string(&mut text);
-    for rename in renames(&text) {
-        rename.run(dir).map_err(fail)?;
-    }
-    staged::sweep(dir);
-    fs::remove_file(&path).map_err(fail)
+    Ok(Some(Left {
+        dir,
+        path,
+        _locked: file,
+        renames: renames(&text),
+    }))
 }
 
 /// What a record says; nothing where it is not complete.

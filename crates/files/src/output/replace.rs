@@ -1,6 +1,6 @@
 //! Several files at once take the place of what a folder has of the same names.
 
-use super::pending::{Pending, Rename, is_inside};
+use super::pending::{Pending, Rename, is_inside, linked};
 use super::staged::{stage, sweep};
 use super::{describe, taken::writable_above};
 use crate::error::Error;
@@ -57,6 +57,9 @@ fn stage_all<'f>(
         let path = dir.join(name);
         if !is_inside(name) {
             return Err(Error::output(&path, "leads out of the folder"));
+        }
+        if let Some(link) = linked(dir, name) {
+            return Err(Error::output(&link, "is a link; a folder is to be made"));
         }
         if path.is_dir() {
             let what = "is a folder; a file of this name is to be written";

@@ -2,3 +2,4 @@
 
 mod axis;
 mod model;
+mod pending;

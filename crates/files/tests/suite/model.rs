@@ -4,7 +4,7 @@ use std::fmt::Write;
 use stiction_files::ModelFile;
 use stiction_files::model::ReadModel;
 
-const GOOD: &str = r#"schema = "stiction.model/1"
+pub const GOOD: &str = r#"schema = "stiction.model/1"
 name = "stage"
 kind = "linear"
 law = "dahl"
