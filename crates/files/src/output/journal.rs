@@ -196,6 +196,7 @@ fn whole(line: &[u8]) -> Option<(&str, usize)> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::runs::tests::damaged;
     use super::*;
     use proptest::prelude::*;
 
@@ -210,17 +211,7 @@ mod tests {
             }
             let all = journal.len();
             drop(journal);
-            let path = dir.path().join(NAME);
-            let mut bytes = fs::read(&path).unwrap();
-            let head = bytes.iter().position(|b| *b == b'\n').unwrap() + 1;
-            bytes.truncate(head + (part * (bytes.len() - head) as f64) as usize);
-            if let Some(at) = damage
-                && bytes.len() > head
-            {
-                let at = head + (at * (bytes.len() - head) as f64) as usize;
-                bytes[at] ^= 1;
-            }
-            fs::write(&path, &bytes).unwrap();
+            damaged(&dir.path().join(NAME), part, damage);
             let journal = Journal::resume(dir.path(), "batch").unwrap();
             prop_assert!(journal.len() <= all);
             for key in ["a", "b", "c"] {

@@ -267,9 +267,23 @@ fn other(theirs: &Work, ours: &Work) -> Option<String> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use proptest::prelude::*;
+
+    /// Cuts a file somewhere behind its first line, and changes a byte.
+    pub(crate) fn damaged(path: &Path, part: f64, damage: Option<f64>) {
+        let mut bytes = fs::read(path).unwrap();
+        let head = bytes.iter().position(|b| *b == b'\n').unwrap() + 1;
+        bytes.truncate(head + (part * (bytes.len() - head) as f64) as usize);
+        if let Some(at) = damage
+            && bytes.len() > head
+        {
+            let at = head + (at * (bytes.len() - head) as f64) as usize;
+            bytes[at] ^= 1;
+        }
+        fs::write(path, &bytes).unwrap();
+    }
 
     fn work(of: &str) -> Work {
         Work {
@@ -296,17 +310,7 @@ mod tests {
                 runs.add(i, &(i + 10).to_string());
             }
             drop(runs);
-            let path = dir.path().join(NAME);
-            let mut bytes = fs::read(&path).unwrap();
-            let head = bytes.iter().position(|b| *b == b'\n').unwrap() + 1;
-            bytes.truncate(head + (part * (bytes.len() - head) as f64) as usize);
-            if let Some(at) = damage
-                && bytes.len() > head
-            {
-                let at = head + (at * (bytes.len() - head) as f64) as usize;
-                bytes[at] ^= 1;
-            }
-            fs::write(&path, &bytes).unwrap();
+            damaged(&dir.path().join(NAME), part, damage);
             let runs = Runs::resume(dir.path(), &work("a")).unwrap();
             for (i, found) in taken(&runs).into_iter().enumerate() {
                 prop_assert!(found.is_none_or(|found| found == i as u32 + 10));

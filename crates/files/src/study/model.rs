@@ -174,17 +174,23 @@ impl Model {
         ]
         .map(parameter)
         .into();
-        Some(Model {
+        let origin = format!("Known axis {}: {}", axis.name, axis.source);
+        Some(Model::exact(motion, origin, parameters))
+    }
+
+    /// LuGre with parameters that have no errors.
+    pub(super) fn exact(motion: Motion, origin: String, parameters: Vec<Parameter>) -> Self {
+        Self {
             motion,
             kind: LawKind::LuGre,
-            origin: format!("Known axis {}: {}", axis.name, axis.source),
+            origin,
             parameters,
             supported: None,
             covariance: None,
             remaining: None,
             warnings: Vec::new(),
             read: None,
-        })
+        }
     }
 
     /// The file that it was read from; none for a known axis, and for parameters that the study gives itself.

@@ -6,7 +6,7 @@ use crate::error::Error;
 use crate::study::model::{Model, Parameter};
 use crate::symbols;
 use stiction_log::Motion;
-use stiction_parameters::{Dimension, LawError, LawKind, Quantity};
+use stiction_parameters::{Dimension, LawError, Quantity};
 
 /// What has to be given.
 const NEEDED: [(&str, Quantity); 6] = [
@@ -64,17 +64,7 @@ pub(super) fn published(given: &Given<'_>) -> Result<Model, Error> {
         });
     }
     table.end()?;
-    let model = Model {
-        motion,
-        kind: LawKind::LuGre,
-        origin: "Parameters given in the study".into(),
-        parameters,
-        supported: None,
-        covariance: None,
-        remaining: None,
-        warnings: Vec::new(),
-        read: None,
-    };
+    let model = Model::exact(motion, "Parameters given in the study".into(), parameters);
     match model.values().lugre() {
         Ok(_) => Ok(model),
         Err(LawError::Value(e)) => Err(table.together(&e)),
