@@ -17,6 +17,11 @@ impl Random {
         ((x ^ (x >> 31)) >> 11) as f64 * (1.0 / (1u64 << 53) as f64)
     }
 
+    /// Between two positive bounds, every ratio as likely as another.
+    pub fn between(&mut self, least: f64, most: f64) -> f64 {
+        least * (most / least).powf(self.uniform())
+    }
+
     /// Normal, mean 0, standard deviation 1 (Box and Muller).
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.uniform()).ln()).sqrt();

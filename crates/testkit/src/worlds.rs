@@ -1,8 +1,10 @@
 //! Simulated logs of axes that are, or are not, what an identification assumes.
 //!
 //! A [`World`] is one thing that differs from a rigid mass with LuGre friction, a force without delay and an encoder that is
-//! read at every sample. Everything is simulated here by a fine step of its own (Runge-Kutta of fourth order, at most 10 us),
-//! with laws written out from their publications, so that no error of the engines can hide in the log that tests them.
+//! read at every sample; a [`Setup`] adds what is common in practice around any of them. A [`Set`] is where the logs come from:
+//! constants are chosen on one, tests assert on another, documents show the third. Everything is simulated here by a fine step
+//! of its own (Runge-Kutta of fourth order, at most 10 us), with laws written out from their publications, so that no error of
+//! the engines can hide in the log that tests them.
 //!
 //! ```
 //! use stiction_testkit::worlds::{Machine, Motion, World, record};
@@ -18,11 +20,15 @@ mod logged;
 mod machine;
 mod motion;
 mod running;
+mod set;
+mod setup;
 
 pub use logged::{Recording, record};
 pub use machine::Machine;
 pub use motion::Motion;
 pub use running::Running;
+pub use set::{Case, Set};
+pub use setup::{Cogging, Compliance, Controller, Setup};
 
 /// What differs from the world that an identification of LuGre assumes.
 #[derive(Clone, Copy, Debug, PartialEq)]

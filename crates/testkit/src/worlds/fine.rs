@@ -1,11 +1,13 @@
 //! The axis in continuous time, by a fine step.
 
 use super::motion::SetPoint;
-use super::{Machine, World};
+use super::{Machine, Setup, World};
 use std::f64::consts::TAU;
 
-/// Longest step, s.
+/// Longest step, s, and longest in times in which the bristles follow the fastest motion: explicit steps of more than 2.8 of
+/// those blow up.
 const LONGEST: f64 = 1e-5;
+const FOLLOWED: f64 = 0.7;
 /// Part of the mass that is the motor's where there are two.
 const MOTOR: f64 = 0.5;
 /// Resonance of motor and load, in bandwidths of the speed loop, and its damping ratio; with the encoder on the load a loop
@@ -29,8 +31,9 @@ const ELEMENT_STIFFNESS: [f64; 4] = [0.4, 0.3, 0.2, 0.1];
 /// How fast a slipping element attains its level: rate C over Fc, 1/s.
 const ATTRACTION: f64 = 50.0;
 
-/// Motor position and velocity, load position and velocity, bristle deflection or element forces.
-type State = [f64; 8];
+/// Motor position and velocity, load position and velocity, bristle deflection or element forces, bristle deflection of the
+/// load.
+type State = [f64; 9];
 
 /// Lost motion between motor and load, m.
 fn gap(machine: &Machine) -> f64 {
@@ -55,7 +58,9 @@ impl World {
 /// An axis that moves.
 pub(super) struct Fine {
     machine: Machine,
-    world: World,
+    setup: Setup,
+    /// Longest step, s.
+    longest: f64,
     state: State,
     /// Whether each Maxwell-slip element slips.
     slips: [bool; 4],
@@ -69,11 +74,14 @@ pub(super) struct Fine {
 
 impl Fine {
     /// At rest at the beginning of a log along that path.
-    pub fn of(machine: &Machine, path: &[SetPoint], world: World) -> Self {
+    pub fn of(machine: &Machine, path: &[SetPoint], setup: Setup) -> Self {
+        let fastest = path.iter().fold(0.0_f64, |m, p| m.max(p.velocity.abs()));
+        let followed = machine.coulomb / machine.sigma0 / fastest;
         Fine {
             machine: *machine,
-            world,
-            state: [0.0; 8],
+            setup,
+            longest: LONGEST.min(FOLLOWED * followed),
+            state: [0.0; 9],
             slips: [false; 4],
             reach: path.iter().fold(0.0_f64, |m, p| m.max(p.position.abs())),
             duration: path.len() as f64 / machine.rate,
@@ -89,28 +97,30 @@ impl Fine {
 
     /// Where the encoder is, m.
     pub fn position(&self) -> f64 {
-        match self.world {
-            World::ResonanceAtLoad => self.state[2],
-            _ => self.state[0],
+        match self.is_read_at_load() {
+            true => self.state[2],
+            false => self.state[0],
         }
     }
 
     /// Velocity there, m/s.
     pub fn velocity(&self) -> f64 {
-        match self.world {
-            World::ResonanceAtLoad => self.state[3],
-            _ => self.state[1],
+        match self.is_read_at_load() {
+            true => self.state[3],
+            false => self.state[1],
         }
+    }
+
+    fn is_read_at_load(&self) -> bool {
+        let spring = self.setup.compliance;
+        self.setup.world == World::ResonanceAtLoad || spring.is_some_and(|c| c.is_read_at_load)
     }
 
     /// Advances by `duration` (s) under a constant force (N), which passes the current loop where the world has one.
     pub fn advance(&mut self, force: f64, duration: f64) {
-        let steps = (duration / LONGEST).ceil().max(1.0);
+        let steps = (duration / self.longest).ceil().max(1.0);
         let h = duration / steps;
-        let lag = match self.world {
-            World::Driven(drive) => drive.lag,
-            _ => 0.0,
-        };
+        let lag = self.setup.lag();
         for _ in 0..steps as usize {
             let left = |time: f64| match lag > 0.0 {
                 true => (self.felt - force) * (-time / lag).exp(),
@@ -140,7 +150,7 @@ impl Fine {
         self.state =
             std::array::from_fn(|i| s[i] + h / 6.0 * (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]));
         self.time += h;
-        if self.world == World::MaxwellSlip {
+        if self.setup.world == World::MaxwellSlip {
             self.settle(s[1]);
         }
     }
@@ -150,7 +160,7 @@ impl Fine {
     fn settle(&mut self, before: f64) {
         let v = self.state[1];
         let level = self.machine.level(v.abs(), 2.0);
-        let elements = self.state[4..].iter_mut().zip(&mut self.slips);
+        let elements = self.state[4..8].iter_mut().zip(&mut self.slips);
         for ((force, slips), share) in elements.zip(ELEMENT_FORCE) {
             *slips &= before * v > 0.0;
             let most = share * level;
@@ -164,17 +174,27 @@ impl Fine {
     fn rate(&self, s: &State, force: f64) -> State {
         let m = &self.machine;
         let [x, v, xl, vl, ..] = *s;
-        let mut out = [0.0; 8];
-        let friction = self.friction(s, &mut out);
-        let outside = match self.world {
+        let mut out = [0.0; 9];
+        let (friction, of_load) = self.friction(s, &mut out);
+        let outside = match self.setup.world {
             World::Cogging => 0.2 * m.coulomb * (TAU * PITCHES * x / m.top_speed).sin(),
             World::Weight if m.kind == "rotary" => WEIGHT * m.coulomb * (x + 0.3).cos(),
             World::Weight => WEIGHT * m.coulomb,
             World::Spring => m.coulomb * x / self.reach,
             _ => 0.0,
-        };
-        let (mass, coupling) = match self.world {
-            World::Backlash => {
+        } + self
+            .setup
+            .cogging
+            .map_or(0.0, |c| c.amplitude * (TAU * x / c.pitch).sin());
+        let (mass, coupling) = match (self.setup.compliance, self.setup.world) {
+            (Some(spring), _) => {
+                let k = spring.of(m.mass);
+                (
+                    (1.0 - spring.load) * m.mass,
+                    k.0 * (x - xl) + k.1 * (v - vl),
+                )
+            }
+            (_, World::Backlash) => {
                 let k = self.spring(RESONANCE_OF_GAP);
                 let half = 0.5 * gap(m);
                 let apart = x - xl;
@@ -182,8 +202,8 @@ impl Fine {
                 let damped = if squeezed == 0.0 { 0.0 } else { v - vl };
                 (MOTOR * m.mass, k.0 * squeezed + k.1 * damped)
             }
-            World::ResonanceAtMotor | World::ResonanceAtLoad => {
-                let k = self.spring(match self.world {
+            (_, World::ResonanceAtMotor | World::ResonanceAtLoad) => {
+                let k = self.spring(match self.setup.world {
                     World::ResonanceAtLoad => RESONANCE_OF_LOAD,
                     _ => RESONANCE,
                 });
@@ -195,16 +215,16 @@ impl Fine {
         out[1] = (force - friction - outside - coupling) / mass;
         if mass < m.mass {
             out[2] = vl;
-            out[3] = (coupling - self.of_load() * vl) / (m.mass - mass);
+            out[3] = (coupling - of_load) / (m.mass - mass);
         }
         out
     }
 
-    /// Friction at the motor, N, and the rates of its states.
-    fn friction(&self, s: &State, out: &mut State) -> f64 {
+    /// Friction at the motor and of the load itself, N, and the rates of their states.
+    fn friction(&self, s: &State, out: &mut State) -> (f64, f64) {
         let m = &self.machine;
         let (x, v) = (s[0], s[1]);
-        if self.world == World::MaxwellSlip {
+        if self.setup.world == World::MaxwellSlip {
             let level = m.level(v.abs(), 2.0);
             let mut sum = m.sigma2 * v;
             for i in 0..4 {
@@ -216,28 +236,40 @@ impl Fine {
                     ELEMENT_STIFFNESS[i] * m.sigma0 * v
                 };
             }
-            return sum;
+            return (sum, 0.0);
         }
-        let exponent = if self.world == World::Exponent {
+        let exponent = if self.setup.world == World::Exponent {
             1.0
         } else {
             2.0
         };
-        let changed = match self.world {
+        let changed = match self.setup.world {
             World::PositionWave => 1.0 + 0.15 * (0.5 * TAU * WAVES * x / self.reach).sin(),
             World::Position => 1.0 + 0.15 * x / self.reach,
             World::WarmUp => 1.0 - 0.2 * (self.time / self.duration).min(1.0),
             _ => 1.0,
         };
-        let z = s[4];
-        let rate = v - m.sigma0 * v.abs() * z / (changed * m.level(v.abs(), exponent));
+        let bristle = |z: f64, v: f64| {
+            let rate = v - m.sigma0 * v.abs() * z / (changed * m.level(v.abs(), exponent));
+            (m.sigma0 * z + m.sigma1 * rate, rate)
+        };
+        let viscous = self.of_load();
+        let (force, rate) = bristle(s[4], v);
         out[4] = rate;
-        m.sigma0 * z + m.sigma1 * rate + (m.sigma2 - self.of_load()) * v
+        let at_motor = force + (m.sigma2 - viscous) * v;
+        let share = self.setup.compliance.map_or(0.0, |c| c.friction);
+        if share == 0.0 {
+            return (at_motor, viscous * s[3]);
+        }
+        let (force, rate) = bristle(s[8], s[3]);
+        out[8] = rate;
+        let at_load = share * (force + m.sigma2 * s[3]);
+        ((1.0 - share) * at_motor, at_load)
     }
 
     /// Viscous friction of the load itself, N s/m.
     fn of_load(&self) -> f64 {
-        match self.world {
+        match self.setup.world {
             World::Backlash => OF_LOAD * self.machine.sigma2,
             _ => 0.0,
         }

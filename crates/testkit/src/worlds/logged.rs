@@ -2,7 +2,7 @@
 
 use super::fine::Fine;
 use super::motion::SetPoint;
-use super::{Machine, Motion, World};
+use super::{Controller, Machine, Motion, Setup, World};
 use crate::random::Random;
 use std::f64::consts::TAU;
 
@@ -10,6 +10,8 @@ use std::f64::consts::TAU;
 const JITTER: f64 = 0.2;
 /// What a limited drive gives, in parts of the largest force that would be asked for without.
 const LIMIT: f64 = 0.8;
+/// Most that the integrator of a limited drive holds, in parts of what the drive gives.
+const WOUND_UP: f64 = 20.0;
 /// How long after the end of a motion a brake takes hold, and how long before the next it lets go, s.
 const BRAKED: [f64; 2] = [0.06, 0.04];
 /// One row in this many is missing.
@@ -49,12 +51,14 @@ impl Recording {
 }
 
 /// Simulates a machine along a motion in a world. The seed sets the noise and the phase of the encoder counts.
-pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Recording {
+pub fn record(machine: &Machine, motion: Motion, setup: impl Into<Setup>, seed: u64) -> Recording {
+    let setup = setup.into();
+    let world = setup.world;
     let path = motion.of(machine);
     let h = 1.0 / machine.rate;
     let mut random = Random::new(seed ^ 0x6c6f_6773);
-    let mut axis = Fine::of(machine, &path, world);
-    let mut cascade = Cascade::new(machine);
+    let mut axis = Fine::of(machine, &path, setup);
+    let mut cascade = Cascade::new(machine, setup.controller);
     let phase = random.uniform();
     let counted = |x: f64| ((x / machine.count + phase).floor() - phase + 0.5) * machine.count;
 
@@ -64,7 +68,11 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
     let mut hidden = Hidden::of(machine, world);
     let most = match world {
         World::Limited => {
-            let free = record(machine, motion, World::Faithful, seed).force;
+            let free = Setup {
+                world: World::Faithful,
+                ..setup
+            };
+            let free = record(machine, motion, free, seed).force;
             let largest = free.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
             (LIMIT * largest).max(1.05 * machine.static_friction)
         }
@@ -72,6 +80,7 @@ pub fn record(machine: &Machine, motion: Motion, world: World, seed: u64) -> Rec
     };
     for (k, point) in path.iter().enumerate() {
         let read = counted(axis.position());
+        cascade.integral = cascade.integral.clamp(-WOUND_UP * most, WOUND_UP * most);
         let brakes = world == World::Brake && is_braked(&path, k, machine.rate);
         let command = match brakes {
             true => cascade.let_go(),
@@ -223,10 +232,11 @@ fn dropped(log: &mut Recording, machine: &Machine, random: &mut Random) {
     log.time = kept.iter().map(|&k| k as f64 * h).collect();
 }
 
-/// Position loop, speed loop with an integrator, feedforward of speed and acceleration; the speed from differences of
-/// counts behind a filter of first order.
+/// The loops; the speed from differences of counts behind a filter of first order.
 struct Cascade {
     h: f64,
+    controller: Controller,
+    /// Of the acceleration fed forward, kg.
     mass: f64,
     position_gain: f64,
     speed_gain: f64,
@@ -238,15 +248,21 @@ struct Cascade {
 }
 
 impl Cascade {
-    fn new(machine: &Machine) -> Self {
+    fn new(machine: &Machine, controller: Controller) -> Self {
         let omega = TAU * machine.bandwidth;
         let h = 1.0 / machine.rate;
+        let (mass, position_gain, integral_gain) = match controller {
+            Controller::Feedforward => (machine.mass, 0.25, 0.25 * omega),
+            Controller::PPi => (0.0, 0.25, 0.25 * omega),
+            Controller::Pid => (0.0, 1.0 / 3.0, omega * omega / 27.0),
+        };
         Cascade {
             h,
-            mass: machine.mass,
-            position_gain: 0.25 * omega,
+            controller,
+            mass,
+            position_gain: position_gain * omega,
             speed_gain: machine.mass * omega,
-            integral_gain: machine.mass * omega * 0.25 * omega,
+            integral_gain: machine.mass * omega * integral_gain,
             filter: 1.0 - (-h * 5.0 * omega).exp(),
             integral: 0.0,
             speed: 0.0,
@@ -265,8 +281,18 @@ impl Cascade {
     fn force(&mut self, x: f64, v: f64, a: f64, read: f64) -> f64 {
         let difference = (read - self.before.replace(read).unwrap_or(read)) / self.h;
         self.speed += self.filter * (difference - self.speed);
-        let error = self.position_gain * (x - read) + v - self.speed;
-        self.integral += self.h * self.integral_gain * error;
+        let forward = if self.controller == Controller::PPi {
+            0.0
+        } else {
+            v
+        };
+        let error = self.position_gain * (x - read) + forward - self.speed;
+        let summed = if self.controller == Controller::Pid {
+            x - read
+        } else {
+            error
+        };
+        self.integral += self.h * self.integral_gain * summed;
         self.speed_gain * error + self.integral + self.mass * a
     }
 }

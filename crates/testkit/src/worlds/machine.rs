@@ -1,5 +1,7 @@
 //! Axes with parameters of their own for every seed.
 
+pub(super) mod drawn;
+
 use crate::random::Random;
 
 /// Part of its value by which a parameter is at most above or below that of its kind of axis, as a logarithm.

@@ -2,7 +2,7 @@
 
 use super::fine::Fine;
 use super::logged::Hidden;
-use super::{Machine, Motion, World};
+use super::{Machine, Motion, Setup};
 use crate::random::Random;
 
 /// An axis at rest at the origin of its motion, as warm as the log has left it.
@@ -14,13 +14,14 @@ pub struct Running {
 
 impl Running {
     /// The axis of a log; `seed` is that of a force which no log shows.
-    pub fn after(machine: &Machine, motion: Motion, world: World, seed: u64) -> Self {
+    pub fn after(machine: &Machine, motion: Motion, setup: impl Into<Setup>, seed: u64) -> Self {
+        let setup = setup.into();
         let path = motion.of(machine);
-        let mut axis = Fine::of(machine, &path, world);
+        let mut axis = Fine::of(machine, &path, setup);
         axis.has_run();
         Running {
             axis,
-            hidden: Hidden::of(machine, world),
+            hidden: Hidden::of(machine, setup.world),
             random: Random::new(seed ^ 0x7275_6e73),
         }
     }
