@@ -1,8 +1,8 @@
 //! What a study promises of compensation, and what it does on the axis that the log came from, by world, axis and motion.
 //!
-//! `cargo run --release -p stiction --example promise -- [seeds] [first seed] [name ...]`, with names of axes (`stage`,
+//! `cargo run --release -p stiction --example promise -- [set] [seeds] [first seed] [name ...]`, with names of axes (`stage`,
 //! `screw`, `joint`), motions (`commissioning`, `sine`, `trapezoid`) and worlds (`as-assumed`, `cogging`, `force-10-late`,
-//! ...); all of a kind where none is named. `each` prints every promise too.
+//! ...); all of a kind where none is named. `each` prints every promise too. The sets are those of the example `worlds`.
 //!
 //! The log of a world is identified with defaults, and the study that comes with the model is simulated. Its controller and
 //! its compensators, with their watchdogs and drives, then run on the world itself instead of the simulated plant, without
@@ -10,26 +10,24 @@
 //! not be used (exit code 1) are counted apart.
 
 use rayon::prelude::*;
-use stiction_testkit::worlds::{Machine, World};
-
 mod asked;
 #[path = "../tests/suite/common/identified.rs"]
 mod identified;
 #[path = "../tests/suite/common/kept.rs"]
 mod kept;
-use asked::Asked;
+use asked::{Asked, all, cell};
 use kept::{Kept, Told, kept};
 
 fn main() {
     let asked = Asked::of_arguments(1);
-    let tasks = &asked.tasks;
-    let told: Vec<Told> = tasks
+    let cases = &asked.cases;
+    let told: Vec<Told> = cases
         .par_iter()
-        .map(|&(world, axis, motion, seed)| kept(&Machine::all(seed)[axis].1, motion, world, seed))
+        .map(|case| kept(&case.machine, case.motion, case.setup, case.seed))
         .collect();
     if asked.has("each") {
-        for (task, told) in tasks.iter().zip(&told) {
-            let cell = asked.cell(task);
+        for (case, told) in cases.iter().zip(&told) {
+            let cell = cell(case);
             match told {
                 Told::Nothing(why) => println!("{cell}: {why}"),
                 Told::Promised { trusted, kept } => kept.iter().for_each(|k| {
@@ -39,16 +37,17 @@ fn main() {
             }
         }
     }
+    println!("Set *{}*.\n", asked.set.name());
     println!(
         "| world | not to be used | nothing promised | promises | below | inside | above | share inside | width |"
     );
     println!("|---|---:|---:|---:|---:|---:|---:|---:|---:|");
-    for world in World::ALL {
-        let of_world = tasks.iter().zip(&told).filter(|(task, _)| task.0 == world);
-        row(
-            &world.name(),
-            &of_world.map(|(_, told)| told).collect::<Vec<_>>(),
-        );
+    for world in all(cases, |case| case.world.clone()) {
+        let of_world = cases
+            .iter()
+            .zip(&told)
+            .filter(|(case, _)| case.world == world);
+        row(&world, &of_world.map(|(_, told)| told).collect::<Vec<_>>());
     }
     row("all", &told.iter().collect::<Vec<_>>());
 }

@@ -1,12 +1,18 @@
-//! What the default identification claims of simulated logs, and how much of it is true, by world, axis and motion.
+//! What the default identification claims of simulated logs, and how much of it is true: coverage, lies and false alarms.
 //!
-//! `cargo run --release -p stiction --example worlds -- [seeds] [first seed] [name ...]`, with names of axes (`stage`,
-//! `screw`, `joint`), motions (`commissioning`, `sine`, `trapezoid`) and worlds (`as-assumed`, `cogging`, `force-10-late`,
-//! ...); all of a kind where none is named. `each` prints every run too. `twice` identifies two logs of the axis together,
-//! `apart-PERCENT` two between which its friction has risen by so much; the second moves as `with-MOTION` says. With
-//! `levels` each of the two has levels of its own, and the claims are of the first. `law-NAME` asks for a law, alone.
+//! `cargo run --release -p stiction --example worlds -- [set] [seeds] [first seed] [name ...]`, with a set of `testkit`:
+//! `tuning`, on which constants are chosen, `test`, on which tests assert, or `report`, which `docs/conditioning.md` shows:
+//! `worlds -- report 2`. Without a set it is the older eighteen worlds of `tuning`. Names are those of axes (`stage`,
+//! `ball-screw`, ...), motions (`sine`, `places`, ...) and worlds (`as-assumed`, `belt`, `force-10-late`, ...); all of a kind
+//! where none is named.
 //!
-//! What is claimed, and when a run is silent, is defined in `tests/suite/claims`.
+//! `each` prints every run too, `cells` a row for each axis and motion of a world, and half-widths. `twice` identifies two logs
+//! of the axis together, `apart-PERCENT` two between which its friction has risen by so much; the second moves as `with-MOTION`
+//! says. With `levels` each of the two has levels of its own, and the claims are of the first. `law-NAME` asks for a law, alone.
+//!
+//! Coverage is the share of claimed 95 % intervals that hold the truth. A lie is a run that claims a value whose interval
+//! misses the truth by more than its own width. A false alarm is, in a world where nothing is to be named, a run that names a
+//! cause or must not be used; values that are flagged as open there are counted beside. All of it in `tests/suite/claims`.
 
 mod asked;
 #[path = "../tests/suite/claims/mod.rs"]
@@ -14,17 +20,18 @@ mod claims;
 #[path = "../tests/suite/common/identified.rs"]
 mod identified;
 
-use asked::{Asked, Task};
-use claims::Run;
+use asked::{Asked, all, cell};
+use claims::{Figures, Run};
 use identified::identified;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::time::{SystemTime, UNIX_EPOCH};
 use stiction::{Axis, LawKind, Options};
-use stiction_testkit::worlds::{Machine, Motion, World, record};
+use stiction_testkit::worlds::{Case, Motion, World, record};
 
 fn main() {
-    let asked = Asked::of_arguments(4);
-    let (tasks, axes, names) = (&asked.tasks, &asked.axes, &asked.names);
+    let asked = Asked::of_arguments(2);
+    let (cases, names) = (&asked.cases, &asked.names);
     let rise = names.iter().find_map(|name| match &name[..] {
         "twice" => Some(0.0),
         name => name.strip_prefix("apart-")?.parse::<f64>().ok(),
@@ -43,95 +50,122 @@ fn main() {
     let law = law.map(|name| LawKind::from_name(name).expect("a law"));
     let mut options = Options::default();
     (options.law, options.compare_laws) = (law, law.is_none());
-    let runs: Vec<Run> = tasks
+    let runs: Vec<Run> = cases
         .par_iter()
-        .map(|&(world, axis, motion, seed)| {
-            let machine = Machine::all(seed)[axis].1;
-            let mut logs = vec![record(&machine, motion, world, seed)];
-            let mut machines = vec![machine];
+        .map(|case| {
+            let machine = case.machine;
+            let (mut logs, mut machines) = (vec![case.record()], vec![machine]);
             if let Some(percent) = rise {
                 let later = machine.with_friction(1.0 + 0.01 * percent);
-                logs.push(record(
-                    &later,
-                    second.unwrap_or(motion),
-                    world,
-                    seed + LATER,
-                ));
+                let motion = second.unwrap_or(case.motion);
+                logs.push(record(&later, motion, case.setup, case.seed + LATER));
                 if !levels {
                     machines.push(later);
                 }
             }
-            claims::judged(&machines, identified(&machine, &logs, &file, &options))
+            let fit = identified(&machine, &logs, &file, &options);
+            let truths = machines
+                .iter()
+                .flat_map(|machine| case.setup.truth(machine));
+            claims::judged_by(&truths.collect::<Vec<_>>(), fit)
         })
         .collect();
     if asked.has("each") {
-        for (task, run) in tasks.iter().zip(&runs) {
-            let truth = task.0.coupling(&Machine::all(task.3)[task.1].1);
-            let truth = run.coupling.and(truth);
+        for (case, run) in cases.iter().zip(&runs) {
+            let truth = run.coupling.and(case.setup.coupling(&case.machine));
             let truth = truth.map_or(String::new(), |truth| format!(" of {truth:.3e}"));
-            println!("{}: {run}{truth}", asked.cell(task));
+            println!("{}: {run}{truth}", cell(case));
         }
     }
-    table(tasks, &runs, axes);
-    widths(tasks, &runs, axes);
+    let figures = Figures::of(cases.iter().zip(&runs));
+    println!("{}\n", written());
+    println!("Set *{}*, {figures}.\n", asked.set.name());
+    table(cases, &runs, asked.has("cells"));
+    if asked.has("cells") {
+        widths(cases, &runs);
+    }
 }
 
 /// What the seed of a second log is more than that of the first.
 const LATER: u64 = 1_000_000;
 
-/// The name of a world as an argument.
-/// One row for each cell, for each motion of a world, for each world, and for all.
-fn table(tasks: &[Task], runs: &[Run], axes: &[String]) {
+/// By what, when and where these figures were written.
+fn written() -> String {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap();
+    let date = stiction_files::batch::date_of(now.as_secs_f64());
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+    let cpu = cpu.lines().find_map(|line| line.strip_prefix("model name"));
+    let cpu = cpu.map_or(std::env::consts::ARCH, |cpu| {
+        cpu.trim_matches([' ', '\t', ':'])
+    });
+    format!(
+        "Written by `cargo run --release -p stiction --example worlds -- {}` on {} ({cores} cores of {cpu}).",
+        words.join(" "),
+        &date[..10]
+    )
+}
+
+/// One row for each world, axis and motion, and for all; with `cells` for each axis and motion of a world, too.
+fn table(cases: &[Case], runs: &[Run], cells: bool) {
     println!(
-        "| world | axis | motion | runs | trusted | silent | claimed | inside | open | half-width | largest error | largest, half-widths | codes |"
+        "| world, axis or motion | runs | trusted | lies | claimed | inside | open | half-width | largest error | largest, half-widths | named |"
     );
-    println!("|---|---|---|---:|---:|---:|---:|---:|---:|---:|---|---|---|");
-    let of = |wanted: &dyn Fn(&Task) -> bool| -> Vec<&Run> {
-        let both = tasks.iter().zip(runs);
-        both.filter(|(task, _)| wanted(task))
+    println!("|---|---:|---:|---:|---:|---:|---:|---:|---|---|---|");
+    let of = |wanted: &dyn Fn(&Case) -> bool| -> Vec<&Run> {
+        let both = cases.iter().zip(runs);
+        both.filter(|(case, _)| wanted(case))
             .map(|(_, run)| run)
             .collect()
     };
-    let mut cells: Vec<(World, usize, Motion)> = tasks.iter().map(|t| (t.0, t.1, t.2)).collect();
-    cells.dedup();
-    for &(world, axis, motion) in &cells {
-        let head = [&world.name(), &axes[axis], motion.name()];
-        row(&head, &of(&|t| (t.0, t.1, t.2) == (world, axis, motion)));
-    }
-    let mut worlds: Vec<World> = cells.iter().map(|cell| cell.0).collect();
-    worlds.dedup();
-    for world in worlds {
-        for motion in Motion::ALL {
-            row(
-                &[&world.name(), "all", motion.name()],
-                &of(&|t| (t.0, t.2) == (world, motion)),
-            );
+    let axes = all(cases, |case| case.axis);
+    let motions = all(cases, |case| case.motion.name());
+    for world in all(cases, |case| case.world.clone()) {
+        for &axis in axes.iter().filter(|_| cells) {
+            for &motion in &motions {
+                let here =
+                    |c: &Case| (&c.world[..], c.axis, c.motion.name()) == (&world, axis, motion);
+                row(&format!("{world}, {axis}, {motion}"), &of(&here));
+            }
         }
-        row(&[&world.name(), "all", "all"], &of(&|t| t.0 == world));
+        row(&world, &of(&|c| c.world == world));
     }
-    row(&["all", "all", "all"], &of(&|_| true));
+    for axis in axes {
+        row(&format!("all of {axis}"), &of(&|c| c.axis == axis));
+    }
+    for motion in motions {
+        row(
+            &format!("all of {motion}"),
+            &of(&|c| c.motion.name() == motion),
+        );
+    }
+    row("all", &of(&|_| true));
 }
 
 /// Half of the interval of each parameter by motion, where everything is as assumed: what a motion costs.
-fn widths(tasks: &[Task], runs: &[Run], axes: &[String]) {
-    let mut found = BTreeMap::<(&str, usize), [Vec<f64>; Motion::ALL.len()]>::new();
-    for ((world, axis, motion, _), run) in tasks.iter().zip(runs) {
-        let column = Motion::ALL.iter().position(|m| m == motion);
-        for claim in run.claims.iter().filter(|_| *world == World::Faithful) {
+fn widths(cases: &[Case], runs: &[Run]) {
+    let as_assumed = |case: &Case| case.world == World::Faithful.name();
+    let names = all(cases, |case| case.motion.name());
+    let mut found = BTreeMap::<(&str, &str), Vec<Vec<f64>>>::new();
+    for (case, run) in cases.iter().zip(runs).filter(|both| as_assumed(both.0)) {
+        let column = names.iter().position(|name| *name == case.motion.name());
+        for claim in &run.claims {
             let sided = claim.0.trim_end_matches("_pos").trim_end_matches("_neg");
-            let by_motion = found.entry((sided, *axis)).or_default();
+            let by_motion = found.entry((sided, case.axis));
+            let by_motion = by_motion.or_insert_with(|| vec![Vec::new(); names.len()]);
             by_motion[column.expect("one of all motions")].push(half_width(claim));
         }
     }
     if found.is_empty() {
         return;
     }
-    let names = Motion::ALL.map(Motion::name);
     println!("\n| half-width of | axis | {} |", names.join(" | "));
     println!("|---|---|{}", "---:|".repeat(names.len()));
     for ((name, axis), by_motion) in found {
-        let cells = by_motion.map(|widths| percent(middle(widths)));
-        println!("| {name} | {} | {} |", axes[axis], cells.join(" | "));
+        let cells = by_motion.into_iter().map(|widths| percent(middle(widths)));
+        let cells: Vec<String> = cells.collect();
+        println!("| {name} | {axis} | {} |", cells.join(" | "));
     }
 }
 
@@ -149,7 +183,7 @@ fn percent(part: Option<f64>) -> String {
     part.map_or(String::new(), |w| format!("{:.2} %", 100.0 * w))
 }
 
-fn row(head: &[&str], runs: &[&Run]) {
+fn row(head: &str, runs: &[&Run]) {
     if runs.is_empty() {
         return;
     }
@@ -179,8 +213,7 @@ fn row(head: &[&str], runs: &[&Run]) {
         .map(|(code, n)| format!("{code} {n}"))
         .collect();
     println!(
-        "| {} | {} | {} | {} | {} | {:.3} | {open} | {width} | {part} | {halves} | {} |",
-        head.join(" | "),
+        "| {head} | {} | {} | {} | {} | {:.3} | {open} | {width} | {part} | {halves} | {} |",
         runs.len(),
         runs.iter().filter(|r| r.trusted).count(),
         runs.iter().filter(|r| r.is_silent()).count(),

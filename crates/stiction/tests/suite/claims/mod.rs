@@ -3,8 +3,9 @@
 //! A value is claimed where a result may be used and lists it as a constant of the machine. A run is silent where a claimed
 //! value is off by more than half an interval and a whole one: its interval misses the truth by more than its own width.
 
+use std::fmt;
 use stiction::Fit;
-use stiction_testkit::worlds::Machine;
+use stiction_testkit::worlds::Case;
 
 /// What a run claims, and what of it holds.
 #[derive(Clone, Debug, Default)]
@@ -26,10 +27,15 @@ impl Run {
     pub fn is_silent(&self) -> bool {
         self.claims.iter().any(|c| c.2.abs() > 3.0)
     }
+
+    /// Whether a cause is named, or the result is refused or not to be used: a false alarm where nothing is to be named.
+    pub fn is_alarm(&self) -> bool {
+        !self.trusted || self.codes.iter().any(|code| !FLAGS.contains(code))
+    }
 }
 
-impl std::fmt::Display for Run {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+impl fmt::Display for Run {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         if let Some(why) = &self.refused {
             return write!(f, "refused: {why}");
         }
@@ -61,8 +67,9 @@ impl std::fmt::Display for Run {
     }
 }
 
-/// A claim about several machines holds as far as it does for the one that it holds least for.
-pub fn judged(machines: &[Machine], fit: Result<Fit, stiction::Error>) -> Run {
+/// Judges a fit by what is true, by name; a claim about several machines holds as far as it does for the one that it holds least
+/// for.
+pub fn judged_by(truths: &[(&'static str, f64)], fit: Result<Fit, stiction::Error>) -> Run {
     let fit = match fit {
         Ok(fit) => fit,
         Err(e) => {
@@ -98,8 +105,7 @@ pub fn judged(machines: &[Machine], fit: Result<Fit, stiction::Error>) -> Run {
             continue;
         };
         let centre = 0.5 * (low + high);
-        let truths = machines.iter().flat_map(Machine::truth);
-        let claims = truths.filter(|t| t.0 == base).map(|(_, truth)| {
+        let claims = truths.iter().filter(|t| t.0 == base).map(|(_, truth)| {
             let halves = (centre - truth) / (0.5 * (high - low));
             (p.name().to_owned(), p.value() / truth - 1.0, halves)
         });
@@ -107,4 +113,66 @@ pub fn judged(machines: &[Machine], fit: Result<Fit, stiction::Error>) -> Run {
         run.claims.extend(least);
     }
     run
+}
+
+/// Warnings that flag a value instead of naming a cause.
+const FLAGS: [&str; 2] = ["not-identifiable", "large-shift"];
+
+/// What many runs come to.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Figures {
+    pub runs: usize,
+    /// Runs that claim something false without a word.
+    pub lies: usize,
+    /// Claimed values, and those whose interval holds the truth.
+    pub claimed: usize,
+    pub inside: usize,
+    /// Runs in worlds where nothing is to be named, and those of them that name a cause, are refused or not to be used.
+    pub as_assumed: usize,
+    pub named: usize,
+    /// Values there, and those of them that are flagged as open.
+    pub values: usize,
+    pub flagged: usize,
+}
+
+impl Figures {
+    pub fn of<'a>(runs: impl IntoIterator<Item = (&'a Case, &'a Run)>) -> Self {
+        let mut sum = Self::default();
+        for (case, run) in runs {
+            sum.runs += 1;
+            sum.lies += usize::from(run.is_silent());
+            sum.claimed += run.claims.len();
+            sum.inside += run.claims.iter().filter(|c| c.2.abs() <= 1.0).count();
+            if case.is_as_assumed {
+                sum.as_assumed += 1;
+                sum.named += usize::from(run.is_alarm());
+                sum.values += run.claims.len() + run.open;
+                sum.flagged += run.open;
+            }
+        }
+        sum
+    }
+
+    /// Share of the claimed intervals that hold the truth.
+    pub fn coverage(&self) -> f64 {
+        self.inside as f64 / self.claimed.max(1) as f64
+    }
+}
+
+impl fmt::Display for Figures {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(
+            f,
+            "{} runs: coverage {:.3} of {} claimed values, {} lies; where nothing is to be named, {} of {} runs name a cause or are \
+             not to be used, {} of {} values are flagged",
+            self.runs,
+            self.coverage(),
+            self.claimed,
+            self.lies,
+            self.named,
+            self.as_assumed,
+            self.flagged,
+            self.values,
+        )
+    }
 }

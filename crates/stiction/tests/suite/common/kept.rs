@@ -6,7 +6,7 @@ use stiction::{Axis, Options, Silent, Study, simulate};
 use stiction_friction::LuGre;
 use stiction_servo::integrator::Integrator;
 use stiction_servo::plant::{Load, Motion as State, Plant};
-use stiction_testkit::worlds::{Machine, Motion, Running, World, record};
+use stiction_testkit::worlds::{Machine, Motion, Running, Setup, record};
 use stiction_workflows::study::simulate_on;
 
 /// What becomes of a log.
@@ -70,10 +70,11 @@ impl Integrator<LuGre<f64>> for Real {
 }
 
 /// Identifies the log of a world, takes what the study beside the model promises, and measures it on the axis of the world.
-pub fn kept(machine: &Machine, motion: Motion, world: World, seed: u64) -> Told {
+pub fn kept(machine: &Machine, motion: Motion, setup: impl Into<Setup>, seed: u64) -> Told {
+    let setup = setup.into();
     let fit = match identified(
         machine,
-        &[record(machine, motion, world, seed)],
+        &[record(machine, motion, setup, seed)],
         &Axis::default(),
         &Options::default(),
     ) {
@@ -90,7 +91,7 @@ pub fn kept(machine: &Machine, motion: Motion, world: World, seed: u64) -> Told 
     if let Some(why) = file.not_promised {
         return Told::Nothing(why);
     }
-    let axis = || Real(Running::after(machine, motion, world, seed));
+    let axis = || Real(Running::after(machine, motion, setup, seed));
     let runs = match simulate_on(&study, &axis) {
         Ok(runs) => runs,
         Err(e) => return Told::Nothing(format!("on the axis itself: {e}")),
