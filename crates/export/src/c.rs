@@ -6,6 +6,7 @@ use crate::template::Fill;
 use crate::terms::{self, Syntax};
 use crate::vectors::{DOUBLE_TOLERANCE, SINGLE_TOLERANCE, Vectors};
 use crate::{Error, File, Model, header, law};
+use sha2::{Digest, Sha256};
 
 const HEADER: &str = include_str!("../templates/c/compensator.h.in");
 const SOURCE: &str = include_str!("../templates/c/compensator.c.in");
@@ -135,6 +136,7 @@ pub(crate) fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<F
         .set("f_unit", model.force_unit())
         .set("a_unit", model.acceleration_unit())
         .set("load_unit", model.load_unit())
+        .set("stamp", stamp(model))
         .set("key", T::from_f64(f64::from(compensator.key())).c());
     law::settings(&mut fill, compensator.settings(), T::c);
     law::fill(&mut fill, compensator.friction(), T::c);
@@ -148,6 +150,17 @@ pub(crate) fn fill<T: Literal>(model: &Model, precision: &Precision) -> Result<F
     let terms = compensator.terms().copied().unwrap_or_default();
     terms::fill(&mut fill, &terms, &syntax(precision));
     Ok(fill)
+}
+
+/// A number that files of another model or other settings do not share, for the preprocessor to compare.
+fn stamp(model: &Model) -> String {
+    // Debug output holds every number with all of its digits.
+    let hash = Sha256::digest(format!("{model:?}"));
+    let number = hash
+        .iter()
+        .take(4)
+        .fold(0, |n, byte| n << 8 | u32::from(*byte));
+    format!("0x{number:08x}u")
 }
 
 /// How C writes what friction depends on.
