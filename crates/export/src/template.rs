@@ -41,6 +41,7 @@ const PARTS: &[(&str, &str)] = parts![
     "matlab/limit.m.in",
     "matlab/numbers.m.in",
     "matlab/range.m.in",
+    "matlab/settings.m.in",
     "matlab/terms.m.in",
     "matlab/watch_clear.m.in",
     "matlab/watch_forget.m.in",

@@ -107,7 +107,7 @@ fn outputs(model: &Model, terms: &Terms<f64>) -> Vec<Port> {
         ),
         port(
             "reason",
-            "why: 0 it has not; 1 larger mean square error; 2 larger peaks",
+            "why: 0 it has not; 1 larger mean square error; 2 larger peaks; 3 a setting out of range",
             "(real_T)block.state.reason",
         ),
         port("valid", "the parameters are in range", flag("ready")),

@@ -603,3 +603,91 @@ int main(void)
     );
     assert_eq!(run("./a.out", &[], dir.path()), "11.25 2.50 1.50");
 }
+
+/// A setting that becomes none while it runs counts as a watchdog that tripped: the force is gone after a ramp, whatever the error,
+/// and stays away once the setting is good again, until a reset; the weight of an axis is held on.
+#[test]
+fn a_setting_that_becomes_none_trips() {
+    let program = r#"
+#include "x_axis_friction.h"
+#include <math.h>
+#include <stdio.h>
+int main(void)
+{
+    const double bad[] = { (double)NAN, (double)INFINITY, -(double)INFINITY, -1.0 };
+    for (int which = 0; which < 5; which++) {
+        for (int b = 0; b < 4; b++) {
+            x_axis_params_t params;
+            x_axis_state_t state;
+            x_axis_params(&params);
+            params.watchdog_window = 0.1;
+            (void)x_axis_init(&params, &state);
+            double before = 0.0;
+            double during = 0.0;
+            double after = 0.0;
+            for (int k = 0; k < 12000; k++) {
+                /* to and fro in 0.2 s; from 5 s on with an error of 1000 times the one without compensation */
+                const bool onward = (k / 100) % 2 == 0;
+                const x_axis_input_t input = { onward ? 0.05 : -0.05, (k < 5000) ? 1e-6 : 1e-3, k >= 2000 };
+                x_axis_params_t now = params;
+                if (k >= 5000 && k < 8000) {
+                    double *const settings[] = { &now.dead_zone, &now.ramp, &now.watchdog_window, &now.watchdog_ratio, &now.cycle_time };
+                    *settings[which] = bad[b];
+                }
+                const double force = fabs(x_axis_step(&now, &state, &input));
+                double *const most = (k < 5000) ? &before : (k < 5100) ? &(double){ 0.0 } : (k < 8000) ? &during : &after;
+                *most = (force > *most) ? force : *most;
+            }
+            const bool off = which == 4 || (state.tripped && state.reason == 3u && !(after > 0.0));
+            if (!(before > 9.0) || during > 0.0 || !off) {
+                (void)printf("%d %g: %g %g %g %u; ", which, bad[b], before, during, after, state.reason);
+            }
+        }
+    }
+    (void)printf("done");
+    return 0;
+}
+"#;
+    let dir = tempfile::tempdir().unwrap();
+    write(
+        &export(&model(laws().remove(0).1), Target::C).unwrap(),
+        dir.path(),
+    );
+    std::fs::write(dir.path().join("main.c"), program).unwrap();
+    gcc(
+        "-std=c99 -O2",
+        &["main.c", "x_axis_friction.c", "-lm"],
+        dir.path(),
+    );
+    assert_eq!(run("./a.out", &[], dir.path()), "done");
+}
+
+/// A header, source or self-test of another model or other settings does not compile with the others.
+#[test]
+fn files_of_two_exports_do_not_compile_together() {
+    let mut other = model(laws().remove(0).1);
+    other.settings.gain = 0.5;
+    let [own, other] = [model(laws().remove(0).1), other].map(|m| export(&m, Target::C).unwrap());
+    for suffix in ["", "_f32"] {
+        let names = [".h", ".c", "_selftest.c"].map(|end| format!("x_axis_friction{suffix}{end}"));
+        for from_other in [None, Some(0), Some(1), Some(2)] {
+            let dir = tempfile::tempdir().unwrap();
+            write(&own, dir.path());
+            if let Some(k) = from_other {
+                let file = other.iter().find(|file| file.path == names[k]).unwrap();
+                std::fs::write(dir.path().join(&names[k]), &file.bytes).unwrap();
+            }
+            let arguments = ["-std=c99", "-c", &names[1], &names[2]];
+            let compiled = std::process::Command::new("gcc")
+                .args(arguments)
+                .current_dir(dir.path())
+                .output()
+                .unwrap();
+            assert_eq!(
+                compiled.status.success(),
+                from_other.is_none(),
+                "{names:?}, {from_other:?}"
+            );
+        }
+    }
+}
