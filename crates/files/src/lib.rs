@@ -46,5 +46,5 @@ pub use hash::{Hash, sha256, sha256_of};
 pub use model::ModelFile;
 pub use output::{
     Bundle, Journal, Kept, Runs, Work, check_apart, check_folder, check_folder_of, check_inputs,
-    check_writable, has_runs, write_atomic, write_folder, write_into_folder, write_keeping,
+    check_writable, has_runs, write_atomic, write_folder, write_keeping,
 };

@@ -16,7 +16,7 @@ mod staged;
 mod taken;
 
 pub use bundle::Bundle;
-pub use folder::{write_folder, write_into_folder};
+pub use folder::write_folder;
 pub use journal::Journal;
 pub(crate) use pending::whole;
 pub use runs::{Runs, Work, has_runs};

@@ -69,10 +69,7 @@ pub fn export(
             Some(file) => stiction::export_file(file, &options)?,
             None => stiction::export(&stiction::ModelFile::parse(model)?, &options)?,
         };
-        match force {
-            true => exported.write_over(&out)?,
-            false => exported.write(&out)?,
-        }
+        exported.write(&out, force)?;
         Ok(exported)
     });
     let exported = exported.map_err(|e: stiction::Error| raised(py, &e))?;

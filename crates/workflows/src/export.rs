@@ -17,7 +17,7 @@ use stiction_export::{Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
 use stiction_files::model::ReadModel;
-use stiction_files::{write_folder, write_into_folder};
+use stiction_files::write_folder;
 use stiction_friction::ParamError;
 use stiction_friction::compensator::{Adaptation, Compensator};
 
@@ -133,28 +133,15 @@ pub struct Reserve {
 }
 
 impl Exported {
-    /// Writes the files into `dir`, a folder that is new or empty: whole, or not at all.
+    /// Writes the files into `dir`, a folder that is new, empty or of an earlier export: whole, or not at all. Files that an export
+    /// wrote there are replaced, with `force` any of the same names; others are kept.
     ///
     /// # Errors
-    /// When the folder is not free or cannot be written.
-    pub fn write(&self, dir: impl AsRef<Path>) -> Result<(), Error> {
+    /// When the folder holds something else, a file to be replaced was changed, or it cannot be written.
+    pub fn write(&self, dir: impl AsRef<Path>, force: bool) -> Result<(), Error> {
         let files = self.files.iter();
-        Ok(write_folder(
-            dir.as_ref(),
-            files.map(|f| (f.path.as_str(), f.bytes.as_slice())),
-        )?)
-    }
-
-    /// Writes the files into `dir`, which may hold something: files of the same names are replaced, others are kept.
-    ///
-    /// # Errors
-    /// When the folder cannot be written.
-    pub fn write_over(&self, dir: impl AsRef<Path>) -> Result<(), Error> {
-        let files = self.files.iter();
-        Ok(write_into_folder(
-            dir.as_ref(),
-            files.map(|f| (f.path.as_str(), f.bytes.as_slice())),
-        )?)
+        let files = files.map(|f| (f.path.as_str(), f.bytes.as_slice()));
+        Ok(write_folder(dir, files, force)?)
     }
 }
 

@@ -41,10 +41,7 @@ pub fn run(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     let parts = export.feedforward.iter().map(String::as_str);
     options.feedforward = Feedforward::from_names(parts).map_err(fed_line)?;
     let exported = stiction::export_file(&export.model, &options).map_err(fed_line)?;
-    match export.force {
-        true => exported.write_over(&export.out)?,
-        false => exported.write(&export.out)?,
-    }
+    exported.write(&export.out, export.force)?;
     if common.json {
         output::json(&exported)?;
     } else if !common.quiet {

@@ -265,3 +265,46 @@ fn what_is_not_fed_forward_is_refused_with_the_line_that_works() {
         .unwrap();
     assert!(works.status.success(), "{}", said(&works));
 }
+
+/// Exported into its own folder again it replaces its own files and keeps others; what somebody wrote or changed is not replaced.
+#[test]
+fn an_export_replaces_its_own_files_and_only_these() {
+    for (target, name) in [
+        ("c", "x_axis_friction.h"),
+        ("cpp", "examples/Axis/Axis.ino"),
+        ("matlab", "x_axis_params.m"),
+        ("rust", "src/lib.rs"),
+        ("fmu", "x_axis_friction_fmi2.fmu"),
+    ] {
+        let dir = tempfile::tempdir().unwrap();
+        let out = dir.path().join("out");
+        let run = |more: &[&str]| {
+            let output = export(target, dir.path()).args(more).output().unwrap();
+            (output.status.code(), said(&output))
+        };
+        assert_eq!(run(&[]).0, Some(0), "{target}");
+        std::fs::write(out.join("main.c"), "int x;\n").unwrap();
+        let file = out.join(name);
+        let before = std::fs::read(&file).unwrap();
+        let (code, text) = run(&["--gain", "0.5", "--cycle-time", "2ms"]);
+        assert_eq!(code, Some(0), "{target}: {text}");
+        assert_ne!(std::fs::read(&file).unwrap(), before, "{target}");
+        let kept = std::fs::read_to_string(out.join("main.c")).unwrap();
+        assert_eq!(kept, "int x;\n");
+        // One that was changed since, and one that is another's.
+        let changed = [&std::fs::read(&file).unwrap()[..], b"\n"].concat();
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        for text in [&changed[..], b"mine"] {
+            std::fs::write(&file, text).unwrap();
+            let (code, err) = run(&[]);
+            assert_eq!(code, Some(2), "{target}: {err}");
+            assert!(err.contains(name) && err.contains("--out out-2"), "{err}");
+            assert_eq!(std::fs::read(&file).unwrap(), text);
+        }
+        assert_eq!(run(&["--force"]).0, Some(0));
+        assert_ne!(std::fs::read(&file).unwrap(), b"mine");
+        let entries = std::fs::read_dir(&out).unwrap();
+        let mut names = entries.map(|e| e.unwrap().file_name().into_string().unwrap());
+        assert!(!names.any(|name| name.starts_with(".stiction")), "{target}");
+    }
+}

@@ -152,8 +152,10 @@ pub(super) fn settle(dir: &Path) -> Result<(), Error> {
     for rename in &left.renames {
         rename.run(left.dir).map_err(|e| left.fault(&e))?;
     }
+    // First the record: read again, it would keep the new file of a name in the place of an old one that was swept.
+    fs::remove_file(&left.path).map_err(|e| left.fault(&e))?;
     staged::sweep(left.dir);
-    fs::remove_file(&left.path).map_err(|e| left.fault(&e))
+    Ok(())
 }
 
 /// The file that has the content of this one: itself, or the complete one that a program was about to give its name when it

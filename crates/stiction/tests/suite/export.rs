@@ -51,7 +51,7 @@ impl Bench {
     /// Exports the model that was written last.
     fn export_to(&self, folder: &str, options: &ExportOptions) -> Result<Exported, Error> {
         let exported = export_file(self.path("model.toml"), options)?;
-        exported.write(self.path(folder))?;
+        exported.write(self.path(folder), false)?;
         Ok(exported)
     }
 

@@ -71,10 +71,7 @@ impl Work for Export {
         options.adapt = self.adapt;
         options.feedforward = Feedforward::from_names(self.fed())?;
         let exported = stiction::export_file(run.workspace.file(&self.model)?, &options)?;
-        match self.force {
-            true => exported.write_over(&dir)?,
-            false => exported.write(&dir)?,
-        }
+        exported.write(&dir, self.force)?;
         Ok(Done {
             verdict: Some(exported.verdict()),
             text: text::exported(&exported, Path::new(&self.out)),
