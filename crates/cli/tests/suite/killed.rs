@@ -225,6 +225,43 @@ fn at_every_change_of_a_folder() {
     }
 }
 
+/// Killed anywhere, a batch that says that it is complete says it of the table beside it.
+#[test]
+fn a_batch_is_complete_for_its_own_table() {
+    let bench = Bench::new();
+    let arguments =
+        ["a.csv", "b.csv"].map(|log| vec!["batch", log, "--law=stribeck", "--out", "out"]);
+    let case = Case {
+        arguments,
+        out: "out",
+    };
+    let [old, new] = [bench.whole(&case, 0), bench.whole(&case, 1)];
+    let mut kills = 0;
+    for call in ["rename", "renameat2", "linkat", "unlink", "unlinkat"] {
+        for nth in 1.. {
+            bench.clear(&case);
+            bench.run(&case.arguments[0]);
+            let status = bench.killed_at(call, nth, &case.arguments[1]);
+            if matches!(status.code(), Some(0 | 1)) {
+                break;
+            }
+            kills += 1;
+            let there = files(&bench.path(case.out));
+            let [said, table] =
+                ["batch.json", "results.parquet"].map(|name| &there[Path::new(name)]);
+            let said_complete = String::from_utf8_lossy(said).contains("\"status\": \"complete\"");
+            let is = |all: &Files| {
+                all[Path::new("batch.json")] == *said && all[Path::new("results.parquet")] == *table
+            };
+            assert!(
+                !said_complete || is(&old) || is(&new),
+                "killed at {call} {nth}"
+            );
+        }
+    }
+    assert!(kills > 3, "{kills}");
+}
+
 #[test]
 #[ignore = "soak: killed 1000 times at random, every command that writes"]
 fn at_any_time() {

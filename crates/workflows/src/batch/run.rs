@@ -159,6 +159,8 @@ impl Batch {
             .sort_by_key(|failure| std::cmp::Reverse(failure.logs));
         let is_whole = table.is_some();
         if let Some(table) = table {
+            // An earlier batch.json that says complete would say it of this table where the program is killed between the two.
+            self.write_summary(dir, &self.summary("running"))?;
             table.end()?;
         }
         if is_whole || !dir.join(RESULTS).is_file() {
