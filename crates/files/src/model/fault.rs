@@ -94,16 +94,18 @@ const DRIVES: [Dimension; 5] = [
     Dimension::ONE,
 ];
 
+/// The unit of what drives an axis, written one way: `N*m` of `N m` and `Nm`; `None` where it is none.
+pub(super) fn drive(text: &str) -> Option<String> {
+    let unit = Unit::parse(text).ok()?;
+    let is_one = unit.factor() == 1.0 && DRIVES.contains(&unit.dimension());
+    is_one.then(|| unit.dimension().si_text())
+}
+
 /// Refuses an unknown unit, which would go into every text about the model: identification writes that of a force, or
 /// of what drives the axis (`A`, `V`, `1`).
 fn force_unit(model: &ModelFile, motion: Motion) -> Option<Fault> {
     let unit = &model.force_unit;
-    let plain = |c: char| c.is_alphanumeric() || " */^-·".contains(c);
-    let good = unit.trim() == unit
-        && unit.chars().all(plain)
-        && Unit::parse(unit)
-            .is_ok_and(|unit| unit.factor() == 1.0 && DRIVES.contains(&unit.dimension()));
-    (!good).then(|| {
+    drive(unit).is_none().then(|| {
         let short: String = unit.chars().take(60).collect();
         let force = crate::symbols::force_unit(motion);
         let allowed =

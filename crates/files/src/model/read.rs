@@ -79,11 +79,14 @@ impl ReadModel {
 
     /// Everything that is wrong, of the form and of the values, is said at once.
     fn checked(
-        model: ModelFile,
+        mut model: ModelFile,
         text: &[u8],
         places: Places,
         mut faults: Faults,
     ) -> Result<Self, Error> {
+        if let Some(unit) = fault::drive(&model.force_unit) {
+            model.force_unit = unit;
+        }
         let of_a_parameter = |key: &String| key.starts_with("parameter");
         let whole = !faults.unread.iter().any(of_a_parameter);
         for (key, found, allowed) in fault::faults(&model, whole) {

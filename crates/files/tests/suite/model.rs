@@ -433,3 +433,17 @@ fn terms_and_elements_are_refused_where_they_are_wrong() {
     }
     insta::assert_snapshot!(said);
 }
+
+/// A unit of torque is one however it is written, of the force and of the parameters.
+#[test]
+fn a_torque_is_written_in_any_way() {
+    let rotary = GOOD
+        .replace("kind = \"linear\"", "kind = \"rotary\"")
+        .replace("unit = \"N/m\"", "unit = \"N m/rad\"");
+    for unit in ["N*m", "N m", "Nm", "N·m"] {
+        let text = rotary.replace("unit = \"N\"", &format!("unit = \"{unit}\""));
+        assert_eq!(ModelFile::parse(&text).unwrap().force_unit, "N*m", "{unit}");
+    }
+    let wrong = rotary.replace("force_unit = \"N\"", "force_unit = \"kg m\"");
+    assert!(refusal(&wrong).contains("force_unit: \"kg m\"; \"N*m\""));
+}
