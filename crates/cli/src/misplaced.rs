@@ -3,9 +3,9 @@
 use crate::next::{after, in_turn};
 use crate::typed::Typed;
 use std::path::{Path, PathBuf};
-use stiction::commands::shell::{free_folder, quoted_path, text as path_text};
+use stiction::commands::shell::{cycle_option, free_folder, quoted_path, text as path_text};
 use stiction::commands::{FileError, Looks, looks, refuse_as_log};
-use stiction::{Axis, Error, ModelFile, Study};
+use stiction::{Axis, Error, Log, ModelFile, Study};
 
 /// What a command takes as its first file.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -47,10 +47,9 @@ pub fn next(takes: Takes, file: &Path) -> Option<String> {
     Some(match (takes, looks) {
         (Takes::Model, Looks::Log) => in_turn(
             &identified(),
-            &format!(
-                "stiction export {} --target c --out {}",
-                inside("model.toml"),
-                quoted_path(&free_folder(&dir.join("c")))
+            &export(
+                &dir.join("model.toml"),
+                Log::open(file).ok().map(|log| log.rate_hz()),
             ),
         ),
         (Takes::Study, Looks::Log) => in_turn(
@@ -162,11 +161,16 @@ fn followed(logs: &str, out: &Path) -> String {
 }
 
 fn exported(model: &Path) -> String {
-    format!(
-        "next: stiction export {} --target c --out {}",
-        quoted_path(model),
-        quoted_path(&free_folder(&model.with_file_name("c")))
-    )
+    let read = ModelFile::read(model).ok();
+    let rate = read.and_then(|model| model.source.rate_hz);
+    format!("next: {}", export(model, rate))
+}
+
+/// The command that writes a model as C, for a call at each sample of logs of this rate.
+fn export(model: &Path, rate_hz: Option<f64>) -> String {
+    let out = free_folder(&model.with_file_name("c"));
+    let (model, cycle, out) = (quoted_path(model), cycle_option(rate_hz), quoted_path(&out));
+    format!("stiction export {model} --target c{cycle} --out {out}")
 }
 
 /// What is wrong with the file of a command whose other arguments are missing, and what leads on from it.

@@ -3,11 +3,13 @@
 use crate::arguments::{Arguments, Identify, Target};
 use crate::misplaced;
 use crate::typed::Typed;
+use crate::usage::with_value;
+use clap::parser::ValueSource;
 use clap::{CommandFactory, ValueEnum};
 use std::path::{Path, PathBuf};
 use stiction::commands::batch::read_results;
 use stiction::commands::recording::Motion;
-use stiction::commands::shell::{free_folder, quoted, quoted_path, text as path_text};
+use stiction::commands::shell::{cycle_time, free_folder, quoted, quoted_path, text as path_text};
 use stiction::commands::{
     FileError, Looks, Remedy, check_apart, has_runs, is_regular, looks, sha256,
 };
@@ -472,6 +474,12 @@ fn incomplete_export() -> Option<(Option<Error>, String)> {
         Some(_) => return None,
     };
     let mut arguments = with(file, model);
+    let rate = ModelFile::read(model).ok().and_then(|m| m.source.rate_hz);
+    if export.value_source("cycle_time") != Some(ValueSource::CommandLine)
+        && let Some(rate) = rate
+    {
+        arguments.extend(["--cycle-time".to_string(), cycle_time(rate).to_string()]);
+    }
     let target: Option<&Target> = export.get_one("target");
     if target.is_none() {
         arguments.extend(["--target".to_string(), "c".to_string()]);

@@ -166,6 +166,7 @@ codes! {
     ExportDamping = "export-damping": "micro-damping is limited so that the compensator releases no energy",
     ExportAdaptation = "export-adaptation": "levels that follow the machine take other forces for friction",
     ExportCycleTime = "export-cycle-time": "the cycle time is too long to resolve a reversal",
+    ExportRate = "export-rate": "the code is for another cycle time than that of the log",
     ExportLimit = "export-limit": "the force limit is below the friction to compensate, or reached at speed",
     ExportName = "export-name": "the names in the code do not hold the whole name of the axis",
     ExportRatedForce = "export-rated-force": "the friction table exceeds the rated force",

@@ -109,6 +109,13 @@ pub struct ResultFile {
 }
 
 impl ResultFile {
+    /// Largest sample rate of its logs, Hz; `None` where it is not known.
+    pub fn rate_hz(&self) -> Option<f64> {
+        let rates = self.inputs.iter().map(|input| input.rate_hz);
+        let known = rates.filter(|rate| rate.is_finite() && *rate > 0.0);
+        known.reduce(f64::max)
+    }
+
     /// The searches that were made, in their order: for the steady curve, then for the rest.
     pub fn searches(&self) -> impl Iterator<Item = &SearchedEntry> {
         let curve = self.static_map.as_ref();

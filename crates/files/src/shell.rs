@@ -45,6 +45,20 @@ pub fn text(path: &Path) -> String {
     path.display().to_string()
 }
 
+/// The option that exports code for a call at each sample of logs of this rate, Hz, with a blank before it; empty where that is
+/// not known.
+pub fn cycle_option(rate_hz: Option<f64>) -> String {
+    let option = |rate| format!(" --cycle-time {}", cycle_time(rate));
+    rate_hz.map_or(String::new(), option)
+}
+
+/// The cycle time of that code, s: within what an export takes, and with four digits, as time stamps give more than a
+/// controller has.
+pub fn cycle_time(rate_hz: f64) -> f64 {
+    let seconds = (1.0 / rate_hz).clamp(1e-6, 0.1);
+    format!("{seconds:.3e}").parse().unwrap_or(seconds)
+}
+
 /// A path as a shell takes it.
 pub fn quoted_path(path: &Path) -> String {
     quoted(&text(path))

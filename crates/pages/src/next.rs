@@ -4,16 +4,14 @@ use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_files::result::{Cure, Next, ResultFile};
 pub use stiction_files::shell::axis_file;
-use stiction_files::shell::{free_folder, new_axis_file, plain, quoted, quoted_path, text};
+use stiction_files::shell::{
+    cycle_option, free_folder, new_axis_file, plain, quoted, quoted_path, text,
+};
 use stiction_identify::LawKind;
 use stiction_number::Percent;
 
 /// What a log that is still to be recorded is called in commands.
 pub(crate) const ANOTHER_LOG: &str = "another.csv";
-/// Rate of a compensator that is exported without a cycle of its own, Hz.
-const USUAL_RATE: f64 = 1000.0;
-/// Difference of two rates, as a part, up to which they are one.
-const SAME_RATE_WITHIN: f64 = 0.01;
 
 /// What the commands are for.
 pub fn why(next: Next) -> &'static str {
@@ -243,7 +241,7 @@ pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
         Next::Export => {
             let model = quoted_path(&dir.join("model.toml"));
             let code = quoted_path(&free_folder(&dir.join("c")));
-            let cycle = cycle(result);
+            let cycle = cycle_option(result.rate_hz());
             format!("stiction export {model} --target c{cycle} --out {code}")
         }
         Next::AnotherLaw => better(result, dir).map_or_else(
@@ -350,18 +348,6 @@ const PLANNED: [&str; 10] = [
     "cogging",
     "quadratic_viscous",
 ];
-
-/// The cycle of a controller as fast as the logs, where that is shorter than the usual one.
-fn cycle(result: &ResultFile) -> String {
-    let rate = result.inputs.iter().map(|i| i.rate_hz).fold(0.0, f64::max);
-    if rate.is_nan() || rate <= USUAL_RATE * (1.0 + SAME_RATE_WITHIN) {
-        return String::new();
-    }
-    // Time stamps give a rate with digits that no controller has.
-    let rounded = format!("{:.3e}", 1.0 / rate);
-    let seconds: f64 = rounded.parse().unwrap_or(1.0 / rate);
-    format!(" --cycle-time {seconds}")
-}
 
 /// The command that runs a study of the result in a folder.
 pub(crate) fn simulate(study: &Path, dir: &Path) -> String {

@@ -22,7 +22,7 @@ use stiction_friction::ParamError;
 use stiction_friction::compensator::{Adaptation, Compensator};
 
 use asked::within;
-use doubts::{doubts, less};
+use doubts::{another_rate, doubts, less};
 use law::{Unfit, bent, friction, quadratic};
 use settings::{asked, settings_of_law};
 
@@ -295,6 +295,11 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
     }
     let mut warnings = doubts(file, beside.as_ref(), &taken);
     warnings.extend(beside.as_ref().and_then(|b| wrapped::doubt(file, b)));
+    warnings.extend(
+        (!table)
+            .then(|| another_rate(file, options.cycle_time))
+            .flatten(),
+    );
     if options.adapt {
         // What a smaller gain guards against, levels that are wrong, is found; what it leaves would stay.
         settings.gain = options.gain.unwrap_or(1.0);

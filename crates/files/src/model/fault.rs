@@ -65,7 +65,7 @@ pub(super) fn faults(model: &ModelFile, whole: bool) -> Vec<Fault> {
     // Units of parameters are those of this kind of axis, with this unit of the force.
     let motion = motion.filter(|_| unit.is_none());
     all.extend(unit);
-    all.extend(top_speed(model));
+    all.extend(source(model));
     all.extend(range::cold(model));
     let before = all.len();
     for i in 0..model.parameter.len() {
@@ -231,16 +231,15 @@ fn against_itself(p: &ModelParameter) -> Option<(&'static str, String, &'static 
     ))
 }
 
-/// What is wrong with the top speed.
-fn top_speed(model: &ModelFile) -> Option<Fault> {
-    let speed = model.source.top_speed?;
-    let within = speed > 0.0 && speed <= LARGEST_NUMBER;
-    (!within).then(|| {
-        let found = stiction_number::shortest(speed);
-        (
-            "source.top_speed".into(),
-            found,
-            "above 0, or left out".into(),
-        )
+/// What is wrong with the numbers of the logs.
+fn source(model: &ModelFile) -> impl Iterator<Item = Fault> {
+    let numbers = [
+        ("source.top_speed", model.source.top_speed),
+        ("source.rate_hz", model.source.rate_hz),
+    ];
+    numbers.into_iter().filter_map(|(key, number)| {
+        let found = number.filter(|x| !(*x > 0.0 && *x <= LARGEST_NUMBER))?;
+        let found = stiction_number::shortest(found);
+        Some((key.into(), found, "above 0, or left out".into()))
     })
 }

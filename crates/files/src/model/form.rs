@@ -55,6 +55,9 @@ pub struct SourceEntry {
     /// Largest speed of the logs that were fitted, m/s or rad/s; absent where it is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub top_speed: Option<f64>,
+    /// Largest sample rate of the logs that were fitted, Hz; absent where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rate_hz: Option<f64>,
     /// Paths and hashes of the logs.
     pub inputs: Vec<SourceInput>,
 }
@@ -144,6 +147,7 @@ impl ModelFile {
                 method: result.method.clone(),
                 seed: result.seed,
                 top_speed: result.top_speed,
+                rate_hz: result.rate_hz(),
                 inputs: result
                     .inputs
                     .iter()

@@ -214,6 +214,7 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
             method: BY_HAND.into(),
             seed: 0,
             top_speed: None,
+            rate_hz: None,
             inputs: Vec::new(),
         }),
     });
@@ -311,6 +312,7 @@ fn source(table: &Table<'_>) -> Result<SourceEntry, Error> {
         )?,
         seed: table.required("seed", seed, "the seed of the search, such as 0")?,
         top_speed: table.get("top_speed").map(|x| number(&x)).transpose()?,
+        rate_hz: table.get("rate_hz").map(|x| number(&x)).transpose()?,
         inputs: each(&inputs, |table| {
             let input = SourceInput {
                 path: text(table, "path", "the path of a log")?,

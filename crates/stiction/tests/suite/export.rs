@@ -974,3 +974,58 @@ fn what_is_fed_forward_is_asked_for() {
         "{error}"
     );
 }
+
+/// However a model writes the unit of its torque, a simulated joint takes it.
+#[test]
+fn a_torque_is_a_torque_for_every_target() {
+    for unit in ["N*m", "N m", "Nm", "N·m"] {
+        let joint = [
+            ("sigma0", 1.2e5, "N m/rad"),
+            ("sigma1", 300.0, "N m s/rad"),
+            ("coulomb", 20.0, "N m"),
+            ("static", 30.0, "N m"),
+            ("stribeck_velocity", 5e-3, "rad/s"),
+            ("sigma2", 60.0, "N m s/rad"),
+        ];
+        let model = text("lugre", &joint)
+            .replace("kind = \"linear\"", "kind = \"rotary\"")
+            .replace("force_unit = \"N\"", &format!("force_unit = \"{unit}\""));
+        for target in [Target::Mujoco, Target::Urdf, Target::C] {
+            let bench = Bench::new();
+            let mut options = bench.options(&model);
+            options.target = target;
+            let exported = bench.export_to("out", &options).unwrap();
+            assert_eq!(exported.force_unit, "N m", "{unit}");
+        }
+    }
+}
+
+/// Code for a call at another rate than that of the log says so, but for a simulated joint, whose steps are no calls.
+#[test]
+fn another_cycle_than_that_of_the_log_is_said() {
+    let model = text("lugre", &LUGRE);
+    let at = |rate: &str| model.replace("seed = 0\n", &format!("seed = 0\nrate_hz = {rate}\n"));
+    let warned = |model: &str, target: Target, cycle: f64| {
+        let bench = Bench::new();
+        let mut options = bench.options(model);
+        (options.target, options.cycle_time) = (target, cycle);
+        let exported = bench.export_to("out", &options).unwrap();
+        let mut codes = exported.warnings.iter().map(|w| w.code.as_str());
+        codes.any(|code| code == "export-rate")
+    };
+    for (rate, cycle, differs) in [
+        ("500.0", 1e-3, true),
+        ("500.0", 2e-3, false),
+        ("999.7", 1e-3, false),
+        ("4000.2", 250e-6, false),
+        ("2.0", 0.1, false),
+    ] {
+        assert_eq!(
+            warned(&at(rate), Target::C, cycle),
+            differs,
+            "{rate} {cycle}"
+        );
+        assert!(!warned(&at(rate), Target::Mujoco, cycle));
+    }
+    assert!(!warned(&model, Target::C, 1e-3));
+}

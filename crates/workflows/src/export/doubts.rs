@@ -3,6 +3,7 @@
 use super::terms;
 use stiction_codes::Code;
 use stiction_files::model::Lowered;
+use stiction_files::shell::cycle_time;
 use stiction_files::{ModelFile, Warning};
 use stiction_parameters::{Name, Quantity};
 
@@ -11,6 +12,9 @@ const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
 
 /// Constant force in Coulomb levels from which on it may be a weight: what friction differs between directions is less.
 const WEIGHT: f64 = 0.5;
+
+/// Difference of two cycle times, as a part, up to which they are one.
+const SAME_WITHIN: f64 = 0.01;
 
 /// What should not be used, what the log leaves open, and what the code leaves out.
 pub(super) fn doubts(
@@ -57,6 +61,22 @@ pub(super) fn doubts(
     let lacking = beside.map_or(&[][..], |b| &b.lacking);
     found.extend(at_reference(file, taken, lacking));
     found
+}
+
+/// Says that the code is to be called at another rate than that of the log.
+pub(super) fn another_rate(file: &ModelFile, asked: f64) -> Option<Warning> {
+    let of_log = cycle_time(file.source.rate_hz?);
+    let is_same = (asked / of_log - 1.0).abs() <= SAME_WITHIN;
+    (!is_same).then(|| {
+        Warning::new(
+            Code::ExportRate,
+            format!(
+                "the code is for one call every {asked} s, and the log has one sample every {of_log} s: called at the rate of the log \
+                 its time runs {} times as fast. If the controller runs at that rate, export with --cycle-time {of_log}",
+                stiction_number::four_digits(asked / of_log)
+            ),
+        )
+    })
 }
 
 /// Says where a constant force as large as a weight is among the friction, which a watchdog switches off.
