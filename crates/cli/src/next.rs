@@ -421,20 +421,6 @@ pub fn begun(log: &Path) -> String {
     }
 }
 
-/// The command that was typed, with another value of an option.
-fn with_value(option: &str, value: &Path) -> Option<String> {
-    let words = std::env::args_os().skip(1);
-    let mut words: Vec<String> = words.map(|a| path_text(Path::new(&a))).collect();
-    let (name, joined) = (format!("--{option}"), format!("--{option}="));
-    let is_option = |word: &String| *word == name || word.starts_with(&joined);
-    let at = words.iter().position(is_option)?;
-    match words[at] == name {
-        true => *words.get_mut(at + 1)? = path_text(value),
-        false => words[at] = format!("{joined}{}", path_text(value)),
-    }
-    Some(stiction::commands::text::command(words.into_iter()))
-}
-
 /// What was typed, with another path in place of one.
 fn with(file: &Path, instead: &Path) -> Vec<String> {
     let arguments = std::env::args_os().skip(1);
@@ -504,7 +490,7 @@ pub fn another_folder(error: &Error) -> Option<String> {
         Remedy::Folder => return None,
         Remedy::AnotherFolder | Remedy::AnotherFolderOrForce => free_folder(out),
     };
-    let command = with_value("out", &free)?;
+    let command = with_value("out", &path_text(&free));
     (free != out).then(|| format!("next: {command}"))
 }
 
@@ -519,7 +505,8 @@ pub fn another_checkpoint(error: &Error, identify: &Identify) -> Option<String> 
     let mut name = identify.out.file_name()?.to_os_string();
     name.push(".checkpoint");
     let beside = identify.out.with_file_name(name);
-    Some(format!("next: {}", with_value("checkpoint", &beside)?))
+    let command = with_value("checkpoint", &path_text(&beside));
+    Some(format!("next: {command}"))
 }
 
 /// What leads on from a log that is given by two paths, or as two copies: the same command with one of them.

@@ -7,13 +7,11 @@ use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue};
 use std::path::{Path, PathBuf};
 use stiction::commands::shell::{free_folder, quoted_path, text as path_text};
-use stiction::commands::{FileError, Want, is_regular, sha256, text};
+use stiction::commands::{FileError, Setting, Want, is_regular, sha256, text};
 use stiction::{Code, Error};
 
 /// The shortest and the longest motion that is planned, s.
 const TIMES: [f64; 2] = [2.0, 600.0];
-/// A part of a log to validate on.
-const SPLIT: &str = "0.5";
 
 /// What leads on from options that a command refuses.
 pub fn next(error: &Error, command: &Command) -> Option<String> {
@@ -26,8 +24,14 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
         (Command::Plan(plan), Some(option)) => of_plan(plan, option, &message),
         (Command::Plan(plan), None) => of_known(plan, &message),
         (Command::Identify(_) | Command::Batch(_), Some("split")) => {
-            let words = replaced(|option, _| (option == "split").then(|| SPLIT.into()));
-            Some(format!("next: {}", pasted(words)))
+            let share = match error {
+                Error::Usage { allowed, .. } => allowed.value(Setting::Split),
+                _ => None,
+            };
+            match share {
+                None => without(&["split"]),
+                Some(share) => Some(format!("next: {}", with_value("split", share))),
+            }
         }
         (Command::Identify(identify), None) => match validated_on_itself(identify) {
             true => without(&["validate"]),
@@ -70,8 +74,7 @@ fn of_plan(plan: &arguments::Plan, option: &str, message: &str) -> Option<String
             // No number is above none.
             let time = plan.time.filter(|time| time.is_finite()).unwrap_or(most);
             let time = format!("{}s", time.clamp(least, most));
-            let words = replaced(|option, _| (option == "time").then(|| time.clone()));
-            Some(format!("next: {}", pasted(words)))
+            Some(format!("next: {}", with_value("time", &time)))
         }
         "want" => {
             // Elements have names of their own.
@@ -150,6 +153,11 @@ fn words() -> Vec<String> {
 
 fn pasted(words: Vec<String>) -> String {
     text::command(words.into_iter())
+}
+
+/// The command that was typed, with another value of an option.
+pub fn with_value(option: &str, value: &str) -> String {
+    pasted(replaced(|own, _| (own == option).then(|| value.into())))
 }
 
 /// What was typed, with another value for each option for which there is one, by its name and its value.

@@ -200,6 +200,14 @@ impl Wording {
         });
         parts.collect()
     }
+
+    /// The value that the words give an option.
+    pub fn value(&self, of: Setting) -> Option<&str> {
+        self.0.iter().find_map(|part| match part {
+            Part::Setting(setting, value) if *setting == of => value.as_deref(),
+            _ => None,
+        })
+    }
 }
 
 impl fmt::Display for Wording {

@@ -7,10 +7,15 @@ use stiction::commands::batch::{LogRow, ParameterRow, Results};
 
 /// A carriage of 10 kg with Coulomb friction of 20 N on a sine, positions in millimetres under a heading of this unit.
 fn log(file: &Path, unit: &str, samples: u32) {
+    log_at(file, unit, samples, 1000.0);
+}
+
+/// The same with this sample rate, Hz.
+fn log_at(file: &Path, unit: &str, samples: u32, rate: f64) {
     let mut text = format!("time [s],position [{unit}],force [N]\n");
     for k in 0..samples {
         let w = 2.0 * std::f64::consts::PI;
-        let t = f64::from(k) / 1000.0;
+        let t = f64::from(k) / rate;
         let (x, v) = (30.0 * (w * t).sin(), 0.03 * w * (w * t).cos());
         let noise = f64::from(k.wrapping_mul(2_654_435_761) >> 16) / 65_536.0 - 0.5;
         let force = 20.0 * (v / 1e-3).tanh() + 50.0 * v - 10.0 * w * w * 1e-3 * x + 0.2 * noise;
@@ -394,4 +399,69 @@ fn beside_an_estimated_offset_no_delay_is_a_constant() {
         !estimated.iter().any(|name| name == "delay"),
         "{estimated:?}"
     );
+}
+
+/// Every line that leads to an export has the cycle time of the log, and one without it is told what it is.
+#[test]
+fn exports_have_the_cycle_of_the_log() {
+    for (rate, option) in [
+        (500.0, "--cycle-time 0.002"),
+        (1000.0, "--cycle-time 0.001"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let at = folder.path();
+        log_at(&at.join("log.csv"), "mm", 4000, rate);
+        let (code, out, err) = run(at, "identify log.csv --law dahl --out result");
+        assert!(code <= 1, "{out}{err}");
+        let leads = next(&out);
+        assert!(leads.contains(option), "{leads}");
+        for misplaced in [
+            "identify result/model.toml --out out",
+            "export result/model.toml",
+            "export log.csv --target c --out out",
+        ] {
+            let (code, _, err) = run(at, misplaced);
+            assert_eq!(code, 2, "{err}");
+            let (_, line) = err.split_once("stiction export ").unwrap();
+            assert!(
+                line.lines().next().unwrap().contains(option),
+                "{misplaced}: {err}"
+            );
+        }
+        let (code, out, err) = run(at, &leads);
+        assert!(code <= 1, "{err}");
+        assert!(
+            !format!("{out}{err}").contains("[export-rate]"),
+            "{out}{err}"
+        );
+        let (code, out, err) = run(at, "export result/model.toml --target c --out plain");
+        assert!(code <= 1, "{err}");
+        let warned = format!("{out}{err}").contains("[export-rate]");
+        assert_eq!(warned, rate != 1000.0, "{out}{err}");
+    }
+}
+
+/// A split that leaves too few samples leads to one that leaves enough, or where there is none to the whole log.
+#[test]
+fn a_split_leads_to_one_that_works() {
+    for samples in [1500, 2500] {
+        let folder = tempfile::tempdir().unwrap();
+        let at = folder.path();
+        log(&at.join("log.csv"), "mm", samples);
+        let mut line = "identify log.csv --law maxwell-slip --split .1 --out out".to_string();
+        let mut codes = Vec::new();
+        for _ in 0..3 {
+            let (code, _, err) = run(at, &line);
+            codes.push(code);
+            if code <= 1 {
+                break;
+            }
+            assert_ne!(next(&err), line, "{err}");
+            line = next(&err);
+        }
+        assert!(
+            codes.len() > 1 && codes.last() <= Some(&1),
+            "{codes:?}: {line}"
+        );
+    }
 }

@@ -5,9 +5,11 @@ use crate::common::{Asked, Bench, both_ways, friction, noise, options};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
-use stiction::commands::{Outcome, check_folder};
+use stiction::commands::{Outcome, Setting, check_folder};
 use stiction::result::ResultFile;
-use stiction::{Axis, Control, LawKind, Method, ModelFile, Observer, Progress, Silent, Stage};
+use stiction::{
+    Axis, Control, Error, LawKind, Method, ModelFile, Observer, Progress, Silent, Stage,
+};
 
 fn run(options: &Asked) -> Result<Outcome, stiction::Error> {
     options.identify(&mut Silent)
@@ -546,6 +548,13 @@ fn validation_and_split() {
         let error = run(&split).unwrap_err();
         assert_eq!(error.code().as_str(), "usage");
         assert!(error.to_string().contains(left), "{error}");
+        // And the one that is named leaves enough of both.
+        let Error::Usage { allowed, .. } = error else {
+            panic!("{error}")
+        };
+        let share = allowed.value(Setting::Split).unwrap();
+        split.split = Some(share.parse().unwrap());
+        whole(&run(&split).unwrap());
     }
 }
 

@@ -21,27 +21,24 @@ pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
     let target = options.target.name();
     let simulated = options.target.is_simulated();
     let numbers = options.target == Target::DriveTable;
-    if numbers && (options.limit.is_some() || options.gain.is_some()) {
-        let what = if options.limit.is_some() {
-            "limit"
-        } else {
-            "gain"
-        };
+    let whole = [
+        (
+            "limit",
+            options.limit,
+            "the friction of a simulated joint is not limited",
+        ),
+        (
+            "gain",
+            options.gain,
+            "the friction of a simulated joint is the whole friction",
+        ),
+    ];
+    let mut given = whole.into_iter().filter(|(_, value, _)| value.is_some());
+    if let Some((what, _, of_joint)) = given.next().filter(|_| simulated || numbers) {
+        let of_drive = "it has the whole friction; write a share of the numbers into the drive, and let the drive limit its torque";
         return Err(Error::usage(
             format!("a {what} for the target {target}"),
-            "it has the whole friction; write a share of the numbers into the drive, and let the drive limit its torque",
-        ));
-    }
-    if options.limit.is_some() && simulated {
-        return Err(Error::usage(
-            format!("a limit for the target {target}"),
-            "the friction of a simulated joint is not limited",
-        ));
-    }
-    if options.gain.is_some() && simulated {
-        return Err(Error::usage(
-            format!("a gain for the target {target}"),
-            "the friction of a simulated joint is the whole friction",
+            if simulated { of_joint } else { of_drive },
         ));
     }
     let safety = &options.safety;

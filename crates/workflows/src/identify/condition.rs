@@ -6,7 +6,7 @@ use super::load::{Asked, Loaded, check_size, check_together};
 use super::logs::paths;
 use crate::error::Error;
 use crate::source::{Source, load_all};
-use crate::wording::Setting;
+use crate::wording::{Setting, Wording};
 use std::path::PathBuf;
 use stiction_codes::Code;
 use stiction_files::{Axis, symbols};
@@ -150,14 +150,38 @@ pub(crate) fn record_of(
     Ok((sources, record, terms))
 }
 
+/// Refuses what is no share of the samples.
+pub(super) fn check_share(part: f64) -> Result<(), Error> {
+    if part > 0.0 && part < 1.0 {
+        return Ok(());
+    }
+    let allowed = [
+        "a number between 0 and 1, such as ".into(),
+        Setting::Split.is(0.5),
+    ];
+    Err(Error::usage(Setting::Split.is(part), allowed))
+}
+
+/// What is allowed where one part of a split has fewer than `least` samples: the share in the middle of those that leave `needed`
+/// of the `usable` to fit and enough to validate on, where there are such shares.
+pub(super) fn enough(least: usize, (needed, usable): (usize, usize)) -> Wording {
+    let of = |samples: usize| samples as f64 / usable as f64;
+    let (low, high) = (of(needed), 1.0 - of(FEWEST_HELD_OUT_SAMPLES));
+    let share = (50.0 * (low + high)).round() / 100.0;
+    let wanted = format!("at least {least} of the {usable} usable ones");
+    match low < share && share < high {
+        true => [
+            format!("{wanted}, as with ").into(),
+            Setting::Split.is(share),
+        ]
+        .into(),
+        false => format!("{wanted}: this log is too short to be split").into(),
+    }
+}
+
 /// The part of a record that is fitted, and the rest.
 fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
-    if !(part > 0.0 && part < 1.0) {
-        return Err(Error::usage(
-            Setting::Split.is(part),
-            "a number between 0 and 1, such as 0.5",
-        ));
-    }
+    check_share(part)?;
     let at = first_of_rest(full, part);
     let rest = full.masked(|i| i >= at);
     if rest.kept() < FEWEST_HELD_OUT_SAMPLES {
@@ -166,10 +190,7 @@ fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
                 Setting::Split.is(part),
                 format!(" leaves {} to validate on", counted(rest.kept(), "sample")).into(),
             ],
-            format!(
-                "at least {FEWEST_HELD_OUT_SAMPLES} of the {} usable ones",
-                full.kept()
-            ),
+            enough(FEWEST_HELD_OUT_SAMPLES, (0, full.kept())),
         ));
     }
     Ok((full.masked(|i| i < at), rest))

@@ -1,7 +1,7 @@
 //! An identification from logs to outcome: load, condition, fit, judge.
 
 use super::assemble::{self, Parts};
-use super::condition::{Conditioned, condition};
+use super::condition::{Conditioned, condition, enough};
 use super::fit::fit;
 use super::judge::judge;
 use super::late::{aligned, doubted, realigned, unfiltered};
@@ -203,9 +203,7 @@ fn of_the_split(asked: Asked, conditioned: &Conditioned, error: Error) -> Error 
     match (asked.options.split, error.losses()) {
         (Some(part), Some((_, needed))) if usable >= needed => {
             let left = format!(" leaves {} to fit", counted(fitted, "sample"));
-            let allowed = format!(
-                "at least {needed} of the {usable} usable ones: a larger share, such as 0.5"
-            );
+            let allowed = enough(needed, (needed, usable));
             Error::usage([Setting::Split.is(part), left.into()], allowed)
         }
         _ => error,

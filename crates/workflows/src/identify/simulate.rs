@@ -1,7 +1,7 @@
 //! The output-error workflow: the axis simulated, its position fitted.
 
 use super::assemble::{self, Parts};
-use super::condition::settings;
+use super::condition::{check_share, settings};
 use super::conditioning::{self, conditioned};
 use super::disagree;
 use super::load::{Asked, Loaded};
@@ -248,12 +248,7 @@ fn recordings(sources: &[Source]) -> Result<Vec<Recording>, Error> {
 
 /// Shortens each recording to its first part and returns the remaining parts.
 fn split(recordings: &mut [Recording], part: f64) -> Result<Vec<Recording>, Error> {
-    if !(part > 0.0 && part < 1.0) {
-        return Err(Error::usage(
-            Setting::Split.is(part),
-            "a number between 0 and 1, such as 0.5",
-        ));
-    }
+    check_share(part)?;
     let rest = |r: &mut Recording| {
         let whole = r.samples.time.len();
         let at = (part * whole as f64) as usize;
