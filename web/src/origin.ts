@@ -4,7 +4,7 @@ import { get } from "./api";
 import { attempt, h } from "./dom";
 import { changedAt, entry, exists, hashOf, isOf, logsOf, nameOf, state } from "./state";
 
-export interface Origin { inputs: { path: string; sha256: string }[]; axis: { file?: string } }
+export interface Origin { inputs: { path: string; sha256: string; rate_hz?: number }[]; axis: { file?: string } }
 
 /** The result of a folder. */
 export async function readResult<T extends Origin>(folder: string): Promise<T> {
@@ -35,6 +35,14 @@ export async function whenceOf(file: string): Promise<(HTMLElement | null)[]> {
   if (own) return whence(own, folder);
   const found = entry(file);
   return found ? [h("p", { class: "muted" }, `${file}: ${found.of.length ? `of ${logsOf(found)}` : "of no log"}.`), ofAnother(file)] : [];
+}
+
+/** The largest sample rate of the logs that a model is of, Hz, where it is that of a result. */
+export async function rateOf(model: string): Promise<number | undefined> {
+  const folder = model.replace(/\/?[^/]*$/, "");
+  const own = exists(`${folder}/result.json`) ? await attempt(() => readResult(folder)) : undefined;
+  const rates = (own?.inputs ?? []).map((input) => input.rate_hz ?? 0).filter((rate) => rate > 0);
+  return rates.length ? Math.max(...rates) : undefined;
 }
 
 /** That something comes from other logs than the one that is chosen. */

@@ -4,7 +4,7 @@ import { get, open } from "../api";
 import { commandLine } from "../command";
 import { attempt, choice, field, h, put } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
-import { older, whenceOf } from "../origin";
+import { older, rateOf, whenceOf } from "../origin";
 import { changedAt, exists, files, fits, follow, labelled, onChange, state } from "../state";
 
 const WORDS: Record<string, string> = {
@@ -28,7 +28,9 @@ export class ExportView {
   private targets: { name: string; simulated: boolean }[] = [];
   private model = "";
   private target = "c";
-  private cycle = "0.001";
+  private cycle = "";
+  /** Time between two samples of the log that the model is of, s. */
+  private ofLog = 0.001;
   private gain = "";
   private limit = "";
   private rated = "";
@@ -79,7 +81,7 @@ export class ExportView {
   private asked() {
     const number = (text: string) => (text === "" ? null : Number(text));
     const { runs } = this;
-    return { kind: "export", model: this.model, target: this.target, cycle_time: Number(this.cycle), gain: number(this.gain), limit: number(this.limit), rated_force: number(this.rated), adapt: runs && this.adapt, beside: runs ? this.beside : [], out: this.out, force: this.replace };
+    return { kind: "export", model: this.model, target: this.target, cycle_time: number(this.cycle) ?? this.ofLog, gain: number(this.gain), limit: number(this.limit), rated_force: number(this.rated), adapt: runs && this.adapt, beside: runs ? this.beside : [], out: this.out, force: this.replace };
   }
 
   private drawForm(): void {
@@ -118,7 +120,7 @@ export class ExportView {
       this.form,
       model,
       field("Target", choice(this.targets.map((own): [string, string] => [own.name, WORDS[own.name] ?? own.name]), this.target, (value) => { this.target = value; this.drawForm(); })),
-      field("Time between two calls [s]", number(this.cycle, "0.001", (value) => { this.cycle = value; })),
+      field("Time between two calls [s]", number(this.cycle, String(this.ofLog), (value) => { this.cycle = value; })),
       simulated || this.target === "drive-table" ? null : field("Share that is compensated", number(this.gain, "0.75", (value) => { this.gain = value; }), "0 to 1; what is left keeps the loop calm"),
       simulated || this.target === "drive-table" ? null : field("Largest force", number(this.limit, "from the law", (value) => { this.limit = value; })),
       this.target === "tf5200" ? field("Rated force of the motor", number(this.rated, "", (value) => { this.rated = value; })) : null,
@@ -134,8 +136,13 @@ export class ExportView {
   /** What the model is of, where it is that of a result. */
   private async drawOrigin(): Promise<void> {
     const { model } = this;
-    const found = await whenceOf(model);
-    if (model === this.model) put(this.whence, ...found);
+    const [found, rate] = [await whenceOf(model), await rateOf(model)];
+    if (model !== this.model) return;
+    put(this.whence, ...found);
+    const ofLog = rate ? Number(Math.min(Math.max(1 / rate, 1e-6), 0.1).toPrecision(4)) : 0.001;
+    if (ofLog === this.ofLog) return;
+    this.ofLog = ofLog;
+    this.drawForm();
   }
 
   private drawFound(): void {
