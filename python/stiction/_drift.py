@@ -132,19 +132,20 @@ def _again(parts: Any) -> Drift:
     return Drift(_native.Drift.of_parts(parts))
 
 
-def drift(results: Any, *, limit: str | Iterable[str] = ()) -> Drift:
+def drift(results: Any, *, limit: str | Iterable[str] = (), times: str | None = None) -> Drift:
     """What changed on which machine: as `stiction drift RESULTS.parquet` (docs/fleet.md).
 
     results: table that `stiction batch` wrote, or the folder of tables that `stiction.fleet.run` wrote; such a table in memory, as
     a DataFrame of pandas or polars, an Arrow table or a dict of columns; or a list of rows of `stiction.fleet.identify_uri`.
     limit: levels that are alarms too, such as "coulomb > 1.3" for 1.3 times the first logs, or "coulomb > 25 N".
+    times: "names" for dates in the names of the logs, "files" for when they were written; else the times of the table.
     """
     limits = words(limit, "limit")
     if is_columns(results):
-        return Drift(_native.drift_of_columns(NAME, _columns(results), limits))
+        return Drift(_native.drift_of_columns(NAME, _columns(results), limits, times))
     if isinstance(results, Iterable) and not isinstance(results, (str, bytes)):
-        return Drift(_native.drift_of_rows(NAME, _rows(results), limits))
-    return Drift(_native.drift(path_of(results, NAME, WHAT), limits))
+        return Drift(_native.drift_of_rows(NAME, _rows(results), limits, times))
+    return Drift(_native.drift(path_of(results, NAME, WHAT), limits, times))
 
 
 def _columns(table: Any) -> list[tuple[str, list[Any]]]:

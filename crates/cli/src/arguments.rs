@@ -307,12 +307,23 @@ pub struct Drift {
     /// several times.
     #[arg(long, value_name = "LIMIT")]
     pub limit: Vec<String>,
+    /// Times of the logs, in place of those in the table.
+    #[arg(long, value_enum)]
+    pub times: Option<Times>,
     /// Folder for drift.json and report.html [default: nothing is written].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long, requires = "out")]
     pub force: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Times {
+    /// Dates in the names of the logs, or of the folders that they are in.
+    Names,
+    /// When the files were written.
+    Files,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

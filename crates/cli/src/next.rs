@@ -135,7 +135,7 @@ pub fn table_as_log(error: &Error) -> Option<String> {
     };
     let is_table = |file: &&Path| file.extension().is_some_and(|end| end == "parquet");
     let file = e.file.as_deref().filter(is_table)?;
-    stiction::commands::drift::drift(file, &[]).ok()?;
+    stiction::commands::drift::drift(file, &[], Default::default()).ok()?;
     Some(after(
         "it is a table that stiction batch writes:",
         &format!("stiction drift {}", quoted_path(file)),

@@ -68,6 +68,21 @@ impl Judged {
     }
 }
 
+/// A course of too few logs to follow, or whose noise is not known: the logs as they stand, each with its own interval.
+pub fn plain(course: &[Point]) -> Judged {
+    let median = |points: &[Point]| {
+        crate::robust::median(&mut points.iter().map(|p| p.value).collect::<Vec<f64>>())
+    };
+    Judged {
+        measure: Measure::Absolute,
+        reference: median(course),
+        corrected: course.iter().map(|p| p.value).collect(),
+        half: course.iter().map(|p| HALF * p.std).collect(),
+        last: median(&course[course.len().saturating_sub(WINDOWS[0])..]),
+        changes: Vec::new(),
+    }
+}
+
 /// Standard deviations of half a 95 % interval.
 const HALF: f64 = 1.959_963_984_540_054;
 
@@ -140,6 +155,9 @@ fn next_change(
         if let Some((over, window)) = worst {
             let (kind, since) = shape(&points[start..end], limits.reference);
             let since = start + since;
+            // Of a step within the reference only what comes before it is the level before it.
+            let begin = begin.min(since);
+            let before = level(start, begin);
             let recent = match kind {
                 Kind::Step => since.min(end - 3),
                 Kind::Creep => end - WINDOWS[0].min(end - since).max(3),
@@ -182,7 +200,8 @@ fn difference_error(
 }
 
 /// What a course that has changed looks like: two levels or a level and a line, whichever leaves less (sums of absolute
-/// deviations); and where the second begins, at the earliest after the first `reference` logs, which are taken for one level.
+/// deviations); and where the second begins: a line at the earliest after the first `reference` logs, which are taken for one
+/// level, a step after so many that their median is the level before it.
 fn shape(points: &[(f64, f64, f64)], reference: usize) -> (Kind, usize) {
     let all = points.len();
     let values: Vec<f64> = points.iter().map(|(_, value, _)| *value).collect();
@@ -191,7 +210,7 @@ fn shape(points: &[(f64, f64, f64)], reference: usize) -> (Kind, usize) {
         (from..to).map(|i| (values[i] - at(i)).abs()).sum()
     };
     let mut best = (f64::INFINITY, Kind::Step, all - 1);
-    let first = reference.min(all - 1);
+    let first = WINDOWS[0].min(all - 1);
     // A course of thousands of logs is looked at in some hundred places.
     let stride = ((all - first) / 256).max(1);
     for at in (first..all).step_by(stride) {
@@ -203,7 +222,7 @@ fn shape(points: &[(f64, f64, f64)], reference: usize) -> (Kind, usize) {
             best = (step, Kind::Step, at);
         }
         // A line from the level on, up to the median of its last third; one of three logs is no line.
-        if all - at < 2 * WINDOWS[0] {
+        if at < reference || all - at < 2 * WINDOWS[0] {
             continue;
         }
         let (from, span) = (points[at].0, points[all - 1].0 - points[at].0);

@@ -37,6 +37,6 @@ mod random;
 mod robust;
 
 pub use course::{Measure, Point};
-pub use judge::{Change, Judged, Kind, judge};
+pub use judge::{Change, Judged, Kind, judge, plain};
 pub use limits::{Limits, Settings, WINDOWS};
 pub use noise::Noise;

@@ -5,6 +5,7 @@
 //! overlap, of numbers that are not normal, against a reference that wanders too. So quiet machines are simulated with the noise
 //! that was found (a parametric bootstrap, Efron and Tibshirani 1993), and the limits are quantiles of what they do.
 
+use crate::course::Measure;
 use crate::noise::Noise;
 use crate::random::Random;
 use crate::robust::weighted_median;
@@ -94,6 +95,16 @@ impl Limits {
             of_window: of_window.map(|unit| unit * factor),
             reference,
         })
+    }
+
+    /// Whether changes of the size of the number itself would be found: one to double, or of a number that may be 0 one by all
+    /// that it usually is. Where not, that nothing was found tells nothing.
+    pub fn tell(&self, noise: &Noise) -> bool {
+        let most = match noise.measure {
+            Measure::Relative => std::f64::consts::LN_2,
+            Measure::Absolute => noise.level.abs(),
+        };
+        self.of_window[0] <= most
     }
 }
 

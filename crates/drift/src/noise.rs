@@ -5,6 +5,7 @@
 //! where the lag is longer than its memory.
 
 use crate::course::{Measure, Point};
+use crate::limits::WINDOWS;
 use crate::robust::{SCALE_OF_MAD, median, weighted_median};
 
 /// What a number does by itself; on the scale of its [`Measure`].
@@ -22,6 +23,10 @@ pub struct Noise {
     pub memory: f64,
     /// Time between two logs, s: the median.
     pub spacing: f64,
+    /// Part of the stated variances that repeats show, 0 to 1: what is off by the same in every log does not scatter.
+    pub(crate) stated: f64,
+    /// Median of all estimates.
+    pub(crate) level: f64,
     /// Deviations over their standard deviation, as they were found.
     pub(crate) shape: Vec<f64>,
     /// Standard deviations of the estimates, as they were found.
@@ -36,6 +41,9 @@ const MEMORIES: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
 const FEWEST: usize = 12;
 /// Variance at a lag, as a part of the largest, up to which it is none but for rounding.
 const NOTHING: f64 = 1e-20;
+/// Distance of two levels over the mean distance of logs from them, from which on a step lies between them: wandering, scatter
+/// with heavy tails or both, of any memory, hardly ever come to it.
+const CLEAR: f64 = 8.0;
 /// Most deviations that are kept as their shape.
 const MOST_SHAPES: usize = 8192;
 
@@ -46,17 +54,19 @@ impl Noise {
         let by_temperature = by_temperature(courses, measure);
         let courses: Vec<Vec<(f64, f64, f64)>> = courses
             .iter()
-            .map(|course| scaled(course, measure, by_temperature))
+            .map(|course| without_steps(scaled(course, measure, by_temperature)))
             .collect();
         let spacing = spacing(&courses)?;
+        let mut values: Vec<f64> = courses.iter().flatten().map(|p| p.1).collect();
         let mut squares: Vec<f64> = courses
             .iter()
             .flatten()
             .map(|(.., std)| std * std)
             .collect();
         let own = median(&mut squares);
-        let (white, wandering, memory) = variances(&courses, spacing)?;
-        let scatter = libm::sqrt((white - own).max(0.0));
+        let (white, wandering, memory, repeats) = variances(&courses, spacing)?;
+        let stated = if own > repeats { repeats / own } else { 1.0 };
+        let scatter = libm::sqrt((white - stated * own).max(0.0));
         // Few and short courses show little of a slow wandering; what they do not show is counted.
         let spans: f64 = courses.iter().map(|course| span(course)).sum();
         let seen = (spans / (2.0 * memory)).max(1.0);
@@ -68,6 +78,8 @@ impl Noise {
             wandering,
             memory,
             spacing,
+            stated,
+            level: median(&mut values),
             shape: Vec::new(),
             stds: Vec::new(),
         };
@@ -78,7 +90,7 @@ impl Noise {
     /// Variance of a log of that deviation beside the wandering.
     pub(crate) fn variance(&self, std: f64) -> f64 {
         // Of noise of exactly 0 every difference would be a change.
-        (std * std + self.scatter * self.scatter).max(f64::MIN_POSITIVE)
+        (self.stated * std * std + self.scatter * self.scatter).max(f64::MIN_POSITIVE)
     }
 
     /// Weight of a log of that deviation in a median: one that is well known does not count more than the wandering lets it.
@@ -91,10 +103,11 @@ impl Noise {
         let mut shape = Vec::new();
         let mut stds = Vec::new();
         for course in courses {
-            for at in 2..course.len().saturating_sub(2) {
-                let near = [at - 2, at - 1, at + 1, at + 2];
-                let middle = median(&mut near.map(|i| course[i].1));
-                let (_, value, std) = course[at];
+            for (at, &(_, value, std)) in course.iter().enumerate() {
+                // The four nearest others, fewer in the shortest courses.
+                let first = at.saturating_sub(2).min(course.len().saturating_sub(5));
+                let near = (first..course.len().min(first + 5)).filter(|i| *i != at);
+                let middle = median(&mut near.map(|i| course[i].1).collect::<Vec<f64>>());
                 shape.push((value - middle) / libm::sqrt(self.variance(std)));
                 stds.push(std);
             }
@@ -126,6 +139,45 @@ pub(crate) fn scaled(
         (point.time, value, measure.deviation(point))
     };
     course.iter().map(one).collect()
+}
+
+/// The course with its later part brought to the level of the earlier one at each step: what happens once tells nothing of what
+/// a number does by itself.
+fn without_steps(mut course: Vec<(f64, f64, f64)>) -> Vec<(f64, f64, f64)> {
+    // Each has to be found in what the others leave.
+    for _ in 0..course.len() / WINDOWS[0] {
+        let Some((at, size)) = step(&course) else {
+            break;
+        };
+        course[at..]
+            .iter_mut()
+            .for_each(|(_, value, _)| *value -= size);
+    }
+    course
+}
+
+/// Place and size of the clearest step of a course: medians before and after it that are [`CLEAR`] times further from each other
+/// than logs scatter about them.
+fn step(course: &[(f64, f64, f64)]) -> Option<(usize, f64)> {
+    let clear = |at: usize| {
+        let middle = |from: usize, to: usize| {
+            median(&mut course[from..to].iter().map(|p| p.1).collect::<Vec<f64>>())
+        };
+        let (from, to) = (
+            at.saturating_sub(WINDOWS[1]),
+            course.len().min(at + WINDOWS[1]),
+        );
+        let (before, after) = (middle(from, at), middle(at, to));
+        let off = |i: usize| (course[i].1 - if i < at { before } else { after }).abs();
+        // The mean, not the median: numbers that repeat exactly more often than not scatter all the same.
+        let scale = (from..to).map(off).sum::<f64>() / (to - from) as f64;
+        let size = after - before;
+        (size.abs() > CLEAR * scale).then_some((size.abs() / scale, at, size))
+    };
+    let last = course.len().saturating_sub(WINDOWS[0]);
+    let steps = (WINDOWS[0]..=last).filter_map(clear);
+    let clearest = steps.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some((clearest.1, clearest.2))
 }
 
 fn span(course: &[(f64, f64, f64)]) -> f64 {
@@ -168,9 +220,10 @@ fn by_temperature(courses: &[&[Point]], measure: Measure) -> Option<f64> {
 }
 
 /// Variance of what is new in each log, that of the wandering, and its memory: those whose variogram is nearest to that of the
-/// courses.
-fn variances(courses: &[Vec<(f64, f64, f64)>], spacing: f64) -> Option<(f64, f64, f64)> {
+/// courses; and an upper bound of the variance of repeats, from successive logs.
+fn variances(courses: &[Vec<(f64, f64, f64)>], spacing: f64) -> Option<(f64, f64, f64, f64)> {
     let mut seen = Vec::new();
+    let mut repeats = 0.0;
     for lag in LAGS {
         let pairs = courses
             .iter()
@@ -181,14 +234,19 @@ fn variances(courses: &[Vec<(f64, f64, f64)>], spacing: f64) -> Option<(f64, f64
             break;
         }
         let scale = SCALE_OF_MAD * median(&mut sizes);
-        seen.push((median(&mut times), 0.5 * scale * scale));
+        let variance = 0.5 * scale * scale;
+        if lag == 1 {
+            // Two deviations of a robust variance from that many normal differences above it.
+            repeats = variance * (1.0 + 2.0 * libm::sqrt(5.4 / sizes.len() as f64));
+        }
+        seen.push((median(&mut times), variance));
     }
     let largest = seen.iter().map(|(_, v)| *v).fold(0.0, f64::max);
     if seen.is_empty() {
         return None;
     }
     if largest == 0.0 {
-        return Some((0.0, 0.0, spacing));
+        return Some((0.0, 0.0, spacing, repeats));
     }
     seen.iter_mut().for_each(|(_, v)| *v /= largest);
     // A lag at which nothing differs, as in numbers that repeat, would outweigh all others. One that differs little does so rightly:
@@ -196,7 +254,7 @@ fn variances(courses: &[Vec<(f64, f64, f64)>], spacing: f64) -> Option<(f64, f64
     seen.retain(|(_, v)| *v > NOTHING);
     let fits = MEMORIES.map(|memory| fitted(&seen, memory * spacing));
     let best = fits.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some((largest * best.1, largest * best.2, best.3))
+    Some((largest * best.1, largest * best.2, best.3, repeats))
 }
 
 /// Error, variance of what is new, variance of the wandering for a memory: least squares of the relative error, neither below 0.

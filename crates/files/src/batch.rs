@@ -18,7 +18,7 @@ pub use read::{read_results, read_results_while, rows_while};
 pub use row::{LogRow, ParameterRow};
 pub use summary::{BatchFile, Failure, Named, SCHEMA};
 pub use table::{COLUMNS, Results};
-pub use time::{date_of, seconds_of};
+pub use time::{date_of, seconds_in_name, seconds_of, seconds_of_file};
 
 /// Name of the table in the folder of a batch.
 pub const RESULTS: &str = "results.parquet";

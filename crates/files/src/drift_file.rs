@@ -23,12 +23,18 @@ pub struct DriftFile {
     pub reference_logs: usize,
     /// Whether logs are in the order of their times; else they are in that of the table, a day from each to the next.
     pub timed: bool,
+    /// Where logs without a time have one: `names`, dates in their names; `files`, when they were written.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub times: Vec<String>,
     /// Machines.
     pub machines: usize,
     /// Machines with too few logs for all of their parameters.
     pub too_short: usize,
     /// What each parameter does by itself.
     pub noise: Vec<NoiseEntry>,
+    /// Parameters of which it cannot be told whether they changed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unclear: Vec<Unclear>,
     /// What changed, and what is beyond a limit; the largest over its limit first.
     pub alarms: Vec<Alarm>,
     /// Parameters that logs with one axis file have more than a hundred times apart: a unit of one of them is probably wrong.
@@ -77,6 +83,19 @@ pub struct NoiseEntry {
     pub by_temperature: Option<f64>,
     /// Deviations of the medians of 5, 10 and 20 logs from which on it has changed.
     pub limits: Vec<f64>,
+}
+
+/// A parameter of which it cannot be told whether it changed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Unclear {
+    /// Name.
+    pub parameter: String,
+    /// Law that it is of.
+    pub law: String,
+    /// Most logs of a machine that determine it.
+    pub logs: usize,
+    /// Whether these are too few; else they scatter so much that a change to double or half would not be seen.
+    pub too_few: bool,
 }
 
 /// A change, or a level beyond a limit.

@@ -10,7 +10,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use stiction::commands::batch::{self, Cells, LogRow, rows_while};
 use stiction::commands::drift::{
-    DriftOutcome, Limit, SCHEMA, Shown, drift_of_rows_while, drift_while,
+    DriftOutcome, Limit, SCHEMA, Shown, Times, drift_of_rows_while, drift_while,
 };
 use stiction::commands::{Bundle, text};
 use stiction::{Error, bundle};
@@ -187,9 +187,19 @@ fn followed(
 
 /// What changed in a table, or in a folder of tables.
 #[pyfunction]
-pub fn drift(py: Python<'_>, table: PathBuf, limit: Vec<String>) -> PyResult<Drift> {
+pub fn drift(
+    py: Python<'_>,
+    table: PathBuf,
+    limit: Vec<String>,
+    times: Option<String>,
+) -> PyResult<Drift> {
     followed(py, Some(table.clone()), |watch| {
-        drift_while(&table, &limits(&limit)?, || watch.goes_on())
+        drift_while(
+            &table,
+            &limits(&limit)?,
+            Times::read(times.as_deref())?,
+            || watch.goes_on(),
+        )
     })
 }
 
@@ -224,6 +234,7 @@ pub fn drift_of_columns(
     name: String,
     columns: Vec<(String, Bound<'_, PyAny>)>,
     limit: Vec<String>,
+    times: Option<String>,
 ) -> PyResult<Drift> {
     let taken = |(name, cells): (String, Bound<'_, PyAny>)| {
         py.check_signals()?;
@@ -242,7 +253,13 @@ pub fn drift_of_columns(
         if !rows_while(Path::new(&name), &columns, || watch.goes_on(), take)? {
             return Ok(None);
         }
-        drift_of_rows_while(&name, rows, &limits(&limit)?, || watch.goes_on())
+        drift_of_rows_while(
+            &name,
+            rows,
+            &limits(&limit)?,
+            Times::read(times.as_deref())?,
+            || watch.goes_on(),
+        )
     })
 }
 
@@ -253,6 +270,7 @@ pub fn drift_of_rows(
     name: String,
     rows: Vec<String>,
     limit: Vec<String>,
+    times: Option<String>,
 ) -> PyResult<Drift> {
     let read = |(k, row): (usize, &String)| {
         py.check_signals()?;
@@ -268,6 +286,12 @@ pub fn drift_of_rows(
     let rows: PyResult<Vec<LogRow>> = rows.iter().enumerate().map(read).collect();
     let rows = rows?;
     followed(py, None, |watch| {
-        drift_of_rows_while(&name, rows, &limits(&limit)?, || watch.goes_on())
+        drift_of_rows_while(
+            &name,
+            rows,
+            &limits(&limit)?,
+            Times::read(times.as_deref())?,
+            || watch.goes_on(),
+        )
     })
 }

@@ -15,7 +15,7 @@ pub mod batch {
 pub mod drift {
     pub use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA};
     pub use stiction_workflows::drift::{
-        DriftOutcome, Limit, Shown, drift, drift_of_rows, drift_of_rows_while, drift_while,
+        DriftOutcome, Limit, Shown, Times, drift, drift_of_rows_while, drift_while,
     };
 }
 

@@ -5,7 +5,5 @@ mod courses;
 mod run;
 
 pub use asked::{Limit, Side};
-pub use courses::Followed;
-pub use run::{
-    DriftOutcome, Shown, drift, drift_of_rows, drift_of_rows_while, drift_while, least_logs,
-};
+pub use courses::{Followed, Times};
+pub use run::{DriftOutcome, Shown, drift, drift_of_rows_while, drift_while, least_logs};

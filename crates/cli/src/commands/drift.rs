@@ -5,7 +5,7 @@ use crate::arguments::{self, Common};
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;
-use stiction::commands::drift::{Limit, SCHEMA, drift};
+use stiction::commands::drift::{Limit, SCHEMA, Times, drift};
 use stiction::commands::{check_folder_of, check_inputs};
 use stiction::{Error, bundle};
 
@@ -18,7 +18,12 @@ pub fn run(typed: &arguments::Drift, common: &Common) -> Result<Exit, Error> {
     let limits: Result<Vec<Limit>, Error> =
         typed.limit.iter().map(|text| Limit::read(text)).collect();
     interrupt::nothing_to_keep();
-    let outcome = drift(&typed.results, &limits?)?;
+    let times = match typed.times {
+        None => Times::Table,
+        Some(arguments::Times::Names) => Times::Names,
+        Some(arguments::Times::Files) => Times::Files,
+    };
+    let outcome = drift(&typed.results, &limits?, times)?;
     let written = match &typed.out {
         None => String::new(),
         Some(dir) => {

@@ -210,3 +210,122 @@ fn a_table_that_lies_there_twice_counts_once() {
     };
     assert_eq!(alarms(&once), alarms(&twice));
 }
+
+/// Twenty logs of one machine without times, which repeat to .2 % and whose intervals are ten times as wide.
+fn alone(folder: &Path, name: &dyn Fn(u32) -> String, value: &dyn Fn(u32) -> f64) {
+    let mut out = Results::begin(&folder.join("results.parquet")).unwrap();
+    for k in 0..20 {
+        let level = value(k) * (1.0 + 1e-3 * [0.0, 2.0, -1.5, 1.0, -2.5][k as usize * 3 % 5]);
+        let row = LogRow {
+            path: name(k),
+            machine: Some("M".into()),
+            law: Some("lugre".into()),
+            key: k.to_string(),
+            parameters: vec![ParameterRow {
+                std: Some(0.02 * level),
+                low: Some(level * (1.0 - 0.0392)),
+                high: Some(level * (1.0 + 0.0392)),
+                ..coulomb(level)
+            }],
+            ..LogRow::default()
+        };
+        out.add(&row).unwrap();
+    }
+    out.end().unwrap();
+}
+
+/// A step of one machine stands out of its own repeats, however wide intervals are, and what is quiet is drawn as well.
+#[test]
+fn one_machine_is_held_against_its_own_repeats() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let json = |text: &str| serde_json::from_str::<serde_json::Value>(text).unwrap();
+    let name = |k: u32| format!("log_{k:02}.csv");
+    alone(at, &name, &|k| if k < 12 { 20.0 } else { 25.0 });
+    let (code, out, _) = run(
+        at,
+        &["drift", "results.parquet", "--out", "drift", "--json"],
+    );
+    let found = json(&out);
+    let [alarm] = &found["alarms"].as_array().unwrap()[..] else {
+        panic!("{out}");
+    };
+    assert_eq!(
+        (code, &alarm["kind"], &alarm["since"]),
+        (1, &"step".into(), &(13.0 * 86_400.0).into())
+    );
+    let size = alarm["size"].as_f64().unwrap();
+    assert!(
+        (size - 0.25).abs() < 0.01 && found.get("unclear").is_none(),
+        "{out}"
+    );
+    alone(at, &name, &|_| 20.0);
+    let (code, out, _) = run(at, &["drift", "results.parquet", "--out", "quiet"]);
+    assert_eq!(code, 0);
+    assert!(out.contains("\nnothing changed\n"), "{out}");
+    for folder in ["drift", "quiet"] {
+        let report = std::fs::read_to_string(at.join(folder).join("report.html")).unwrap();
+        assert!(
+            report.contains("coulomb of M (lugre)") && report.contains("<svg"),
+            "{folder}"
+        );
+    }
+    // Of logs that scatter by as much as the parameter itself nothing can be told.
+    alone(at, &name, &|k| 20.0 * f64::from(2u32.pow(k * 7 % 5)));
+    let (code, out, _) = run(at, &["drift", "results.parquet"]);
+    assert_eq!(code, 0);
+    assert!(
+        out.contains("cannot tell") && !out.contains("nothing changed"),
+        "{out}"
+    );
+}
+
+/// Logs without a time may have dates in their names, or files that were written at different times.
+#[test]
+fn times_of_names_and_files_are_offered_and_taken() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = folder.path();
+    let step = |k: u32| if k < 10 { 20.0 } else { 25.0 };
+    // Every third day, in the table from the last to the first.
+    alone(at, &|k| format!("axis_202603{:02}.csv", 30 - k), &|k| {
+        step(19 - k)
+    });
+    let (_, out, _) = run(at, &["drift", "results.parquet", "--json"]);
+    let found: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(
+        (&found["timed"], &found["times"]),
+        (&false.into(), &serde_json::json!(["names"]))
+    );
+    let (code, out, _) = run(at, &["drift", "results.parquet", "--times", "names"]);
+    assert_eq!(code, 1);
+    assert!(
+        out.contains("2026-03-21 00:00") && out.contains('+'),
+        "{out}"
+    );
+    let (code, _, err) = run(at, &["drift", "results.parquet", "--times", "files"]);
+    assert_eq!(code, 2);
+    assert!(
+        err.contains("axis_20260330.csv: there is no such file"),
+        "{err}"
+    );
+    // Files with other times than their names have dates.
+    alone(at, &|k| format!("{k}.csv"), &|_| 20.0);
+    for k in 0..20u64 {
+        let file = std::fs::File::create(at.join(format!("{k}.csv"))).unwrap();
+        let time =
+            std::time::UNIX_EPOCH + std::time::Duration::from_secs(1_772_323_200 + 86_400 * k);
+        file.set_modified(time).unwrap();
+    }
+    let (code, out, _) = run(at, &["drift", "results.parquet"]);
+    assert_eq!(code, 0);
+    assert!(
+        out.ends_with("next: stiction drift results.parquet --times files --out drift\n"),
+        "{out}"
+    );
+    let (code, out, _) = run(
+        at,
+        &["drift", "results.parquet", "--times", "files", "--json"],
+    );
+    let found: serde_json::Value = serde_json::from_str(&out).unwrap();
+    assert_eq!((code, &found["timed"]), (0, &true.into()), "{out}");
+}

@@ -190,3 +190,95 @@ fn a_step_of_a_quiet_machine_is_found_however_large() {
         }
     }
 }
+
+/// Logs of one machine in which nothing but that happens: a log a day, scatter of .2 %, deviations as they are stated.
+fn alone(logs: u32, stated: f64, dice: &mut Dice, changed: &dyn Fn(u32) -> f64) -> Vec<Point> {
+    let mut point = |k: u32| {
+        let value = 20.0 * (1.0 + changed(k)) * (1.0 + 2e-3 * dice.normal());
+        Point {
+            time: DAY * f64::from(k),
+            value,
+            std: stated * value,
+            temperature: None,
+        }
+    };
+    (0..logs).map(&mut point).collect()
+}
+
+/// The scatter of one machine is that of its repeats, however wide the intervals of its logs are, and a step is none of it.
+#[test]
+fn a_step_of_one_machine_stands_out_of_its_repeats() {
+    for stated in [0.0, 2e-3, 0.01, 0.02, 0.05] {
+        for at in 5..=15 {
+            let mut dice = Dice::new(11 + u64::from(at));
+            let step = |k: u32| if k < at { 0.0 } else { 0.25 };
+            let course = alone(20, stated, &mut dice, &step);
+            let noise = Noise::of(&[&course]).unwrap();
+            let limits = Limits::of(&noise, 4, &Settings::default());
+            let judged = judge(&course, &noise, &limits).unwrap();
+            let [change] = judged.changes[..] else {
+                panic!("{stated} {at}: {:?} of {limits:?}", judged.changes);
+            };
+            assert_eq!(
+                (change.since, change.kind),
+                (at as usize, Kind::Step),
+                "{stated}"
+            );
+            assert!(
+                change.low < 0.25 && 0.25 < change.high,
+                "{stated} {at}: {change:?}"
+            );
+            assert!(change.high - change.low < 0.1, "{stated} {at}: {change:?}");
+            assert!(
+                limits.tell(&noise) && limits.of_window[0] < 0.1,
+                "{limits:?}"
+            );
+        }
+    }
+}
+
+/// Of one machine in which nothing changes no more are alarmed than of a fleet, whatever the intervals say and the scatter is like.
+#[test]
+fn machines_alone_in_which_nothing_changes_are_seldom_alarmed() {
+    let (mut alarmed, mut all) = (0, 0);
+    for logs in [15, 20, 40] {
+        for (memory, slow) in [(1.0, 0.0), (3.0, 1.0), (10.0, 1.0), (30.0, 2.0)] {
+            for seed in 0..20 {
+                let mut dice = Dice::new(1_000 * seed + u64::from(logs));
+                let mut state = slow * dice.normal();
+                let stays = libm::exp(-1.0 / memory);
+                let wandering: Vec<f64> = (0..logs)
+                    .map(|_| {
+                        let now = state;
+                        let new = slow * libm::sqrt(1.0 - stays * stays);
+                        state = stays * state + new * dice.normal();
+                        2e-3 * (now
+                            + if seed % 2 == 0 {
+                                0.0
+                            } else {
+                                0.5 * dice.heavy()
+                            })
+                    })
+                    .collect();
+                let stated = [0.0, 1e-3, 0.01][seed as usize % 3];
+                let course = alone(logs, stated, &mut dice, &|k| wandering[k as usize]);
+                let noise = Noise::of(&[&course]).unwrap();
+                let limits = Limits::of(&noise, 4, &Settings::default());
+                let judged = judge(&course, &noise, &limits).unwrap();
+                alarmed += u32::from(!judged.changes.is_empty());
+                all += 1;
+            }
+        }
+    }
+    assert!(20 * alarmed <= all, "{alarmed} of {all}");
+}
+
+/// Of logs that scatter by as much as the number itself nothing can be told.
+#[test]
+fn logs_that_scatter_widely_tell_nothing() {
+    let mut dice = Dice::new(5);
+    let wide: Vec<f64> = (0..20).map(|_| libm::exp(dice.normal()) - 1.0).collect();
+    let course = alone(20, 0.01, &mut dice, &|k| wide[k as usize]);
+    let noise = Noise::of(&[&course]).unwrap();
+    assert!(!Limits::of(&noise, 1, &Settings::default()).tell(&noise));
+}

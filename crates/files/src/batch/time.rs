@@ -19,6 +19,59 @@ pub fn seconds_of(text: &str) -> Option<f64> {
     Some(86_400.0 * days as f64 + clock_of(clock)? - offset)
 }
 
+/// Seconds of the date in the name of a file or, where there is none, of the folders above it, the nearest first: year, month and
+/// day in this order, with or without time of day behind them, as `2026-03-01`, `20260301`, `2026_03_01_06_30`,
+/// `20260301T063015`, in UTC.
+pub fn seconds_in_name(path: &str) -> Option<f64> {
+    path.split(['/', '\\']).rev().find_map(|name| {
+        let starts = name.char_indices().map(|(at, _)| at);
+        let mut whole = starts.filter(|at| *at == 0 || !name.as_bytes()[at - 1].is_ascii_digit());
+        whole.find_map(|at| dated(&name[at..]))
+    })
+}
+
+/// Seconds of a date with which a text begins; digits that go on are a number of something else.
+fn dated(text: &str) -> Option<f64> {
+    let (date, rest) = groups(text, &[4, 2, 2])?;
+    let days = days_of(&date.join("-")).filter(|days| YEARS.contains(days))?;
+    let clock = |counts| {
+        let (clock, rest) = groups(rest, counts)?;
+        clock_of(&clock.join(":")).filter(|_| !begins_with_digit(rest))
+    };
+    let clock = clock(&[2, 2, 2]).or_else(|| clock(&[2, 2]));
+    let clock = clock.or_else(|| (!begins_with_digit(rest)).then_some(0.0))?;
+    Some(86_400.0 * days as f64 + clock)
+}
+
+/// Days from 1970 to 2199: other numbers of eight digits are no dates of a log.
+const YEARS: std::ops::Range<i64> = 0..84_006;
+
+fn begins_with_digit(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit())
+}
+
+/// The groups of so many digits with which a text begins, each behind a mark or none, and what follows them.
+fn groups<'a>(text: &'a str, counts: &[usize]) -> Option<(Vec<&'a str>, &'a str)> {
+    let mut rest = text;
+    let mut next = |count: &usize| {
+        let plain = rest
+            .strip_prefix(|c| "-_.: Tth".contains(c))
+            .unwrap_or(rest);
+        let (found, behind) = plain.split_at_checked(*count)?;
+        rest = behind;
+        digits(found, *count).map(|_| found)
+    };
+    let found: Option<Vec<&str>> = counts.iter().map(&mut next).collect();
+    Some((found?, rest))
+}
+
+/// When a file was changed last, seconds since 1970; `None` of one that is not there.
+pub fn seconds_of_file(path: &std::path::Path) -> Option<f64> {
+    let changed = path.metadata().and_then(|file| file.modified()).ok()?;
+    let since = changed.duration_since(std::time::UNIX_EPOCH).ok()?;
+    Some(since.as_secs_f64())
+}
+
 /// A number of that many digits.
 fn digits(text: &str, count: usize) -> Option<u32> {
     let all = text.len() == count && text.bytes().all(|b| b.is_ascii_digit());
@@ -162,6 +215,31 @@ mod tests {
         }
     }
 
+    #[test]
+    fn names_hold_dates_with_and_without_a_time_of_day() {
+        let of = |text: &str| seconds_of(text).unwrap();
+        for (name, time) in [
+            ("logs/2026-03-01.csv", "2026-03-01"),
+            ("axis3_20260301.csv", "2026-03-01"),
+            ("axis3_20260301_0630.csv", "2026-03-01T06:30"),
+            ("run 2026-03-01T06-30-15 x.mcap", "2026-03-01T06:30:15"),
+            ("20260301T063015Z.csv", "2026-03-01T06:30:15"),
+            ("logs/2026_03_01/run_7.csv", "2026-03-01"),
+            ("2026-03-01/log-2026-03-02-12.csv", "2026-03-02"),
+        ] {
+            assert_eq!(seconds_in_name(name), Some(of(time)), "{name}");
+        }
+        for name in [
+            "run7.csv",
+            "20261301.csv",
+            "12026030100.csv",
+            "10001212.csv",
+            "2026-03.csv",
+        ] {
+            assert_eq!(seconds_in_name(name), None, "{name}");
+        }
+    }
+
     proptest! {
         /// A date that is written is read as the same minute.
         #[test]
@@ -173,6 +251,7 @@ mod tests {
         #[test]
         fn any_text_is_taken_without_a_fault(text in "\\PC{0,24}", date in "[0-9TZ:+., -]{0,28}") {
             let _ = (seconds_of(&text), seconds_of(&date));
+            let _ = (seconds_in_name(&text), seconds_in_name(&date));
         }
 
         /// Days follow each other without a gap over 400 years, the period of the calendar.

@@ -1,7 +1,7 @@
 //! The report of friction over time: what changed, and the course of each parameter that did.
 
 use crate::apart::apart;
-use crate::drift::{DAY, few, level, noise_of, size, times, unnamed};
+use crate::drift::{DAY, few, noise_of, quiet, row, unclear, unnamed, untimed};
 use stiction_files::drift_file::{Alarm, DriftFile};
 use stiction_number::counted;
 use stiction_report::{Align, Axis, Color, Dash, Document, Figure, Layer, Panel, Table};
@@ -25,21 +25,19 @@ pub fn drift(outcome: &DriftOutcome) -> Document {
         ))
         .footer(format!("stiction {} · {}", file.version, file.input.path));
     let said = match file.alarmed_machines() {
-        0 if file.noise.is_empty() => "There are too few logs to follow anything.".to_string(),
-        0 => "Nothing changed.".into(),
+        0 => sentence(&quiet(file)),
         machines => format!(
             "{machines} of {} changed.",
             counted(file.machines, "machine")
         ),
     };
     document = document.paragraph(said);
-    if !file.timed {
-        document = document.paragraph(
-            "Not every log has a time: they are taken in the order of the table, a day from each to the next.",
-        );
-    }
-    if file.input.unnamed > 0 {
-        document = document.paragraph(format!("{}.", unnamed(file)));
+    let unnamed = (file.input.unnamed > 0).then(|| unnamed(file));
+    for said in [unclear(file), untimed(file), unnamed]
+        .into_iter()
+        .flatten()
+    {
+        document = document.paragraph(sentence(&said));
     }
     for line in apart(&file.apart).lines() {
         document = document.paragraph(line.to_string());
@@ -51,6 +49,16 @@ pub fn drift(outcome: &DriftOutcome) -> Document {
         document = document.heading(2, "What changed").block(alarms(file));
     }
     for shown in outcome.shown.iter().take(MOST) {
+        document = document.block(course(file, shown));
+    }
+    let quiet = outcome
+        .quiet
+        .iter()
+        .take(MOST.saturating_sub(outcome.shown.len()));
+    if quiet.len() > 0 {
+        document = document.heading(2, "What did not, or not surely");
+    }
+    for shown in quiet {
         document = document.block(course(file, shown));
     }
     if outcome.shown.len() > MOST {
@@ -70,6 +78,13 @@ pub fn drift(outcome: &DriftOutcome) -> Document {
         .block(noise(file))
 }
 
+/// A line of the terminal as a sentence.
+fn sentence(line: &str) -> String {
+    let mut letters = line.chars();
+    let first = letters.next().into_iter().flat_map(char::to_uppercase);
+    format!("{}.", first.chain(letters).collect::<String>())
+}
+
 fn alarms(file: &DriftFile) -> Table {
     let mut table = Table::new([
         ("Machine", Align::Left),
@@ -83,21 +98,7 @@ fn alarms(file: &DriftFile) -> Table {
         ("95 % interval", Align::Right),
     ]);
     for alarm in &file.alarms {
-        let [since, found] = times(file, alarm);
-        let interval = alarm.ci95.map_or(String::new(), |[low, high]| {
-            format!("{} … {}", size(low, alarm), size(high, alarm))
-        });
-        table = table.row([
-            alarm.machine.clone(),
-            alarm.parameter.clone(),
-            alarm.limit.clone().unwrap_or_else(|| alarm.kind.clone()),
-            since,
-            found,
-            level(alarm.before, &alarm.unit),
-            level(alarm.after, &alarm.unit),
-            size(alarm.size, alarm),
-            interval,
-        ]);
+        table = table.row(row(file, alarm));
     }
     table
 }
@@ -169,6 +170,26 @@ fn course(file: &DriftFile, shown: &Shown) -> Figure {
         let found = Layer::vline(days(alarm.found))
             .color(Color::Vermilion)
             .dash(Dash::Dotted);
+        // From there to the next change, or the end.
+        let next = file
+            .alarms
+            .iter()
+            .filter(own)
+            .map(|a| a.since)
+            .filter(|t| *t > alarm.since);
+        let last = points.last().map_or(first, |point| point.time);
+        let x = vec![days(alarm.since), days(next.fold(last, f64::min))];
+        let at = |size: f64| match alarm.relative {
+            true => alarm.before * (1.0 + size),
+            false => alarm.before + size,
+        };
+        if let Some([low, high]) = alarm.ci95 {
+            let band = Layer::band(x.clone(), vec![at(low); 2], vec![at(high); 2]);
+            let level = Layer::line(x, vec![alarm.after; 2]).color(Color::Vermilion);
+            panel = panel
+                .layer(band.color(Color::Vermilion).opacity(0.2))
+                .layer(level);
+        }
         panel = match k {
             0 => panel
                 .layer(since.label("Since"))

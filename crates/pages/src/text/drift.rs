@@ -2,13 +2,13 @@
 
 use super::table::table;
 use crate::apart::{apart, look};
-use crate::drift::{few, level, noise_of, size, times, unnamed};
+use crate::drift::{few, noise_of, quiet, row, unclear, unnamed, untimed};
 use crate::more_logs::more_logs;
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::drift_file::{Alarm, DriftFile};
+use stiction_files::drift_file::DriftFile;
 use stiction_files::shell::{quoted, quoted_path, shown};
-use stiction_number::{counted, four_digits as short};
+use stiction_number::counted;
 use stiction_workflows::batch::batch_of;
 use stiction_workflows::drift::least_logs;
 
@@ -29,8 +29,8 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
         counted(file.input.logs, "log"),
         counted(file.machines, "machine")
     );
-    if !file.timed {
-        text.push_str("not every log has a time: they are taken in the order of the table, a day from each to the next\n");
+    if let Some(said) = untimed(file) {
+        let _ = writeln!(text, "{said}");
     }
     if file.input.unnamed > 0 {
         let _ = writeln!(text, "{}", unnamed(file));
@@ -41,7 +41,7 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
             "{} of them {} fewer than {} logs of any parameter: nothing can be said yet",
             file.too_short,
             if file.too_short == 1 { "has" } else { "have" },
-            file.reference_logs + 5
+            least_logs()
         );
     }
     let mut rows = vec![
@@ -78,9 +78,8 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
     }
     text.push('\n');
     match file.alarms.first() {
-        None if file.noise.is_empty() => text.push_str("too few logs to follow anything\n"),
         None => {
-            text.push_str("nothing changed\n");
+            let _ = writeln!(text, "{}", quiet(file));
             if let Some(said) = few(file) {
                 let _ = writeln!(text, "{said}");
             }
@@ -95,6 +94,9 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
             );
             text.push_str(&alarms(file));
         }
+    }
+    if let Some(said) = unclear(file) {
+        let _ = writeln!(text, "{said}");
     }
     text.push_str(&apart(&file.apart));
     if let Some(next) = look(&file.apart) {
@@ -124,10 +126,12 @@ pub fn drift(file: &DriftFile, out: Option<&Path>) -> String {
         };
     } else if out.is_none() {
         let folder = Path::new(&file.input.path).with_file_name("drift");
+        let times = file.times.first();
         let _ = writeln!(
             text,
-            "the same with a report:\nnext: stiction drift {} --out {}",
+            "the same with a report:\nnext: stiction drift {}{} --out {}",
             quoted(&file.input.path),
+            times.map_or(String::new(), |times| format!(" --times {times}")),
             quoted_path(&folder)
         );
     }
@@ -147,7 +151,12 @@ fn alarms(file: &DriftFile) -> String {
         "95 % interval",
     ];
     let mut rows = vec![head.map(String::from).to_vec()];
-    rows.extend(file.alarms.iter().take(MOST).map(|alarm| row(file, alarm)));
+    rows.extend(
+        file.alarms
+            .iter()
+            .take(MOST)
+            .map(|alarm| row(file, alarm).to_vec()),
+    );
     let mut out = table(
         &rows,
         &[false, false, false, false, false, true, true, true, true],
@@ -156,27 +165,4 @@ fn alarms(file: &DriftFile) -> String {
         let _ = writeln!(out, "and {} more", file.alarms.len() - MOST);
     }
     out
-}
-
-fn row(file: &DriftFile, alarm: &Alarm) -> Vec<String> {
-    let [since, found] = times(file, alarm);
-    let interval = alarm.ci95.map_or(String::new(), |[low, high]| {
-        format!("{} .. {}", size(low, alarm), size(high, alarm))
-    });
-    let machine = if alarm.machine.is_empty() {
-        "-"
-    } else {
-        &alarm.machine
-    };
-    vec![
-        machine.into(),
-        alarm.parameter.clone(),
-        alarm.limit.clone().unwrap_or_else(|| alarm.kind.clone()),
-        since,
-        found,
-        short(alarm.before),
-        level(alarm.after, &alarm.unit),
-        size(alarm.size, alarm),
-        interval,
-    ]
 }

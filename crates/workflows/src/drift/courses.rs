@@ -2,8 +2,48 @@
 
 use crate::error::Error;
 use std::collections::{BTreeMap, HashSet};
+use std::path::Path;
 use stiction_drift::Point;
-use stiction_files::batch::{Levels, LogRow, ParameterRow};
+use stiction_files::batch::{Levels, LogRow, ParameterRow, seconds_in_name, seconds_of_file};
+
+/// Where the times of logs come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Times {
+    /// The table.
+    #[default]
+    Table,
+    /// Dates in the names of the logs.
+    Names,
+    /// When their files were written.
+    Files,
+}
+
+/// Times beside those of the table, with their names.
+pub(super) const OTHERS: [(Times, &str); 2] = [(Times::Names, "names"), (Times::Files, "files")];
+
+impl Times {
+    /// Times by the name that they are given by; those of the table where there is none.
+    ///
+    /// # Errors
+    /// Where it is another name.
+    pub fn read(name: Option<&str>) -> Result<Self, Error> {
+        let Some(name) = name else {
+            return Ok(Times::Table);
+        };
+        let own = OTHERS.iter().find(|(_, own)| *own == name);
+        let refused = || Error::usage(format!("times = {name:?}"), "\"names\" or \"files\"");
+        own.map(|(times, _)| *times).ok_or_else(refused)
+    }
+
+    /// Time of a log, s.
+    fn of(self, row: &LogRow) -> Option<f64> {
+        match self {
+            Times::Table => row.time,
+            Times::Names => seconds_in_name(&row.path),
+            Times::Files => seconds_of_file(Path::new(&row.path)),
+        }
+    }
+}
 
 /// A parameter of a law, with its unit: what is compared with each other.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -38,8 +78,12 @@ pub(super) struct Courses {
     pub failed: usize,
     /// Logs of which something was identified, and that name no machine.
     pub unnamed: usize,
+    /// Where times come from.
+    times: Times,
     /// The same that have no time.
     untimed: usize,
+    /// First and last time of each of [`OTHERS`], while every log has it.
+    others: [Option<(f64, f64)>; OTHERS.len()],
     /// What was taken: key, machine and time of each log. A folder of logs may hold one twice, and one of tables a table.
     seen: HashSet<(String, Option<String>, Option<u64>)>,
 }
@@ -52,10 +96,19 @@ const LARGEST: f64 = 1e100;
 const WIDTH: f64 = 2.0 * 1.959_963_984_540_054;
 
 impl Courses {
+    pub fn new(times: Times) -> Self {
+        Self {
+            times,
+            others: [Some((f64::INFINITY, f64::NEG_INFINITY)); OTHERS.len()],
+            ..Self::default()
+        }
+    }
+
     /// Takes a log, once.
     ///
     /// # Errors
-    /// Where a number of it is larger than any machine has, and would leave nothing of the others.
+    /// Where a number of it is larger than any machine has, and would leave nothing of the others; where it has no time of the
+    /// kind that was asked for.
     pub fn take(&mut self, row: &LogRow) -> Result<(), Error> {
         let own = (
             row.key.clone(),
@@ -78,8 +131,32 @@ impl Courses {
         self.levels.take(row);
         self.unnamed += usize::from(row.machine.is_none());
         *count += 1;
-        self.untimed += usize::from(row.time.is_none());
-        allowed(row, "time", row.time)?;
+        let time = self.times.of(row);
+        self.untimed += usize::from(time.is_none());
+        allowed(row, "time", time)?;
+        if time.is_none() && self.times != Times::Table {
+            let (found, wanted) = match self.times {
+                Times::Files => (
+                    "there is no such file here",
+                    "times in the list of the batch",
+                ),
+                _ => (
+                    "no date in its name",
+                    "a date in the name of each log, such as 2026-03-01 or 20260301_0630",
+                ),
+            };
+            return Err(Error::usage(format!("{}: {found}", row.path), wanted));
+        }
+        for ((other, _), span) in OTHERS.iter().zip(&mut self.others) {
+            // A log without one is enough; of a table with times none is asked.
+            *span = span
+                .take()
+                .filter(|_| row.time.is_none())
+                .and_then(|(first, last)| {
+                    let time = other.of(row)?;
+                    Some((time.min(first), time.max(last)))
+                });
+        }
         allowed(row, "temperature", row.temperature)?;
         let asymmetric = if row.asymmetric == Some(true) {
             " asymmetric"
@@ -106,7 +183,7 @@ impl Courses {
                 .or_default();
             followed.places.push(place);
             followed.points.push(Point {
-                time: row.time.unwrap_or(place),
+                time: time.unwrap_or(place),
                 value,
                 std,
                 temperature: row.temperature,
@@ -126,6 +203,14 @@ impl Courses {
     /// Whether every log has its time; else all are taken in the order of the table.
     pub fn is_timed(&self) -> bool {
         self.untimed == 0
+    }
+
+    /// Times that every log has, where the table has none.
+    pub fn other_times(&self) -> Vec<String> {
+        let moves = |span: &Option<(f64, f64)>| span.is_some_and(|(first, last)| first < last);
+        let all = OTHERS.iter().zip(&self.others);
+        let of = all.filter(|(_, span)| !self.is_timed() && moves(span));
+        of.map(|((_, name), _)| (*name).into()).collect()
     }
 
     /// Brings the logs of each machine into the order of time.

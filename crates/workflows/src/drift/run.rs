@@ -1,14 +1,14 @@
 //! From the table to alarms.
 
 use super::asked::Limit;
-use super::courses::{Courses, Followed, Number};
+use super::courses::{Courses, Followed, Number, Times};
 use crate::batch::batch_of;
 use crate::error::Error;
 use std::collections::BTreeMap;
 use std::path::Path;
-use stiction_drift::{Judged, Kind, Limits, Noise, Point, Settings, judge};
+use stiction_drift::{Judged, Kind, Limits, Noise, Point, Settings, judge, plain};
 use stiction_files::batch::{LogRow, read_results_while};
-use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA, Table};
+use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry, SCHEMA, Table, Unclear};
 use stiction_files::{sha256_of, shell};
 
 /// What changed, and the courses of what did.
@@ -17,9 +17,14 @@ pub struct DriftOutcome {
     pub file: DriftFile,
     /// Machine, parameter, course and what became of it, of each that is alarmed, once, in the order of the alarms.
     pub shown: Vec<Shown>,
+    /// The same of some that are not.
+    pub quiet: Vec<Shown>,
 }
 
-/// A course that is alarmed.
+/// Most courses without an alarm that are kept to be drawn.
+const MOST_QUIET: usize = 24;
+
+/// A course to be drawn.
 pub struct Shown {
     /// Machine.
     pub machine: String,
@@ -29,8 +34,6 @@ pub struct Shown {
     pub law: String,
     /// SI unit.
     pub unit: String,
-    /// Whether changes are counted as parts of it.
-    pub relative: bool,
     /// The estimates.
     pub followed: Followed,
     /// What became of them.
@@ -44,12 +47,14 @@ pub fn least_logs() -> usize {
     Settings::default().reference + stiction_drift::WINDOWS[0]
 }
 
-/// Follows every parameter of every machine of a table that `batch` wrote, or of a folder of such tables.
+/// Follows every parameter of every machine of a table that `batch` wrote, or of a folder of such tables, with times of the table or
+/// others.
 ///
 /// # Errors
-/// Where it cannot be read, holds no parameter that its logs determine, or a limit is of a parameter or a unit that it does not have.
-pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
-    Ok(drift_while(table, limits, || true)?.expect("goes on"))
+/// Where it cannot be read, holds no parameter that its logs determine, a log has no time of the kind that is asked for, or a limit is
+/// of a parameter or a unit that it does not have.
+pub fn drift(table: &Path, limits: &[Limit], times: Times) -> Result<DriftOutcome, Error> {
+    Ok(drift_while(table, limits, times, || true)?.expect("goes on"))
 }
 
 /// The same for as long as `goes_on` says so, which is asked all the time; else `None`.
@@ -59,9 +64,10 @@ pub fn drift(table: &Path, limits: &[Limit]) -> Result<DriftOutcome, Error> {
 pub fn drift_while(
     table: &Path,
     limits: &[Limit],
+    times: Times,
     mut goes_on: impl FnMut() -> bool,
 ) -> Result<Option<DriftOutcome>, Error> {
-    let mut courses = Courses::default();
+    let mut courses = Courses::new(times);
     check_finished(table)?;
     let mut fault = None;
     let hash = read_results_while(table, &mut goes_on, |row| {
@@ -80,26 +86,15 @@ pub fn drift_while(
 /// The same of rows that are in memory; the hash is of what is written of them as JSON, one after the other.
 ///
 /// # Errors
-/// Where a number of them is larger than any machine has, they hold no parameter that their logs determine, or a limit is of a parameter or a unit that they do not have.
-pub fn drift_of_rows(
-    name: &str,
-    rows: impl IntoIterator<Item = LogRow>,
-    limits: &[Limit],
-) -> Result<DriftOutcome, Error> {
-    Ok(drift_of_rows_while(name, rows, limits, || true)?.expect("goes on"))
-}
-
-/// The same for as long as `goes_on` says so, which is asked all the time; else `None`.
-///
-/// # Errors
-/// As of [`drift_of_rows`].
+/// As of [`drift`].
 pub fn drift_of_rows_while(
     name: &str,
     rows: impl IntoIterator<Item = LogRow>,
     limits: &[Limit],
+    times: Times,
     mut goes_on: impl FnMut() -> bool,
 ) -> Result<Option<DriftOutcome>, Error> {
-    let mut courses = Courses::default();
+    let mut courses = Courses::new(times);
     let mut hash = String::new();
     for row in rows {
         if !goes_on() {
@@ -138,7 +133,6 @@ fn followed(
     }
     check(limits, &courses)?;
     let long = |followed: &Followed| followed.points.len() >= least_logs();
-    let any_long = |machines: &BTreeMap<String, Followed>| machines.values().any(long);
     // Of a machine as many parameters are looked at as have courses.
     let mut looked: BTreeMap<&str, usize> = BTreeMap::new();
     for (machine, followed) in courses.of.values().flatten() {
@@ -146,41 +140,59 @@ fn followed(
     }
     let numbers = looked.values().copied().max().unwrap_or(1);
     let mut noise = Vec::new();
+    let mut unclear = Vec::new();
     let mut alarms = Vec::new();
-    let mut shown: Vec<Shown> = Vec::new();
-    for (number, machines) in courses.of.iter().filter(|(_, machines)| any_long(machines)) {
+    let (mut shown, mut quiet): (Vec<Shown>, Vec<Shown>) = (Vec::new(), Vec::new());
+    for (number, machines) in &courses.of {
         let points: Vec<&[Point]> = machines.values().map(|f| &f.points[..]).collect();
         if !goes_on() {
             return Ok(None);
         }
-        let Some(found) = Noise::of(&points) else {
-            continue;
-        };
-        let Some(beyond) = Limits::of_while(&found, numbers, &settings, &mut *goes_on) else {
-            return Ok(None);
-        };
-        noise.push(entry(number, &points, &found, &beyond));
+        let any_long = machines.values().any(long);
+        let found = Noise::of(&points).filter(|_| any_long);
+        let mut beyond = None;
+        if let Some(found) = &found {
+            let Some(limits) = Limits::of_while(found, numbers, &settings, &mut *goes_on) else {
+                return Ok(None);
+            };
+            noise.push(entry(number, &points, found, &limits));
+            beyond = Some((found, limits));
+        }
+        let tells = |(found, limits): &(&Noise, Limits)| limits.tell(found);
+        if !beyond.as_ref().is_some_and(tells) {
+            unclear.push(Unclear {
+                parameter: number.name.clone(),
+                law: number.law.clone(),
+                logs: points.iter().map(|course| course.len()).max().unwrap_or(0),
+                too_few: beyond.is_none(),
+            });
+        }
         for (machine, followed) in machines {
             if !goes_on() {
                 return Ok(None);
             }
-            let Some(judged) = judge(&followed.points, &found, &beyond) else {
-                continue;
-            };
-            let mut own = changes(number, machine, followed, &judged);
-            own.extend(exceeded(limits, number, machine, followed, &judged));
-            if !own.is_empty() {
-                alarms.extend(own);
-                shown.push(Shown {
-                    machine: machine.clone(),
-                    parameter: number.name.clone(),
-                    law: number.law.clone(),
-                    unit: number.unit.clone(),
-                    relative: found.measure == stiction_drift::Measure::Relative,
-                    followed: followed.clone(),
-                    judged,
-                });
+            let judged = beyond
+                .as_ref()
+                .and_then(|(found, limits)| judge(&followed.points, found, limits));
+            let mut own = Vec::new();
+            if let Some(judged) = &judged {
+                own = changes(number, machine, followed, judged);
+                own.extend(exceeded(limits, number, machine, followed, judged));
             }
+            let into = match own.is_empty() {
+                false => &mut shown,
+                true if quiet.len() < MOST_QUIET => &mut quiet,
+                true => continue,
+            };
+            alarms.extend(own);
+            into.push(Shown {
+                machine: machine.clone(),
+                parameter: number.name.clone(),
+                law: number.law.clone(),
+                unit: number.unit.clone(),
+                followed: followed.clone(),
+                judged: judged.unwrap_or_else(|| plain(&followed.points)),
+            });
         }
     }
     alarms.sort_by(|a, b| b.over.total_cmp(&a.over));
@@ -209,13 +221,16 @@ fn followed(
             horizon_days: settings.horizon / DAY,
             reference_logs: settings.reference,
             timed: courses.is_timed(),
+            times: courses.other_times(),
             machines: courses.machines.len(),
             too_short: too_short.count(),
             noise,
+            unclear,
             alarms,
             apart: courses.levels.apart(),
         },
         shown,
+        quiet,
     }))
 }
 
