@@ -23,6 +23,8 @@ const SATURATED_SHARE_OF_LIMIT: f64 = 0.999;
 const FEWEST_FORCE_STEPS: f64 = 50.0;
 /// Fewest values of a force that is not called coarse where it changes too seldom to tell its steps.
 const SELDOM_CHANGED: usize = 8;
+/// Most changes of a force that is one step: there, and back.
+const MOST_CHANGES_OF_A_STEP: usize = 2;
 /// Most values of a force that are told apart.
 const MOST_LEVELS: usize = 64;
 /// Net work over the sum of its magnitudes, below which the sign is wrong: friction as a force gives -1.
@@ -160,6 +162,11 @@ pub(super) fn steps(log: &mut Log) {
         return;
     };
     let levels = levels(force);
+    // A force that goes to one level, and back, is a step as it was commanded: it has no rounding to see.
+    let changes = force.windows(2).filter(|w| w[0] != w[1]).count();
+    if levels.len() == 2 && changes <= MOST_CHANGES_OF_A_STEP {
+        return;
+    }
     // A force that changes seldom shows too few steps to tell one by, but has few values.
     let few = (2..SELDOM_CHANGED).contains(&levels.len());
     let closest = || {

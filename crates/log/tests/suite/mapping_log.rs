@@ -914,6 +914,27 @@ fn a_force_of_few_values_is_coarse() {
     assert!(!coarse(&log) && !log.has_few_force_levels());
 }
 
+/// A force that is commanded as one step has two values, and no rounding.
+#[test]
+fn a_step_of_one_level_is_not_coarse() {
+    let with = |force: &dyn Fn(usize) -> f64| {
+        let mut table = axis(3000).table();
+        let values = table.columns[3].values.iter_mut().enumerate();
+        values.for_each(|(k, x)| *x = force(k));
+        let log = Log::from_table(&table, &Mapping::default()).unwrap();
+        let mut codes = log.findings.iter().map(|f| f.code);
+        codes.any(|code| code == stiction_codes::Code::CoarseForce)
+    };
+    assert!(!with(&|k| if k < 1000 { 0.0 } else { 3.0 }));
+    assert!(!with(&|k| if (1000..2000).contains(&k) {
+        -3.0
+    } else {
+        0.0
+    }));
+    // What goes to and fro between two values is rounded to them.
+    assert!(with(&|k| if k / 300 % 2 == 0 { 0.0 } else { 3.0 }));
+}
+
 /// A wrap that the encoder does not resolve is refused, whether its step is given or seen.
 #[test]
 fn a_wrap_is_longer_than_the_steps_of_the_encoder() {

@@ -553,6 +553,12 @@ fn a_search_alone() {
         assert!(result.trust.reasons[0].contains("no intervals"), "{cost}");
         let searched = result.searched.as_ref().unwrap();
         assert_eq!(searched.cost, cost);
+        let spent = &searched.evaluations;
+        let spent = spent.costs + spent.derivatives + spent.coarse_costs;
+        assert!(
+            spent > 0 && result.search.evaluations as u64 >= spent,
+            "{cost}"
+        );
         let own = searched.own.as_ref().unwrap();
         for found in &own.parameters {
             let given = result.parameters.iter().find(|p| p.name == found.name);

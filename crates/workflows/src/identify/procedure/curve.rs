@@ -50,6 +50,7 @@ pub(super) fn known(
         entry,
         warnings,
         interrupted,
+        ..
     } = map::map(asked, logs, observer)?;
     let own = beside.statics.is_empty();
     Ok(Known {

@@ -17,6 +17,7 @@ use stiction_identify::procedure::{
 };
 use stiction_identify::{Dependence, LawKind, Observer, Terms};
 use stiction_log::Motion;
+use stiction_search::Counts;
 
 /// Different speeds in each direction below which a map is warned of: twelve show the Stribeck curve from well below its
 /// velocity to the viscous branch (`docs/procedures.md`).
@@ -34,6 +35,8 @@ pub(super) struct Mapped {
     pub warnings: Vec<Warning>,
     /// Whether a search for it was stopped.
     pub interrupted: bool,
+    /// Evaluations of that search.
+    pub counts: Counts,
 }
 
 /// Finds the stretches in logs and fits the map.
@@ -100,6 +103,7 @@ pub(super) fn map(
         (&disagree::options(asked), true),
     ));
     let interrupted = searched.as_ref().is_some_and(|step| step.interrupted);
+    let counts = searched.as_ref().map(|step| step.counts);
     let entry = StaticMapEntry {
         searched: searched.map(|step| step.entry),
         ..entry(&map, &found, sources, motion)
@@ -109,6 +113,7 @@ pub(super) fn map(
         entry,
         warnings,
         interrupted,
+        counts: counts.unwrap_or_default(),
     })
 }
 

@@ -26,6 +26,7 @@ pub(in crate::identify) fn run(
     let sources = &loaded.sources;
     let mut found = map(asked, sources, observer)?;
     let mut law = found.map.fitted_law();
+    law.counts.add(&found.counts);
     let outlying = found.map.outlying().count();
     if found.interrupted {
         law.status = Status::Interrupted;

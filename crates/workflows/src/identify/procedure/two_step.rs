@@ -145,6 +145,9 @@ pub(in crate::identify) fn two_step(
             ));
         }
     }
+    if let Some(step) = &step {
+        estimate.count(&step.counts);
+    }
     if is_stated {
         let delay = joint.parameter(Quantity::Delay);
         let deviation = delay.and_then(|delay| delay.std).unwrap_or(0.0);

@@ -12,7 +12,7 @@ use stiction_files::result::{SearchedEntry, SearchedParameter, SearchedPoint};
 use stiction_identify::Observer;
 use stiction_identify::candidates::Candidates;
 use stiction_number::four_digits;
-use stiction_search::{Best, Bounds, Finish, Finished, Limits, Plan, Run, Searcher};
+use stiction_search::{Best, Bounds, Counts, Finish, Finished, Limits, Plan, Run, Searcher};
 
 /// How near an end of its range, as a part of it, an unknown counts as at the end: a search without least squares stops short
 /// of it.
@@ -38,6 +38,7 @@ pub(super) type Keep<'a> = (Option<&'a Checkpoint<'a>>, Option<Run<Finished<Sear
 /// What a search ends with.
 pub(super) struct Searched {
     pub entry: SearchedEntry,
+    pub counts: Counts,
     pub point: Vec<f64>,
     pub ended: Ended,
     /// Unknowns that ended at an end of their range, in words; empty where none did.
@@ -143,6 +144,7 @@ pub(super) fn run<P: Candidates + Sync>(
     };
     Ok(Searched {
         entry,
+        counts: run.counts(),
         point: run.best().map_or_else(middle, |best| best.point.clone()),
         ended,
         at_ends,

@@ -17,10 +17,12 @@ use stiction_identify::candidates::{
 };
 use stiction_identify::procedure::{Exponent, StaticPoint, StaticSettings, Statics};
 use stiction_identify::{Law, LawKind, Name, Observer, Record, Terms};
+use stiction_search::Counts;
 
 /// What a search of one step found.
 pub(in crate::identify) struct Step {
     pub entry: SearchedEntry,
+    pub counts: Counts,
     /// Where least squares begin: Stribeck velocities, m/s or rad/s; or `ln(sigma0/Fc)`.
     pub near: Vec<f64>,
     /// What the search found, by name, SI; where least squares are left out, the answer.
@@ -101,6 +103,7 @@ pub(in crate::identify) fn curve(
         interrupted: found.ended == Ended::Interrupted,
         at_ends: found.at_ends,
         entry: found.entry,
+        counts: found.counts,
     }))
 }
 
@@ -140,5 +143,6 @@ pub(in crate::identify) fn dynamic(
         interrupted: found.ended == Ended::Interrupted,
         at_ends: found.at_ends,
         entry: found.entry,
+        counts: found.counts,
     }))
 }

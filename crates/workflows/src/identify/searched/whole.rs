@@ -88,13 +88,7 @@ pub(in crate::identify) fn search(task: Task, observer: &mut dyn Observer) -> Re
             .as_searched(task.record, &start, &held)
             .map_err(refused)?;
     }
-    let spent = &searched.entry.evaluations;
-    estimate.count(&engine::Counts {
-        costs: spent.costs,
-        derivatives: spent.derivatives,
-        coarse_costs: spent.coarse_costs,
-        coarse_derivatives: spent.coarse_derivatives,
-    });
+    estimate.count(&searched.counts);
     if searched.ended == Ended::Interrupted {
         estimate = estimate.interrupted();
         optimum.status = Status::Interrupted;
