@@ -104,7 +104,7 @@ fn refuse_foreign(dir: &Path, files: &[(&str, &[u8])]) -> Result<(), Error> {
             |text: Vec<u8>| text == *content || changed(name) <= written && is_marked(&text);
         !path.is_symlink() && text.is_ok_and(is_own)
     };
-    match there.find(|file| !is_own(*file)) {
+    match there.find(|file| !is_own(file)) {
         None => Ok(()),
         Some((name, _)) => refuse(&dir.join(name), "is not as stiction export wrote it"),
     }
