@@ -254,7 +254,7 @@ fn a_batch_is_complete_for_its_own_table() {
                 all[Path::new("batch.json")] == *said && all[Path::new("results.parquet")] == *table
             };
             assert!(
-                !said_complete || is(&old) || is(&new),
+                !said_complete || is(&old.0) || is(&new.0),
                 "killed at {call} {nth}"
             );
         }
