@@ -3,7 +3,7 @@
 use super::model::GOOD;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use stiction_files::{ModelFile, write_into_folder};
+use stiction_files::{ModelFile, write_folder};
 
 const PART: &str = ".stiction-part-aB3dE9";
 const RECORD: &str = ".stiction-pending";
@@ -42,7 +42,7 @@ fn a_reader_has_what_is_to_be_and_changes_nothing() {
         assert_eq!(files(dir.path()), before);
     }
     record(dir.path(), &renames.replace("PART", PART));
-    write_into_folder(dir.path(), [("other.txt", &b"x"[..])]).unwrap();
+    write_folder(dir.path(), [("other.txt", &b"x"[..])], true).unwrap();
     let names: Vec<_> = files(dir.path()).into_keys().collect();
     let left = ["model-1.toml", "model.toml", "other.txt"].map(|name| dir.path().join(name));
     assert_eq!(names, left);
@@ -76,7 +76,7 @@ fn no_record_leads_out_of_its_folder_through_a_link() {
             ModelFile::read(&model).unwrap().name.as_deref(),
             Some("stage")
         );
-        let refused = write_into_folder(dir.path(), [("a.txt", &b"x"[..])]).unwrap_err();
+        let refused = write_folder(dir.path(), [("a.txt", &b"x"[..])], true).unwrap_err();
         assert!(refused.to_string().contains("link is a link"), "{refused}");
         assert_eq!(files(dir.path()), there, "{renames}");
         assert_eq!(files(outside.path()), before, "{renames}");
@@ -89,7 +89,7 @@ fn no_file_is_written_through_a_link() {
     let outside = tempfile::tempdir().unwrap();
     let dir = tempfile::tempdir().unwrap();
     std::os::unix::fs::symlink(outside.path(), dir.path().join("link")).unwrap();
-    let refused = write_into_folder(dir.path(), [("link/a.txt", &b"x"[..])]).unwrap_err();
+    let refused = write_folder(dir.path(), [("link/a.txt", &b"x"[..])], true).unwrap_err();
     assert!(refused.to_string().contains("is a link"), "{refused}");
     assert!(files(outside.path()).is_empty() && files(dir.path()).is_empty());
 }
