@@ -6,9 +6,7 @@ use super::trust::{RICHER_LAW_WINS_BELOW, SIMPLER_LAW_WINS_FROM};
 use super::unfit;
 use stiction_files::result::{BetterLaw, LawEntry};
 use stiction_identify as engine;
-use stiction_identify::{
-    Control, Delay, Estimate, Law, LawKind, Observer, Optimum, Progress, Settings, Status,
-};
+use stiction_identify::{Delay, Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
 use stiction_parameters::{Quantity, Side};
 
 /// The families that the data choose from.
@@ -593,10 +591,7 @@ fn stated(
     observer: &mut dyn Observer,
 ) -> Estimate {
     if estimate.status != Status::Interrupted {
-        let mut heard = Heard {
-            observer,
-            stopped: false,
-        };
+        let mut heard = Heard::new(observer);
         engine::intervals(ladder.record, optimum, &mut estimate, &mut heard);
         if heard.stopped {
             // What its intervals lack is not told from what they have.
@@ -695,20 +690,6 @@ fn of_the_counts(
         estimate,
         shows,
     })
-}
-
-/// An observer, and whether it has asked to stop.
-struct Heard<'o> {
-    observer: &'o mut dyn Observer,
-    stopped: bool,
-}
-
-impl Observer for Heard<'_> {
-    fn progress(&mut self, progress: &Progress) -> Control {
-        let control = self.observer.progress(progress);
-        self.stopped |= control == Control::Stop;
-        control
-    }
 }
 
 #[cfg(test)]

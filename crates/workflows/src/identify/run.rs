@@ -3,6 +3,7 @@
 use super::assemble::{self, Parts};
 use super::condition::{Conditioned, condition, enough};
 use super::fit::fit;
+use super::heard::Heard;
 use super::judge::judge;
 use super::late::{aligned, doubted, realigned, unfiltered};
 use super::load::{Asked, Loaded, load};
@@ -212,17 +213,25 @@ fn of_the_split(asked: Asked, conditioned: &Conditioned, error: Error) -> Error 
 
 /// Fits the force of whole records.
 fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Result<Outcome, Error> {
+    let heard = &mut Heard::new(observer);
     let mut loaded = aligned(asked, loaded)?;
-    let conditioned = condition(asked, &loaded, observer)?;
-    loaded.contradicted = stated::named(asked, &loaded, &conditioned, observer);
-    let realigned = realigned(asked, loaded, conditioned, observer)?;
-    let (mut loaded, conditioned) = unfiltered(asked, realigned, observer)?;
+    let mut conditioned = condition(asked, &loaded, heard)?;
+    if !heard.stopped {
+        loaded.contradicted = stated::named(asked, &loaded, &conditioned, heard);
+    }
+    if !heard.stopped {
+        (loaded, conditioned) = realigned(asked, loaded, conditioned, heard)?;
+    }
+    if !heard.stopped {
+        (loaded, conditioned) = unfiltered(asked, (loaded, conditioned), heard)?;
+    }
     // Beside another motion than its own a force says nothing of what is stated.
-    if loaded.contradicted.is_none() && (loaded.late != 0.0 || loaded.filter.is_some()) {
-        loaded.contradicted = stated::named(asked, &loaded, &conditioned, observer);
+    let is_moved = loaded.late != 0.0 || loaded.filter.is_some();
+    if !heard.stopped && loaded.contradicted.is_none() && is_moved {
+        loaded.contradicted = stated::named(asked, &loaded, &conditioned, heard);
     }
     let ranges = asked.axis.search_box(&loaded.sources[0].log)?;
-    let fitted = fit(asked, &loaded, &conditioned, observer);
+    let fitted = fit(asked, &loaded, &conditioned, heard);
     let mut fitted = fitted.map_err(|e| of_the_split(asked, &conditioned, e))?;
     doubted(&loaded, &mut fitted.choice.estimate);
     let names = conditioned.unseen_names.iter().cloned();
