@@ -96,9 +96,11 @@ const DRIVES: [Dimension; 5] = [
 
 /// The unit of what drives an axis, written one way: `N*m` of `N m` and `Nm`; `None` where it is none.
 pub(super) fn drive(text: &str) -> Option<String> {
+    let plain = |c: char| c.is_alphanumeric() || " */^-·".contains(c);
     let unit = Unit::parse(text).ok()?;
     let is_one = unit.factor() == 1.0 && DRIVES.contains(&unit.dimension());
-    is_one.then(|| unit.dimension().si_text())
+    let good = is_one && text.trim() == text && text.chars().all(plain);
+    good.then(|| unit.dimension().si_text())
 }
 
 /// Refuses an unknown unit, which would go into every text about the model: identification writes that of a force, or
