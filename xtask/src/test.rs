@@ -2,7 +2,7 @@
 
 use crate::shell::{self, Outcome, cargo};
 use crate::{licences, setup, times, tools, web, wheel};
-use std::thread;
+use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
 /// Every target that has tests; examples and benchmarks are only checked, with the lints.
@@ -27,20 +27,30 @@ fn checks() -> Outcome {
         web::check()
     });
     let built = build();
-    aside
-        .join()
-        .unwrap_or_else(|_| Err("set-up panicked".into()))?;
+    joined(aside)?;
     built?;
     // One more than there are cores: some tests wait, for LinuxCNC's own clock or for a program that is to be ended.
     let at_once = 1 + thread::available_parallelism().map_or(1, usize::from);
     let tests = format!("{TESTS} --test-threads {at_once}");
     let mut tests = tools::command(&tools::NEXTEST, &tests)?;
     tests.env(SEED.0, SEED.1);
-    shell::run(tests)?;
+    // Browser and Python wait more than they compute.
+    let aside = thread::spawn(|| {
+        web::test()?;
+        wheel::test()
+    });
+    let tests = shell::run(tests);
+    joined(aside)?;
+    tests?;
     // nextest runs no doctests.
-    shell::run(cargo("test --quiet --workspace --doc"))?;
-    web::test()?;
-    wheel::test()
+    shell::run(cargo("test --quiet --workspace --doc"))
+}
+
+/// What a thread came to.
+fn joined(aside: JoinHandle<Outcome>) -> Outcome {
+    aside
+        .join()
+        .unwrap_or_else(|_| Err("a step panicked".into()))
 }
 
 /// What needs the compiler alone.
