@@ -480,7 +480,7 @@ impl<'a> Scan<'a> {
 
     /// The one column without a telling name that is in a unit of this role.
     fn pick_by_unit(&self, role: Role) -> Result<Option<usize>, Error> {
-        if matches!(role, Role::Reference | Role::Load | Role::External) {
+        if is_told_by_name(role) {
             return Ok(None);
         }
         let telling = |unit: &Unit| {
@@ -750,6 +750,11 @@ impl<'a> Scan<'a> {
     fn is_hinted(&self, column: usize, role: Role) -> bool {
         self.hints[column].is_some_and(|hint| hint.role == role)
     }
+}
+
+/// Whether a column in a unit of this role may be something else, unless its name tells.
+pub(super) fn is_told_by_name(role: Role) -> bool {
+    matches!(role, Role::Reference | Role::Load | Role::External)
 }
 
 /// Whether a column of this dimension may be offered for a role at all.

@@ -97,6 +97,7 @@ fn may_be(heads: &Table, index: usize, role: Role) -> bool {
     }
     let hint = endings::hint(heads, index);
     let of_axis = names::hint_of_axis(endings::stem(heads, index));
+    let by_unit = dimension.is_some() && !choose::is_told_by_name(role);
     hint.is_none_or(|hint| hint.role == role)
-        && (hint.is_some() || dimension.is_some() || of_axis.is_some_and(|hint| hint.role == role))
+        && (hint.is_some() || by_unit || of_axis.is_some_and(|hint| hint.role == role))
 }
