@@ -102,7 +102,7 @@ fn noise_leaves_the_truth_inside_the_intervals() {
 #[test]
 fn a_noisy_log_is_found_and_covered() {
     let inside = found_and_covered(100..102);
-    assert!(inside >= 15, "{inside} of 16 inside");
+    assert!(inside >= 14, "{inside} of 16 inside");
 }
 
 #[test]
