@@ -240,10 +240,20 @@ fn a_step_of_one_machine_stands_out_of_its_repeats() {
 /// Of one machine in which nothing changes no more are alarmed than of a fleet, whatever the intervals say and the scatter is like.
 #[test]
 fn machines_alone_in_which_nothing_changes_are_seldom_alarmed() {
+    seldom_alarmed(0..5);
+}
+
+#[test]
+#[ignore = "soak: the same of more machines"]
+fn further_machines_alone_are_seldom_alarmed() {
+    seldom_alarmed(5..25);
+}
+
+fn seldom_alarmed(seeds: std::ops::Range<u64>) {
     let (mut alarmed, mut all) = (0, 0);
     for logs in [15, 20, 40] {
         for (memory, slow) in [(1.0, 0.0), (3.0, 1.0), (10.0, 1.0), (30.0, 2.0)] {
-            for seed in 0..20 {
+            for seed in seeds.clone() {
                 let mut dice = Dice::new(1_000 * seed + u64::from(logs));
                 let mut state = slow * dice.normal();
                 let stays = libm::exp(-1.0 / memory);

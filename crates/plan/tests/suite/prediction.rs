@@ -435,12 +435,14 @@ fn elements_of_maxwell_slip_are_known_as_predicted() {
 }
 
 #[test]
+#[ignore = "soak: the same of another law"]
 fn elements_whose_level_falls_are_known_as_predicted() {
     are_elements_realised(true, false);
 }
 
 /// With a delay that the fit finds as well.
 #[test]
+#[ignore = "soak: the same of another law"]
 fn elements_of_maxwell_slip_beside_a_delay_are_known_as_predicted() {
     are_elements_realised(false, true);
 }

@@ -1,5 +1,6 @@
 //! The law that was asked for, or the one that the data choose.
 
+use super::heard::Heard;
 use super::ladder::{self, Candidate, Climb, Ladder, Rung};
 use super::stated::EXPONENT_APART;
 use super::trust::{RICHER_LAW_WINS_BELOW, SIMPLER_LAW_WINS_FROM};

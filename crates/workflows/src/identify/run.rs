@@ -220,10 +220,11 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
         loaded.contradicted = stated::named(asked, &loaded, &conditioned, heard);
     }
     if !heard.stopped {
-        (loaded, conditioned) = realigned(asked, loaded, conditioned, heard)?;
-    }
-    if !heard.stopped {
-        (loaded, conditioned) = unfiltered(asked, (loaded, conditioned), heard)?;
+        let realigned = realigned(asked, loaded, conditioned, heard)?;
+        (loaded, conditioned) = match heard.stopped {
+            true => (realigned.0, realigned.1),
+            false => unfiltered(asked, realigned, heard)?,
+        };
     }
     // Beside another motion than its own a force says nothing of what is stated.
     let is_moved = loaded.late != 0.0 || loaded.filter.is_some();
