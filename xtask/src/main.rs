@@ -2,6 +2,7 @@
 //! is built in a second on a fresh machine. To add a task, write a function and add it to `TASKS`.
 
 mod debian;
+mod exports;
 mod instructions;
 mod interpreter;
 mod licences;
@@ -41,6 +42,11 @@ const TASKS: &[Task] = &[
         name: "soak",
         help: "what CI has no time for: the same tests with more seeds, packed crates built on their own, killed workers, free-threaded Python",
         run: soak::run,
+    },
+    Task {
+        name: "exports",
+        help: "exported code under other tools; writes with what it passed, which `test` need not run again then",
+        run: exports::run,
     },
     Task {
         name: "package",

@@ -1,7 +1,7 @@
 //! Everything CI checks, the quick refusals first.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{licences, setup, times, tools, web, wheel};
+use crate::{exports, licences, setup, times, tools, web, wheel};
 use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
@@ -34,6 +34,12 @@ fn checks() -> Outcome {
     let tests = format!("{TESTS} --test-threads {at_once}");
     let mut tests = tools::command(&tools::NEXTEST, &tests)?;
     tests.env(SEED.0, SEED.1);
+    if exports::have_passed() {
+        println!(
+            "==> exported code has not changed since it passed under other tools: cargo xtask exports"
+        );
+        tests.args(["-E", &format!("not ({})", exports::TESTS)]);
+    }
     // Browser and Python wait more than they compute.
     let aside = thread::spawn(|| {
         web::test()?;
