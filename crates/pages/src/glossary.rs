@@ -1,26 +1,27 @@
 //! The terms of reports and messages, explained: in a section of each report, since those are read without the rest of the
-//! documentation, and on the page `docs/glossary.md`. Both come from one table.
+//! documentation, and on the page `docs/glossary.md`. Both come from the table `glossary/terms.md`.
 
 mod term;
-mod terms;
 
 use stiction_report::{Block, Document, Text};
 pub use term::Term;
 
-/// All terms, by topic.
-pub const TOPICS: [(&str, &[Term]); 5] = [
-    ("Friction and its laws", terms::FRICTION),
-    ("The axis", terms::AXIS),
-    ("Identification", terms::IDENTIFICATION),
-    ("Searches", terms::SEARCH),
-    ("Compensation and tracking", terms::COMPENSATION),
-];
+const PAGE: &str = include_str!("glossary/terms.md");
+
+/// `docs/glossary.md`.
+pub fn page() -> &'static str {
+    PAGE
+}
+
+/// All terms.
+pub fn terms() -> impl Iterator<Item = Term> {
+    PAGE.lines().filter_map(Term::of_row)
+}
 
 /// The document with a section that explains those terms that it uses.
 pub(crate) fn explained(document: Document) -> Document {
     let text = document.to_plain().to_lowercase();
-    let used = TOPICS.iter().flat_map(|(_, terms)| *terms);
-    let facts: Vec<(Text, Text)> = used
+    let facts: Vec<(Text, Text)> = terms()
         .filter(|term| term.is_in(&text))
         .map(|term| (term.head(), term.meaning.into()))
         .collect();
@@ -33,34 +34,9 @@ pub(crate) fn explained(document: Document) -> Document {
     ))
 }
 
-/// `docs/glossary.md`.
-pub fn page() -> String {
-    let mut page = String::from(
-        "# Glossary\n\nThe terms of messages, reports and these pages, as stiction uses them. Symbols are those of the LuGre \
-         literature; units are those of a linear axis: a rotary one has rad for m, N·m for N and kg·m² for kg, and where the \
-         force was logged in another unit, that unit takes the place of N. Each report explains the terms that it uses, too.\n",
-    );
-    for (topic, terms) in TOPICS {
-        page += &format!(
-            "\n## {topic}\n\n| term | symbol | unit | other names | meaning |\n|---|---|---|---|---|\n"
-        );
-        for term in terms {
-            page += &format!(
-                "| **{}** | {} | {} | {} | {} |\n",
-                term.name,
-                term.symbol,
-                term.unit,
-                term.others.join(", "),
-                term.meaning
-            );
-        }
-    }
-    page
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{TOPICS, explained, page};
+    use super::{explained, page, terms};
     use std::collections::BTreeSet;
     use stiction_report::Document;
 
@@ -80,12 +56,14 @@ mod tests {
     #[test]
     fn no_name_is_given_twice_and_no_cell_breaks_the_table() {
         let mut names = BTreeSet::new();
-        for term in TOPICS.iter().flat_map(|(_, terms)| *terms) {
-            for name in std::iter::once(&term.name).chain(term.others) {
+        for term in terms() {
+            for name in std::iter::once(&term.name).chain(&term.others) {
                 assert!(names.insert(name.to_lowercase()), "{name}");
             }
-            assert!(term.meaning.ends_with('.') && !term.meaning.contains('|'));
+            assert!(term.meaning.ends_with('.'), "{}", term.name);
         }
+        let rows = page().lines().filter(|line| line.starts_with("| **"));
+        assert_eq!(rows.count(), terms().count());
     }
 
     #[test]

@@ -14,70 +14,16 @@ pub(super) struct Hint {
     pub weak: bool,
 }
 
-const TIME: &[&str] = &["time", "timestamp", "timestamps", "stamp", "zeit"];
-const POSITION: &[&str] = &[
-    "position",
-    "positions",
-    "pos",
-    "angle",
-    "theta",
-    "displacement",
-    "disp",
-    "travel",
-    "encoder",
-    "enc",
-    "qm",
-    "qg",
-    "lage",
-    "winkel",
-];
-const VELOCITY: &[&str] = &[
-    "velocity",
-    "velocities",
-    "vel",
-    "velo",
-    "speed",
-    "omega",
-    "dq",
-    "qd",
-    "qdot",
-    "xdot",
-    "dx",
-    "dtheta",
-    "geschwindigkeit",
-    "drehzahl",
-];
-const ACCELERATION: &[&str] = &[
-    "acceleration",
-    "accel",
-    "acc",
-    "ddq",
-    "qddot",
-    "xddot",
-    "beschleunigung",
-];
-const FORCE: &[&str] = &[
-    "force",
-    "forces",
-    "torque",
-    "torques",
-    "trq",
-    "tau",
-    // Of ROS: the torque or force of a joint.
-    "effort",
-    "efforts",
-    "moment",
-    "current",
-    "cur",
-    "curr",
-    "friction",
-    "f",
-    "iq",
-    "kraft",
-    "drehmoment",
-    "strom",
-];
-const TEMPERATURE: &[&str] = &["temperature", "temp", "temperatur"];
+const TIME: &str = "time timestamp timestamps stamp zeit";
+const POSITION: &str =
+    "position positions pos angle theta displacement disp travel encoder enc qm qg lage winkel";
+const VELOCITY: &str =
+    "velocity velocities vel velo speed omega dq qd qdot xdot dx dtheta geschwindigkeit drehzahl";
+const ACCELERATION: &str = "acceleration accel acc ddq qddot xddot beschleunigung";
+/// `effort` is the torque or force of a joint in ROS.
+const FORCE: &str = "force forces torque torques trq tau effort efforts moment current cur curr friction f iq kraft \
+    drehmoment strom";
+const TEMPERATURE: &str = "temperature temp temperatur";
 const WEAK: &[(&str, Role)] = &[
     ("t", Role::Time),
     ("ts", Role::Time),
@@ -88,112 +34,35 @@ const WEAK: &[(&str, Role)] = &[
     ("w", Role::Velocity),
     ("i", Role::Force),
 ];
-const COMMANDED: &[&str] = &[
-    "ref",
-    "reference",
-    "set",
-    "setpoint",
-    "target",
-    "desired",
-    "des",
-    "cmd",
-    "command",
-    "commanded",
-    "demand",
-    "goal",
-    "nominal",
-    "qg",
-    "soll",
-];
-const MEASURED: &[&str] = &[
-    "act",
-    "actual",
-    "meas",
-    "measured",
-    "measurement",
-    "feedback",
-    "fb",
-    "fbk",
-    "qm",
-    "ist",
-];
-const PASSED_OVER: &[&str] = &[
-    "error",
-    "err",
-    "lag",
-    "following",
-    "deviation",
-    "dev",
-    "limit",
-    "max",
-    "min",
-    "std",
-    "status",
-    "state",
-    "enable",
-    "enabled",
-    "flag",
-    "id",
-    "index",
-    "jerk",
-    "gain",
-    "offset",
-    "warning",
-    "schlepp",
-    "fehler",
-    "abweichung",
-];
+const COMMANDED: &str = "ref reference set setpoint target desired des cmd command commanded demand goal nominal qg soll";
+const MEASURED: &str = "act actual meas measured measurement feedback fb fbk qm ist";
+const PASSED_OVER: &str = "error err lag following deviation dev limit max min std status state enable enabled flag id index \
+    jerk gain offset warning schlepp fehler abweichung";
 /// Those of them that say nothing of what a group holds: `joint_state.position` is a position.
-const GROUPS: &[&str] = &["state", "status", "id", "index"];
+const GROUPS: &str = "state status id index";
 /// Words that may be beside a letter or two without changing its meaning.
-const HARMLESS_NEIGHBOURS: &[&str] =
-    &["axis", "motor", "joint", "j", "drive", "m", "achse", "wert"];
+const HARMLESS_NEIGHBOURS: &str = "axis motor joint j drive m achse wert";
 /// Groups whose letters are directions or parts of something else: `orientation.x` is no position.
-const VECTORS: &[&str] = &[
-    "orientation",
-    "quaternion",
-    "rotation",
-    "linear",
-    "angular",
-    "gyro",
-    "magnetic",
-    "mag",
-    "imu",
-    "translation",
-    "point",
-];
+const VECTORS: &str =
+    "orientation quaternion rotation linear angular gyro magnetic mag imu translation point";
 /// What German names are put together of: `Istposition`, `Lagesollwert`, `Schleppfehler`.
-const GERMAN: &[&str] = &[
-    "soll",
-    "ist",
-    "wert",
-    "position",
-    "pos",
-    "lage",
-    "winkel",
-    "geschwindigkeit",
-    "drehzahl",
-    "beschleunigung",
-    "kraft",
-    "drehmoment",
-    "moment",
-    "strom",
-    "zeit",
-    "temperatur",
-    "schlepp",
-    "fehler",
-    "abstand",
-    "abweichung",
-    "regel",
-    "motor",
-    "achs",
-    "achse",
-];
+const GERMAN: &str = "soll ist wert position pos lage winkel geschwindigkeit drehzahl beschleunigung kraft drehmoment \
+    moment strom zeit temperatur schlepp fehler abstand abweichung regel motor achs achse";
+
+/// Whether a list of words, separated by blanks, has this one.
+fn among(word: &str, list: &str) -> bool {
+    list.split(' ').any(|own| own == word)
+}
+
+/// Whether a list has any of these words.
+fn any_of(words: &[String], list: &str) -> bool {
+    words.iter().any(|word| among(word, list))
+}
 
 /// What a name says; `None` where it says nothing, or names something that is passed over.
 pub(super) fn hint(name: &str) -> Option<Hint> {
     let words = words(name);
-    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
+    let has = |list| any_of(&words, list);
     if passed_over(name) {
         return None;
     }
@@ -206,7 +75,7 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
         stands(&words) || stands(&own)
     };
     let strong = |word: &String| {
-        let among = |list: &[&str]| list.contains(&word.as_str());
+        let among = |list| among(word, list);
         // `f`, `dq` and their like mean something only where they stand alone: `fActPos` does not.
         let short_among_words = word.len() <= 2 && !stands(word);
         if short_among_words {
@@ -266,12 +135,12 @@ pub(super) fn hint(name: &str) -> Option<Hint> {
 /// group is one of directions.
 fn own_words(name: &str) -> Vec<String> {
     let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
-    let is_vector = words(group).iter().any(|w| VECTORS.contains(&w.as_str()));
+    let is_vector = any_of(&words(group), VECTORS);
     words(if is_vector { name } else { own })
 }
 
 /// Letters that a machine's axes are called by where they stand alone.
-const AXIS_LETTERS: &[&str] = &["x", "y", "z"];
+const AXIS_LETTERS: &str = "x y z";
 /// Letters before that of the axis in a name of two: `IX` is the current of X, `FY` the force of Y.
 const BEFORE_AXIS: &[char] = &['i', 'f', 'v', 'm', 'p', 's'];
 
@@ -284,9 +153,7 @@ pub(super) fn axis_letter(name: &str) -> Option<char> {
             (before, Some(letter), None) if BEFORE_AXIS.contains(&before) => letter,
             _ => return None,
         };
-        AXIS_LETTERS
-            .contains(&letter.to_string().as_str())
-            .then_some(letter)
+        among(&letter.to_string(), AXIS_LETTERS).then_some(letter)
     })
 }
 
@@ -294,8 +161,8 @@ pub(super) fn axis_letter(name: &str) -> Option<char> {
 /// `X act` says.
 pub(super) fn hint_of_axis(name: &str) -> Option<Hint> {
     let words = words(name);
-    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
-    let letter = words.iter().find(|w| AXIS_LETTERS.contains(&w.as_str()))?;
+    let has = |list| any_of(&words, list);
+    let letter = words.iter().find(|w| among(w, AXIS_LETTERS))?;
     if passed_over(name) || !alone(&words, letter) {
         return None;
     }
@@ -315,9 +182,8 @@ pub(super) fn hint_of_axis(name: &str) -> Option<Hint> {
 /// Whether a name speaks of errors, limits, states and other things that no role takes.
 pub(super) fn passed_over(name: &str) -> bool {
     let (group, own) = name.rsplit_once('.').unwrap_or(("", name));
-    let over = |word: &String| PASSED_OVER.contains(&word.as_str());
-    words(own).iter().any(over)
-        || (words(group).iter()).any(|w| over(w) && !GROUPS.contains(&w.as_str()))
+    let over = |word: &String| among(word, PASSED_OVER);
+    words(own).iter().any(over) || (words(group).iter()).any(|w| over(w) && !among(w, GROUPS))
 }
 
 /// Whether nothing but numbers and harmless words stands beside this word.
@@ -325,7 +191,7 @@ fn alone(words: &[String], word: &str) -> bool {
     words.iter().filter(|w| *w != word).all(|w| {
         let harmless = [COMMANDED, MEASURED, HARMLESS_NEIGHBOURS]
             .iter()
-            .any(|l| l.contains(&w.as_str()));
+            .any(|list| among(w, list));
         harmless || w.chars().all(|c| c.is_ascii_digit())
     })
 }
@@ -338,29 +204,28 @@ pub(super) fn group(name: &str) -> Option<&str> {
 /// Whether a name speaks of a mode or a state of the drive.
 pub(super) fn says_mode(name: &str) -> bool {
     let own = name.rsplit_once('.').map_or(name, |(_, own)| own);
-    let says = |w: &String| ["mode", "state", "status"].contains(&w.as_str());
-    words(own).iter().any(says)
+    any_of(&words(own), "mode state status")
 }
 
 /// Whether a name speaks of an axis that is enabled, or a drive that is switched on.
 pub(super) fn says_enabled(name: &str) -> bool {
     let own = name.rsplit_once('.').map_or(name, |(_, own)| own);
     let words = words(own);
-    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
-    let says = has(&["enable", "enabled", "powered", "freigabe"])
-        || has(&["on"]) && has(&["servo", "drive", "motor", "axis", "power"]);
-    says && !has(&["not", "no", "un", "off", "keine"])
+    let has = |list| any_of(&words, list);
+    let says =
+        has("enable enabled powered freigabe") || has("on") && has("servo drive motor axis power");
+    says && !has("not no un off keine")
 }
 
 /// What is so while a column is 1 by its name, and is no motion to fit: a brake that holds, a search for the origin, a fault.
 pub(super) fn says_disturbed(name: &str) -> Option<&'static str> {
     let words = words(name);
-    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
+    let has = |list| any_of(&words, list);
     if says_braked(name) {
         Some("a brake holds the axis")
-    } else if has(&["homing", "referencing", "referenzfahrt"]) {
+    } else if has("homing referencing referenzfahrt") {
         Some("the axis looks for its origin")
-    } else if has(&["fault", "error", "alarm", "estop", "fehler", "störung"]) {
+    } else if has("fault error alarm estop fehler störung") {
         Some("the drive has a fault")
     } else {
         None
@@ -369,21 +234,10 @@ pub(super) fn says_disturbed(name: &str) -> Option<&'static str> {
 
 /// Whether a name speaks of a brake that holds, and not of one that is released.
 fn says_braked(name: &str) -> bool {
-    const RELEASED: &[&str] = &[
-        "open",
-        "opened",
-        "release",
-        "released",
-        "off",
-        "free",
-        "offen",
-        "frei",
-        "gelöst",
-        "gelüftet",
-    ];
+    const RELEASED: &str = "open opened release released off free offen frei gelöst gelüftet";
     let words = words(name);
-    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
-    has(&["brake", "braked", "bremse"]) && !has(RELEASED)
+    let has = |list| any_of(&words, list);
+    has("brake braked bremse") && !has(RELEASED)
 }
 
 /// Whether a name is that of a status word of CiA 402.
@@ -396,33 +250,22 @@ pub(super) fn says_status_word(name: &str) -> bool {
 
 /// Whether a name speaks of current.
 pub(super) fn says_current(name: &str) -> bool {
-    words(name)
-        .iter()
-        .any(|w| ["current", "cur", "curr", "i", "iq", "strom"].contains(&w.as_str()))
+    any_of(&words(name), "current cur curr i iq strom")
 }
 
 /// Words for encoder counts.
-const COUNTS: &[&str] = &[
-    "cnt",
-    "cnts",
-    "counts",
-    "inc",
-    "incs",
-    "increments",
-    "inkremente",
-    "ticks",
-];
+const COUNTS: &str = "cnt cnts counts inc incs increments inkremente ticks";
 
 /// Whether a name speaks of encoder counts and of nothing else.
 pub(super) fn says_counts(name: &str) -> bool {
     let words = words(name);
     let mut all = words.iter();
-    all.any(|w| COUNTS.contains(&w.as_str()) && alone(&words, w))
+    all.any(|w| among(w, COUNTS) && alone(&words, w))
 }
 
 /// Whether a name speaks of encoder counts, whatever else it says.
 pub(super) fn speaks_of_counts(name: &str) -> bool {
-    words(name).iter().any(|w| COUNTS.contains(&w.as_str()))
+    any_of(&words(name), COUNTS)
 }
 
 /// Whether a name has the number or the name of the actual position of CiA 402 (object 6064h, "Position actual value"), in counts
@@ -444,31 +287,16 @@ fn is_actual_value(name: &str, quantity: &str) -> bool {
 
 /// Whether a name speaks of an encoder.
 pub(super) fn says_encoder(name: &str) -> bool {
-    words(name)
-        .iter()
-        .any(|w| ["enc", "encoder"].contains(&w.as_str()))
+    any_of(&words(name), "enc encoder")
 }
 
 /// Which kind of motion a name speaks of.
 pub(super) fn motion(name: &str) -> Option<Motion> {
     let words = words(name);
-    let has = |list: &[&str]| words.iter().any(|w| list.contains(&w.as_str()));
-    if has(&[
-        "angle",
-        "theta",
-        "dtheta",
-        "omega",
-        "torque",
-        "trq",
-        "tau",
-        "moment",
-        "joint",
-        "winkel",
-        "drehmoment",
-    ]) {
+    let has = |list| any_of(&words, list);
+    if has("angle theta dtheta omega torque trq tau moment joint winkel drehmoment") {
         Some(Motion::Rotary)
-    } else if has(&["force", "displacement", "disp", "f", "xdot", "dx", "kraft"]) || words == ["x"]
-    {
+    } else if has("force displacement disp f xdot dx kraft") || words == ["x"] {
         Some(Motion::Linear)
     } else {
         None
@@ -521,11 +349,7 @@ fn taken_apart(word: String) -> Vec<String> {
             return Some(Vec::new());
         }
         // The longest that leaves something which can be taken apart too.
-        let mut first: Vec<&str> = GERMAN
-            .iter()
-            .copied()
-            .filter(|p| rest.starts_with(p))
-            .collect();
+        let mut first: Vec<&str> = GERMAN.split(' ').filter(|p| rest.starts_with(p)).collect();
         first.sort_by_key(|part| std::cmp::Reverse(part.len()));
         first.into_iter().find_map(|part| {
             let mut all = vec![part];

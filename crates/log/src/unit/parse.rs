@@ -306,7 +306,7 @@ fn is_symbol(c: char) -> bool {
 }
 
 fn unknown(run: &str) -> Error {
-    let near = nearest(run, symbol::COMMON.iter().copied());
+    let near = nearest(run, symbol::COMMON.split(", "));
     let allowed = if near.is_empty() {
         format!(
             "known units are s, m, rad, deg, rpm, N, A, V, kg, counts, % and similar ones; {SPELLING}"

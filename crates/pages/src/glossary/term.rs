@@ -3,7 +3,7 @@
 use stiction_report::Text;
 
 /// A term of the field, as stiction uses it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Term {
     /// The term.
     pub name: &'static str,
@@ -12,12 +12,28 @@ pub struct Term {
     /// Its unit for a linear axis, `1` for a plain number; empty where it is not a quantity.
     pub unit: &'static str,
     /// Other names.
-    pub others: &'static [&'static str],
+    pub others: Vec<&'static str>,
     /// What it is, in a sentence or two.
     pub meaning: &'static str,
 }
 
 impl Term {
+    /// The term of a row of the table; `None` of any other line.
+    pub(super) fn of_row(row: &'static str) -> Option<Self> {
+        let cells = row.strip_prefix("| **")?.strip_suffix('|')?.split('|');
+        let cells: Vec<&str> = cells.map(str::trim).collect();
+        let [name, symbol, unit, others, meaning] = cells[..] else {
+            return None;
+        };
+        Some(Self {
+            name: name.strip_suffix("**")?,
+            symbol,
+            unit,
+            others: others.split(", ").filter(|o| !o.is_empty()).collect(),
+            meaning,
+        })
+    }
+
     /// The term with symbol and unit.
     pub(super) fn head(&self) -> Text {
         let head = Text::new().bold(self.name);
@@ -31,7 +47,7 @@ impl Term {
 
     /// Whether a text in lower case has the term or another name of it as a word, in singular or plural.
     pub(super) fn is_in(&self, text: &str) -> bool {
-        let mut names = std::iter::once(&self.name).chain(self.others);
+        let mut names = std::iter::once(&self.name).chain(&self.others);
         names.any(|name| {
             let name = name.to_lowercase();
             text.match_indices(&name).any(|(at, _)| {
