@@ -73,7 +73,8 @@ fn made(environment: &Environment) -> Result<String, String> {
     };
     let arguments = ["-m", "venv", "--clear", &folder.to_string_lossy()];
     shell::run(shell::command(&base, &arguments))?;
-    let install = "-m pip install --quiet --disable-pip-version-check --no-compile --only-binary :all: -r";
+    let install =
+        "-m pip install --quiet --disable-pip-version-check --no-compile --only-binary :all: -r";
     let mut arguments: Vec<&str> = install.split_whitespace().collect();
     arguments.push(environment.requirements);
     shell::run(shell::command(&python, &arguments))?;

@@ -422,7 +422,7 @@ fn exports_have_the_cycle_of_the_log() {
         ] {
             let (code, _, err) = run(at, misplaced);
             assert_eq!(code, 2, "{err}");
-            let (_, line) = err.split_once("next: stiction export ").unwrap();
+            let (_, line) = err.rsplit_once("stiction export ").unwrap();
             assert!(
                 line.lines().next().unwrap().contains(option),
                 "{misplaced}: {err}"

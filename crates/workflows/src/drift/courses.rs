@@ -18,6 +18,9 @@ pub enum Times {
     Files,
 }
 
+/// Longest span of times that are not those of recordings: files that were copied or written one after the other, s.
+const COPIED_WITHIN: f64 = 60.0;
+
 /// Times beside those of the table, with their names.
 pub(super) const OTHERS: [(Times, &str); 2] = [(Times::Names, "names"), (Times::Files, "files")];
 
@@ -207,7 +210,9 @@ impl Courses {
 
     /// Times that every log has, where the table has none.
     pub fn other_times(&self) -> Vec<String> {
-        let moves = |span: &Option<(f64, f64)>| span.is_some_and(|(first, last)| first < last);
+        let moves = |span: &Option<(f64, f64)>| {
+            span.is_some_and(|(first, last)| last - first > COPIED_WITHIN)
+        };
         let all = OTHERS.iter().zip(&self.others);
         let of = all.filter(|(_, span)| !self.is_timed() && moves(span));
         of.map(|((_, name), _)| (*name).into()).collect()
