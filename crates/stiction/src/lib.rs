@@ -83,7 +83,7 @@
 //!
 //! fit.write(folder.join("result"))?; // result.json, model.toml, report.html, fit.csv
 //! let code = export(&fit.model(), &ExportOptions::new(Target::C, 1e-3))?; // called every millisecond
-//! code.write(folder.join("controller"))?;
+//! code.write(folder.join("controller"), false)?; // true: over whatever is there
 //! # assert!(code.written.iter().any(|name| name.ends_with(".c")), "{:?}", code.written);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
