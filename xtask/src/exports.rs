@@ -7,8 +7,8 @@ use std::fs;
 use std::io::Write;
 use std::process::Stdio;
 
-/// Which tests: modules of the tests of `stiction-export` that start other programs.
-pub const TESTS: &str = "package(stiction-export) and test(/^(c|cpp|fmu|hal|matiec|matlab|modelica|mujoco|ros2|rust)::/)";
+/// Which tests: modules of the tests of `stiction-export` that run what is exported.
+pub const TESTS: &str = "package(stiction-export) and test(/^(c|cpp|drive_table|fmu|hal|matiec|matlab|modelica|mujoco|ros2|rust|st)::/)";
 /// What they depend on.
 const COVERED: [&str; 7] = [
     "crates/export",

@@ -2,10 +2,14 @@
 
 use crate::shell::{self, Outcome, cargo};
 use crate::{exports, licences, setup, times, tools, web, wheel};
+use std::process::Command;
 use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
-/// Every target that has tests; examples and benchmarks are only checked, with the lints.
+/// What the tests need and what only has to compile: all of it passes through clippy, so that lints cost no second run of the
+/// compiler.
+const BUILD: &str = "build --workspace --all-targets";
+/// Every target that has tests.
 const TESTS: &str = "nextest run --workspace --tests --no-fail-fast";
 /// What property tests draw their cases from: the same on every run, so that a change is judged by what it changed. Other
 /// cases are drawn by `soak`.
@@ -32,7 +36,7 @@ fn checks() -> Outcome {
     // One more than there are cores: some tests wait, for LinuxCNC's own clock or for a program that is to be ended.
     let at_once = 1 + thread::available_parallelism().map_or(1, usize::from);
     let tests = format!("{TESTS} --test-threads {at_once}");
-    let mut tests = tools::command(&tools::NEXTEST, &tests)?;
+    let mut tests = linted(tools::command(&tools::NEXTEST, &tests)?);
     tests.env(SEED.0, SEED.1);
     if exports::have_passed() {
         println!(
@@ -49,7 +53,7 @@ fn checks() -> Outcome {
     joined(aside)?;
     tests?;
     // nextest runs no doctests.
-    shell::run(cargo("test --quiet --workspace --doc"))
+    shell::run(linted(cargo("test --quiet --workspace --doc")))
 }
 
 /// What a thread came to.
@@ -61,9 +65,14 @@ fn joined(aside: JoinHandle<Outcome>) -> Outcome {
 
 /// What needs the compiler alone.
 fn build() -> Outcome {
-    shell::run(cargo("clippy --workspace --all-targets -- -D warnings"))?;
-    licences::run()?;
-    // With the tests, the library of the Python package: of the same dependencies, which are built once; and the program
-    // that its tests compare it with.
-    shell::run(cargo("build --workspace --lib --bins --tests"))
+    shell::run(linted(cargo(BUILD)))?;
+    licences::run()
+}
+
+/// As `cargo clippy -- -D warnings` has it, of a command that also makes code.
+fn linted(mut command: Command) -> Command {
+    command
+        .env("RUSTC_WORKSPACE_WRAPPER", "clippy-driver")
+        .env("CLIPPY_ARGS", "-Dwarnings__CLIPPY_HACKERY__");
+    command
 }
