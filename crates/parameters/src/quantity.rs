@@ -81,122 +81,68 @@ pub enum Quantity {
     TransmittedReference,
 }
 
-/// Quantities with one fixed name, that name, their symbol and what they are in words.
-const PLAIN: [(Quantity, &str, &str, &str); 23] = [
-    (Quantity::Sigma0, "sigma0", "σ₀", "bristle stiffness"),
-    (Quantity::Sigma1, "sigma1", "σ₁", "micro-damping"),
-    (Quantity::Sigma2, "sigma2", "σ₂", "viscous friction"),
-    (
-        Quantity::QuadraticViscous,
-        "quadratic_viscous",
-        "σ₂₂",
-        "quadratic viscous friction",
-    ),
-    (Quantity::Coulomb, "coulomb", "Fc", "Coulomb friction"),
-    (Quantity::Static, "static", "Fs", "static friction"),
-    (
-        Quantity::StribeckVelocity,
-        "stribeck_velocity",
-        "vs",
-        "Stribeck velocity",
-    ),
-    (
-        Quantity::StribeckExponent,
-        "stribeck_exponent",
-        "δ",
-        "Stribeck exponent",
-    ),
-    (
-        Quantity::BreakawayRatio,
-        "breakaway_ratio",
-        "zba/zss",
-        "break-away part of the steady deflection",
-    ),
-    (
-        Quantity::Attraction,
-        "attraction",
-        "a",
-        "attraction of slip to the Stribeck curve",
-    ),
-    (Quantity::Mass, "mass", "M", "moving mass"),
-    (Quantity::Offset, "offset", "F₀", "constant force"),
-    (
-        Quantity::Delay,
-        "delay",
-        "τ",
-        "delay of the force against the motion",
-    ),
-    (
-        Quantity::CoulombLoad,
-        "coulomb_load",
-        "∂Fc/∂N",
-        "Coulomb friction per normal load",
-    ),
-    (
-        Quantity::CoulombTemperature,
-        "coulomb_temperature",
-        "∂Fc/∂T",
-        "Coulomb friction per temperature",
-    ),
-    (
-        Quantity::CoulombPosition,
-        "coulomb_position",
-        "∂Fc/∂x",
-        "Coulomb friction along the stroke",
-    ),
-    (
-        Quantity::CoulombTransmitted,
-        "coulomb_transmitted",
-        "Kt",
-        "Coulomb friction per transmitted force",
-    ),
-    (
-        Quantity::CoulombDriven,
-        "coulomb_driven",
-        "Kd",
-        "the same where the load drives, beyond that",
-    ),
-    (
-        Quantity::Sigma2Temperature,
-        "sigma2_temperature",
-        "∂σ₂/∂T",
-        "viscous friction per temperature",
-    ),
-    (
-        Quantity::LoadReference,
-        "load_reference",
-        "N₀",
-        "mean normal load",
-    ),
-    (
-        Quantity::TemperatureReference,
-        "temperature_reference",
-        "T₀",
-        "mean temperature",
-    ),
-    (
-        Quantity::PositionReference,
-        "position_reference",
-        "x₀",
-        "middle of the stroke",
-    ),
-    (
-        Quantity::TransmittedReference,
-        "transmitted_reference",
-        "τ₀",
-        "mean transmitted force",
-    ),
-];
+/// A quantity with one fixed name.
+struct Plain {
+    quantity: Quantity,
+    stem: &'static str,
+    symbol: &'static str,
+    meaning: &'static str,
+    dimension: Dimension,
+    allowed: Allowed,
+}
+
+/// A row each, in the order of tables.
+macro_rules! rows {
+    ($($quantity:ident $stem:literal $symbol:literal $meaning:literal $dimension:ident $allowed:ident)*) => {
+        &[$(Plain {
+            quantity: Quantity::$quantity,
+            stem: $stem,
+            symbol: $symbol,
+            meaning: $meaning,
+            dimension: Dimension::$dimension,
+            allowed: Allowed::$allowed,
+        }),*]
+    };
+}
+
+const PLAIN: &[Plain] = rows! {
+    Sigma0               "sigma0"                "σ₀"      "bristle stiffness"                           Stiffness             NotNegative
+    Sigma1               "sigma1"                "σ₁"      "micro-damping"                               Damping               NotNegative
+    Sigma2               "sigma2"                "σ₂"      "viscous friction"                            Damping               NotNegative
+    QuadraticViscous     "quadratic_viscous"     "σ₂₂"     "quadratic viscous friction"                  QuadraticDamping      Any
+    Coulomb              "coulomb"               "Fc"      "Coulomb friction"                            Force                 NotNegative
+    Static               "static"                "Fs"      "static friction"                             Force                 NotNegative
+    StribeckVelocity     "stribeck_velocity"     "vs"      "Stribeck velocity"                           Speed                 Positive
+    StribeckExponent     "stribeck_exponent"     "δ"       "Stribeck exponent"                           One                   Exponent
+    BreakawayRatio       "breakaway_ratio"       "zba/zss" "break-away part of the steady deflection"    One                   Share
+    Attraction           "attraction"            "a"       "attraction of slip to the Stribeck curve"    Rate                  Positive
+    Mass                 "mass"                  "M"       "moving mass"                                 Inertia               NotNegative
+    Offset               "offset"                "F₀"      "constant force"                              Force                 Any
+    Delay                "delay"                 "τ"       "delay of the force against the motion"       Time                  Delay
+    CoulombLoad          "coulomb_load"          "∂Fc/∂N"  "Coulomb friction per normal load"            ForcePerLoad          Any
+    CoulombTemperature   "coulomb_temperature"   "∂Fc/∂T"  "Coulomb friction per temperature"            ForcePerTemperature   Any
+    CoulombPosition      "coulomb_position"      "∂Fc/∂x"  "Coulomb friction along the stroke"           Stiffness             Any
+    CoulombTransmitted   "coulomb_transmitted"   "Kt"      "Coulomb friction per transmitted force"      One                   Any
+    CoulombDriven        "coulomb_driven"        "Kd"      "the same where the load drives, beyond that" One                   Any
+    Sigma2Temperature    "sigma2_temperature"    "∂σ₂/∂T"  "viscous friction per temperature"            DampingPerTemperature Any
+    LoadReference        "load_reference"        "N₀"      "mean normal load"                            Load                  Any
+    TemperatureReference "temperature_reference" "T₀"      "mean temperature"                            Temperature           Any
+    PositionReference    "position_reference"    "x₀"      "middle of the stroke"                        Length                Any
+    TransmittedReference "transmitted_reference" "τ₀"      "mean transmitted force"                      Force                 Any
+};
+
+/// Quantities that have a place of their own in tables; those beside the law follow.
+const OF_THE_LAW: usize = 13;
 
 impl Quantity {
-    fn plain(self) -> Option<&'static (Quantity, &'static str, &'static str, &'static str)> {
-        PLAIN.iter().find(|entry| entry.0 == self)
+    fn plain(self) -> Option<&'static Plain> {
+        PLAIN.iter().find(|row| row.quantity == self)
     }
 
     /// Name as written to files, without the suffix of a direction.
     pub fn stem(self) -> Cow<'static, str> {
-        if let Some(entry) = self.plain() {
-            return entry.1.into();
+        if let Some(row) = self.plain() {
+            return row.stem.into();
         }
         let part = |wave| match wave {
             Wave::Sine => "sin",
@@ -219,8 +165,8 @@ impl Quantity {
 
     /// The quantity of such a name.
     pub fn from_stem(stem: &str) -> Option<Self> {
-        if let Some(entry) = PLAIN.iter().find(|entry| entry.1 == stem) {
-            return Some(entry.0);
+        if let Some(row) = PLAIN.iter().find(|row| row.stem == stem) {
+            return Some(row.quantity);
         }
         // As it is written: no sign, no leading zero.
         let number = |text: &str| {
@@ -268,7 +214,7 @@ impl Quantity {
             Quantity::ElementForce(k) => numbered("W", k),
             _ => self
                 .plain()
-                .map_or_else(|| self.stem(), |entry| entry.2.into()),
+                .map_or_else(|| self.stem(), |row| row.symbol.into()),
         }
     }
 
@@ -285,86 +231,32 @@ impl Quantity {
             Quantity::CoulombLog(_) => "Coulomb friction of a log, less that of the first",
             Quantity::Sigma1Log(_) => "micro-damping of a log, less that of the first",
             Quantity::Sigma2Log(_) => "viscous friction of a log, less that of the first",
-            _ => self.plain().map_or("", |entry| entry.3),
+            _ => self.plain().map_or("", |row| row.meaning),
         }
     }
 
     /// What it measures.
     pub fn dimension(self) -> Dimension {
         match self {
-            Quantity::Sigma0 | Quantity::ElementStiffness(_) | Quantity::CoulombPosition => {
-                Dimension::Stiffness
-            }
-            Quantity::Sigma1
-            | Quantity::Sigma2
-            | Quantity::Sigma1Log(_)
-            | Quantity::Sigma2Log(_) => Dimension::Damping,
-            Quantity::QuadraticViscous => Dimension::QuadraticDamping,
-            Quantity::Coulomb
-            | Quantity::Static
-            | Quantity::Offset
-            | Quantity::ElementForce(_)
-            | Quantity::Gravity(_)
-            | Quantity::Cogging(..)
-            | Quantity::CoulombPitch(..)
-            | Quantity::CoulombLog(_)
-            | Quantity::TransmittedReference => Dimension::Force,
-            Quantity::StribeckVelocity => Dimension::Speed,
-            Quantity::StribeckExponent
-            | Quantity::BreakawayRatio
-            | Quantity::CoulombTransmitted
-            | Quantity::CoulombDriven => Dimension::One,
-            Quantity::Attraction => Dimension::Rate,
-            Quantity::Mass => Dimension::Inertia,
-            Quantity::Delay => Dimension::Time,
-            Quantity::ElementYield(_) | Quantity::PositionReference => Dimension::Length,
-            Quantity::CoulombLoad => Dimension::ForcePerLoad,
-            Quantity::CoulombTemperature => Dimension::ForcePerTemperature,
-            Quantity::Sigma2Temperature => Dimension::DampingPerTemperature,
-            Quantity::LoadReference => Dimension::Load,
-            Quantity::TemperatureReference => Dimension::Temperature,
+            Quantity::ElementStiffness(_) => Dimension::Stiffness,
+            Quantity::ElementYield(_) => Dimension::Length,
+            Quantity::Sigma1Log(_) | Quantity::Sigma2Log(_) => Dimension::Damping,
+            _ => self.plain().map_or(Dimension::Force, |row| row.dimension),
         }
     }
 
     /// The values that it may have.
     pub fn allowed(self) -> Allowed {
-        match self {
-            Quantity::Sigma0
-            | Quantity::Sigma1
-            | Quantity::Sigma2
-            | Quantity::Coulomb
-            | Quantity::Static
-            | Quantity::Mass
-            | Quantity::ElementStiffness(_)
-            | Quantity::ElementYield(_)
-            | Quantity::ElementForce(_) => Allowed::NotNegative,
-            Quantity::StribeckVelocity | Quantity::Attraction => Allowed::Positive,
-            Quantity::StribeckExponent => Allowed::Exponent,
-            Quantity::BreakawayRatio => Allowed::Share,
-            Quantity::Delay => Allowed::Delay,
-            _ => Allowed::Any,
+        if self.is_of_an_element() {
+            return Allowed::NotNegative;
         }
+        self.plain().map_or(Allowed::Any, |row| row.allowed)
     }
 
     /// Place in tables. What stands beside the law shares the last place and keeps the order in which it came.
     pub fn place(self) -> usize {
-        const ORDER: [Quantity; 13] = [
-            Quantity::Sigma0,
-            Quantity::Sigma1,
-            Quantity::Sigma2,
-            Quantity::QuadraticViscous,
-            Quantity::Coulomb,
-            Quantity::Static,
-            Quantity::StribeckVelocity,
-            Quantity::StribeckExponent,
-            Quantity::BreakawayRatio,
-            Quantity::Attraction,
-            Quantity::Mass,
-            Quantity::Offset,
-            Quantity::Delay,
-        ];
-        let found = ORDER.iter().position(|known| *known == self);
-        found.unwrap_or(ORDER.len())
+        let found = PLAIN.iter().position(|row| row.quantity == self);
+        found.map_or(OF_THE_LAW, |place| place.min(OF_THE_LAW))
     }
 
     /// Whether an asymmetric model may have a value for each direction of motion.

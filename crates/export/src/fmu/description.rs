@@ -101,7 +101,7 @@ fn entry(model: &Model, version: Version, reference: usize, variable: &Variable,
         }
         _ => String::new(),
     };
-    let (name, about, start) = (&variable.name, variable.about, variable.start.text());
+    let (name, about, start) = (&variable.name, &variable.about, variable.start.text());
     let head = format!(
         "name=\"{name}\" valueReference=\"{reference}\" causality=\"{causality}\" variability=\"{variability}\"{initial} \
          description=\"{}\"",

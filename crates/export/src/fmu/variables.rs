@@ -1,5 +1,12 @@
 //! The variables of an FMU: one list, from which the description and the addresses in the C text are made.
 
+/// Variables, a row each: what for, its kind, its name, what it starts with, where the C text keeps it, and what it is.
+macro_rules! variables {
+    ($($role:ident $kind:ident $name:literal $start:tt $at:literal $about:literal)*) => {
+        [$(Variable::$kind($name, Role::$role, $start, $at, $about)),*]
+    };
+}
+
 mod adaptation;
 mod law;
 mod terms;
@@ -7,6 +14,7 @@ mod terms;
 use super::unit::Unit;
 use crate::number::Literal;
 use crate::template::Fill;
+use std::borrow::Cow;
 use stiction_friction::compensator::Compensator;
 
 /// What a variable is for.
@@ -34,7 +42,7 @@ pub(super) struct Variable {
     pub name: String,
     pub role: Role,
     pub start: Start,
-    pub about: &'static str,
+    pub about: Cow<'static, str>,
     /// Where the C text keeps it, in `data_t`.
     at: String,
 }
@@ -49,7 +57,7 @@ impl Variable {
             name: name.into(),
             role,
             start: Start::Flag(start),
-            about,
+            about: about.into(),
             at: at.into(),
         }
     }
@@ -59,13 +67,13 @@ impl Variable {
         role: Role,
         (value, unit): (f64, Unit),
         at: impl Into<String>,
-        about: &'static str,
+        about: impl Into<Cow<'static, str>>,
     ) -> Self {
         Variable {
             name: name.into(),
             role,
             start: Start::Number(value, unit),
-            about,
+            about: about.into(),
             at: at.into(),
         }
     }
@@ -73,147 +81,36 @@ impl Variable {
 
 impl Variables {
     pub(super) fn of(compensator: &Compensator<f64>) -> Self {
-        let mut list = vec![
-            Variable::number(
-                "reference_velocity",
-                Role::Input,
-                (0.0, Unit::Speed),
-                "velocity",
-                "of the set point, not measured; not finite: not enabled",
-            ),
-            Variable::number(
-                "tracking_error",
-                Role::Input,
-                (0.0, Unit::Length),
-                "error",
-                "reference less measured position",
-            ),
-            Variable::flag(
-                "enable",
-                Role::Input,
-                false,
-                "enable",
-                "whether to compensate",
-            ),
-            Variable::flag(
-                "reset",
-                Role::Input,
-                false,
-                "reset",
-                "resets the state and arms the watchdog again",
-            ),
-            Variable::number(
-                "force",
-                Role::Output,
-                (0.0, Unit::Force),
-                "law.output",
-                "to be added to the force of the controller",
-            ),
-            Variable::flag(
-                "tripped",
-                Role::Output,
-                false,
-                "law.tripped",
-                "the watchdog has switched off, until a reset",
-            ),
-            Variable::flag(
-                "valid",
-                Role::Output,
-                true,
-                "law.ready",
-                "the parameters are in range; else the force is 0",
-            ),
-            Variable::flag(
-                "learned",
-                Role::Output,
-                false,
-                "law.learned",
-                "the error without compensation is known: the force may come in",
-            ),
-            Variable::number(
-                "baseline",
-                Role::Output,
-                (0.0, Unit::Length),
-                "law.baseline",
-                "rms error without compensation; 0: not known yet",
-            ),
-            Variable::number(
-                "reason",
-                Role::Output,
-                (0.0, Unit::One),
-                "reason",
-                "why the watchdog has switched off: 0 it has not; 1 larger mean square error; 2 larger peaks, again and again or for long",
-            ),
-            Variable::number(
-                "friction",
-                Role::Local,
-                (compensator.friction().offset(), Unit::Force),
-                "law.friction",
-                "force of the law",
-            ),
-        ];
+        let offset = compensator.friction().offset();
+        let mut list = Vec::from(variables! {
+            Input  number "reference_velocity" (0.0, Unit::Speed)    "velocity"     "of the set point, not measured; not finite: not enabled"
+            Input  number "tracking_error"     (0.0, Unit::Length)   "error"        "reference less measured position"
+            Input  flag   "enable"             false                 "enable"       "whether to compensate"
+            Input  flag   "reset"              false                 "reset"        "resets the state and arms the watchdog again"
+            Output number "force"              (0.0, Unit::Force)    "law.output"   "to be added to the force of the controller"
+            Output flag   "tripped"            false                 "law.tripped"  "the watchdog has switched off, until a reset"
+            Output flag   "valid"              true                  "law.ready"    "the parameters are in range; else the force is 0"
+            Output flag   "learned"            false                 "law.learned"  "the error without compensation is known: the force may come in"
+            Output number "baseline"           (0.0, Unit::Length)   "law.baseline" "rms error without compensation; 0: not known yet"
+            Output number "reason"             (0.0, Unit::One)      "reason"       "why the watchdog has switched off: 0 it has not; 1 larger mean square error; 2 larger peaks, again and again or for long"
+            Local  number "friction"           (offset, Unit::Force) "law.friction" "force of the law"
+        });
         list.extend(law::state(compensator.friction()));
         let s = compensator.settings();
         let (window, ratio) = s.watchdog.map_or((0.0, 1.0), |w| (w.window, w.ratio));
-        list.extend([
-            Variable::number(
-                "gain",
-                Role::Tunable,
-                (s.gain, Unit::One),
-                "params.gain",
-                "fraction of the friction that is compensated, 0 to 1",
-            ),
-            Variable::number(
-                "dead_zone",
-                Role::Tunable,
-                (s.dead_zone, Unit::Speed),
-                "params.dead_zone",
-                "speeds up to this count as standstill",
-            ),
-            Variable::number(
-                "limit",
-                Role::Tunable,
-                (s.limit, Unit::Force),
-                "params.limit",
-                "largest force",
-            ),
-            Variable::number(
-                "slew",
-                Role::Tunable,
-                (s.slew, Unit::Slew),
-                "params.slew",
-                "fastest change of the force",
-            ),
-            Variable::number(
-                "ramp",
-                Role::Tunable,
-                (s.ramp, Unit::Time),
-                "params.ramp",
-                "time in which the compensation goes from 0 to its full value",
-            ),
-            Variable::number(
-                "watchdog_window",
-                Role::Tunable,
-                (window, Unit::Time),
-                "params.watchdog_window",
-                "moving time that the watchdog compares, a cycle of the motion; 0: no watchdog",
-            ),
-            Variable::number(
-                "watchdog_ratio",
-                Role::Tunable,
-                (ratio, Unit::One),
-                "params.watchdog_ratio",
-                "largest allowed rms error with compensation over that without",
-            ),
-        ]);
+        list.extend(variables! {
+            Tunable number "gain"            (s.gain, Unit::One)        "params.gain"            "fraction of the friction that is compensated, 0 to 1"
+            Tunable number "dead_zone"       (s.dead_zone, Unit::Speed) "params.dead_zone"       "speeds up to this count as standstill"
+            Tunable number "limit"           (s.limit, Unit::Force)     "params.limit"           "largest force"
+            Tunable number "slew"            (s.slew, Unit::Slew)       "params.slew"            "fastest change of the force"
+            Tunable number "ramp"            (s.ramp, Unit::Time)       "params.ramp"            "time in which the compensation goes from 0 to its full value"
+            Tunable number "watchdog_window" (window, Unit::Time)       "params.watchdog_window" "moving time that the watchdog compares, a cycle of the motion; 0: no watchdog"
+            Tunable number "watchdog_ratio"  (ratio, Unit::One)         "params.watchdog_ratio"  "largest allowed rms error with compensation over that without"
+        });
         list.extend(law::parameters(compensator.friction()));
-        list.push(Variable::number(
-            "offset",
-            Role::Fixed,
-            (compensator.friction().offset(), Unit::Force),
-            "params.offset",
-            "force at rest",
-        ));
+        list.extend(variables! {
+            Fixed number "offset" (offset, Unit::Force) "params.offset" "force at rest"
+        });
         if let Some(adaptation) = s.adaptation {
             adaptation::insert(&mut list, adaptation);
         }
@@ -249,6 +146,12 @@ impl Variables {
             .set("fixed_from", first(&|v| v.role == Role::Fixed))
             .set("end", (self.0.len() + 1).to_string());
     }
+}
+
+/// After the last of its role.
+fn add(list: &mut Vec<Variable>, variable: Variable) {
+    let last = list.iter().rposition(|v| v.role == variable.role);
+    list.insert(last.map_or(0, |i| i + 1), variable);
 }
 
 impl Start {

@@ -7,13 +7,9 @@ use stiction_friction::{LuGre, Shape, Stribeck};
 /// What the law remembers between two samples beside its force.
 pub(super) fn state(friction: &Friction<f64>) -> Vec<Variable> {
     match friction {
-        Friction::LuGre(_) | Friction::ElastoPlastic(_) => vec![Variable::number(
-            "deflection",
-            Role::Local,
-            (0.0, Unit::Length),
-            "law.deflection",
-            "of the bristles",
-        )],
+        Friction::LuGre(_) | Friction::ElastoPlastic(_) => Vec::from(variables! {
+            Local number "deflection" (0.0, Unit::Length) "law.deflection" "of the bristles"
+        }),
         Friction::Gms(law) => {
             let elements = 0..law.elements().len();
             let list = elements.map(|k| {
@@ -49,11 +45,13 @@ pub(super) fn parameters(friction: &Friction<f64>) -> Vec<Variable> {
         Friction::ElastoPlastic(law) => {
             let mut list = bristle(law.bristle());
             let about = "deflection up to which bristles are elastic, over the steady one, above 0 and below 1";
+            let ratio = (law.breakaway(), Unit::One);
+            let at = "params.breakaway";
             list.push(Variable::number(
                 "breakaway_ratio",
                 Role::Fixed,
-                (law.breakaway(), Unit::One),
-                "params.breakaway",
+                ratio,
+                at,
                 about,
             ));
             list
@@ -101,44 +99,26 @@ fn bristle(law: &LuGre<f64>) -> Vec<Variable> {
 /// A direction of motion, as names have it and as the C text does.
 const SIDES: [&str; 2] = ["pos", "neg"];
 
-/// Of a parameter that each direction has: its name, the field of the C text, its unit, and what it is for each.
-type Field = (&'static str, &'static str, Unit, [&'static str; 2]);
+/// Of a parameter that each direction has: its name, the field of the C text, its unit, and its symbol.
+type Field = (&'static str, &'static str, Unit, &'static str);
 
-const COULOMB: Field = (
-    "coulomb",
-    "coulomb",
-    Unit::Force,
-    ["Fc for positive velocity", "Fc for negative velocity"],
-);
-const STATIC: Field = (
-    "static",
-    "static_friction",
-    Unit::Force,
-    ["Fs for positive velocity", "Fs for negative velocity"],
-);
-const VELOCITY: Field = (
-    "stribeck_velocity",
-    "stribeck_velocity",
-    Unit::Speed,
-    ["vs for positive velocity", "vs for negative velocity"],
-);
-const VISCOUS: Field = (
-    "viscous",
-    "viscous",
-    Unit::Damping,
-    [
-        "sigma2 for positive velocity",
-        "sigma2 for negative velocity",
-    ],
-);
+const COULOMB: Field = ("coulomb", "coulomb", Unit::Force, "Fc");
+const STATIC: Field = ("static", "static_friction", Unit::Force, "Fs");
+const VELOCITY: Field = ("stribeck_velocity", "stribeck_velocity", Unit::Speed, "vs");
+const VISCOUS: Field = ("viscous", "viscous", Unit::Damping, "sigma2");
 
-fn fixed(side: &str, (name, field, unit, about): Field, value: f64) -> Variable {
+fn fixed(side: &str, (name, field, unit, symbol): Field, value: f64) -> Variable {
+    let way = if side == SIDES[0] {
+        "positive"
+    } else {
+        "negative"
+    };
     Variable::number(
         format!("{name}_{side}"),
         Role::Fixed,
         (value, unit),
         format!("params.{side}.{field}"),
-        about[usize::from(side == SIDES[1])],
+        format!("{symbol} for {way} velocity"),
     )
 }
 
@@ -157,13 +137,9 @@ fn curve(curve: &Stribeck<f64>) -> Vec<Variable> {
         list.push(fixed(name, VISCOUS, side.viscous));
     }
     if let Shape::Power(exponent) = curve.shape() {
-        list.push(Variable::number(
-            "stribeck_exponent",
-            Role::Fixed,
-            (exponent, Unit::One),
-            "params.exponent",
-            "of the Stribeck curve",
-        ));
+        list.extend(variables! {
+            Fixed number "stribeck_exponent" (exponent, Unit::One) "params.exponent" "of the Stribeck curve"
+        });
     }
     list
 }

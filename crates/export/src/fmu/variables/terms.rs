@@ -1,6 +1,6 @@
 //! The variables of what friction depends on, and of what is fed forward beside it.
 
-use super::{Role, Unit, Variable};
+use super::{Role, Unit, Variable, add};
 use crate::terms::{self, Extra};
 use stiction_friction::compensator::Terms;
 
@@ -47,10 +47,4 @@ pub(super) fn insert(list: &mut Vec<Variable>, terms: &Terms<f64>) {
             Variable::number(name, Role::Output, (0.0, Unit::Force), at, about),
         );
     }
-}
-
-/// After the last of its role.
-fn add(list: &mut Vec<Variable>, variable: Variable) {
-    let last = list.iter().rposition(|v| v.role == variable.role);
-    list.insert(last.map_or(0, |i| i + 1), variable);
 }
