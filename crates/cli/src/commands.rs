@@ -117,16 +117,8 @@ fn text(text: &str, common: &Common) -> Result<Exit, Error> {
 
 /// The law under the name that it has on the command line; none where the data choose it.
 pub fn law(typed: arguments::Law) -> Option<LawKind> {
-    match typed {
-        arguments::Law::Auto => None,
-        arguments::Law::CoulombViscous => Some(LawKind::CoulombViscous),
-        arguments::Law::Stribeck => Some(LawKind::Stribeck),
-        arguments::Law::Dahl => Some(LawKind::Dahl),
-        arguments::Law::Lugre => Some(LawKind::LuGre),
-        arguments::Law::ElastoPlastic => Some(LawKind::ElastoPlastic),
-        arguments::Law::MaxwellSlip => Some(LawKind::MaxwellSlip),
-        arguments::Law::Gms => Some(LawKind::Gms),
-    }
+    let name = typed.to_possible_value()?;
+    LawKind::from_name(name.get_name())
 }
 
 /// The method under the name that it has on the command line.

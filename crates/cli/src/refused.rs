@@ -6,6 +6,7 @@ use crate::large;
 use crate::next::after;
 use crate::output;
 use crate::wording;
+use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use stiction::commands::Settled;
@@ -49,71 +50,32 @@ pub fn next(error: &Error, command: &Command) -> Option<String> {
     if let Error::File(FileError::Runs { .. }) = error {
         return Some(large::anew());
     }
-    if let Command::Identify(identify) = command
-        && error.code() == Code::TooFewSamples
-    {
-        return more_samples(error, identify);
-    }
-    if let Command::Identify(identify) = command
-        && matches!(error.code(), Code::NoMotion | Code::NoForce)
-    {
-        let axis = identify.axis.iter();
-        let axis = axis.map(|file| format!(" --axis {}", typed(file)));
-        let log = identify.logs.first();
-        let log = log.map_or(String::new(), |log| format!(" {}", typed(log)));
-        let rough = identify.axis.iter().find(|file| {
-            error.code() == Code::NoMotion
-                && Axis::read(file).is_ok_and(|axis| axis.mapping.resolution.is_some())
-        });
-        let rough = rough.map(|file| {
-            format!(
-                "leave resolution out of [log] of {} unless it is one encoder count: what moves by less does not move; ",
-                typed(file)
-            )
-        });
-        return Some(after(
-            &format!(
-                "{}what was read as position and force:",
-                rough.unwrap_or_default()
-            ),
-            &format!("stiction check{log}{}", axis.collect::<String>()),
-        ));
-    }
-    if let Command::Identify(identify) = command
-        && error.code() == Code::BadRecord
-    {
-        let log = faulty(&identify.logs, error);
-        return log.map(|log| {
-            looked_at(
-                std::slice::from_ref(log),
-                identify,
-                "which channels it has (logs that are fitted together have the same):",
-            )
-        });
-    }
-    if let Command::Identify(identify) = command
-        && error.code() == Code::Usage
-        && law(identify.law).is_some_and(LawKind::needs_no_search)
-        && is_search(identify.method)
-    {
-        return Some(again(identify, "", &identify.out));
-    }
-    if let Command::Identify(identify) = command
-        && error.code() == Code::NoStep
-    {
-        return Some(shown(
-            identify,
-            "how the force runs, and what else the log is good for:",
-        ));
-    }
-    if let Command::Identify(identify) = command
-        && error.code() == Code::NoBreakAway
-    {
-        return Some(looked_at(
-            &identify.break_away,
-            identify,
-            "what to record instead is in docs/procedures.md; what the log is good for:",
-        ));
+    if let Command::Identify(identify) = command {
+        match error.code() {
+            Code::TooFewSamples => return more_samples(error, identify),
+            Code::NoMotion | Code::NoForce => return Some(still(error, identify)),
+            Code::BadRecord => {
+                let log = std::slice::from_ref(faulty(&identify.logs, error)?);
+                let what = "which channels it has (logs that are fitted together have the same):";
+                return Some(looked_at(log, identify, what));
+            }
+            Code::Usage
+                if law(identify.law).is_some_and(LawKind::needs_no_search)
+                    && is_search(identify.method) =>
+            {
+                return Some(again(identify, "", &identify.out));
+            }
+            Code::NoStep => {
+                let what = "how the force runs, and what else the log is good for:";
+                return Some(looked_at(&identify.logs, identify, what));
+            }
+            Code::NoBreakAway => {
+                let what =
+                    "what to record instead is in docs/procedures.md; what the log is good for:";
+                return Some(looked_at(&identify.break_away, identify, what));
+            }
+            _ => {}
+        }
     }
     if let Command::Check(check) = command
         && let (Some(file), Some(log)) = (&check.init, check.logs.first())
@@ -235,10 +197,6 @@ fn axis_is_no_way_out(error: &Error) -> bool {
 /// What leads on from a text whose rows cannot be read: the line of the axis file that says how, else the same again once the
 /// file is mended.
 fn unread(error: &stiction::commands::LogError, logs: &[PathBuf], axis: Option<&Path>) -> String {
-    let mut check = String::from("stiction check");
-    for log in logs {
-        check.push_str(&format!(" {}", typed(log)));
-    }
     if let Some(settled) = error.settled_by_line() {
         let file = axis.map_or_else(
             || {
@@ -253,13 +211,10 @@ fn unread(error: &stiction::commands::LogError, logs: &[PathBuf], axis: Option<&
         };
         return after(
             &format!("with {line} in {file}:"),
-            &format!("{check} --axis {file}"),
+            &format!("{} --axis {file}", check(logs, None)),
         );
     }
-    if let Some(axis) = axis {
-        check.push_str(&format!(" --axis {}", typed(axis)));
-    }
-    after("once the file is mended:", &check)
+    after("once the file is mended:", &check(logs, axis))
 }
 
 /// The log that an error begins with, and else the first.
@@ -319,28 +274,38 @@ fn more_samples(error: &Error, identify: &arguments::Identify) -> Option<String>
     // A simulation drops the stretches between gaps that are too short, as filters do.
     let is_long = losses.left_to_simulate() >= ENOUGH_TO_SIMULATE.max(needed);
     simulated(identify).filter(|_| is_long).or_else(|| {
-        Some(shown(
-            identify,
-            "what the log shows, and what motion to record instead:",
-        ))
+        let what = "what the log shows, and what motion to record instead:";
+        Some(looked_at(&identify.logs, identify, what))
     })
 }
 
-/// The command that shows what the logs hold, and what for.
-fn shown(identify: &arguments::Identify, what: &str) -> String {
-    looked_at(&identify.logs, identify, what)
+/// The command that shows what logs hold, and what for.
+fn looked_at(logs: &[PathBuf], identify: &arguments::Identify, what: &str) -> String {
+    after(what, &check(logs, identify.axis.as_deref()))
 }
 
-/// The same of some of its logs.
-fn looked_at(logs: &[PathBuf], identify: &arguments::Identify, what: &str) -> String {
-    let mut check = String::from("stiction check");
-    for log in logs {
-        check.push_str(&format!(" {}", typed(log)));
-    }
-    if let Some(axis) = &identify.axis {
-        check.push_str(&format!(" --axis {}", typed(axis)));
-    }
-    after(what, &check)
+/// What to look at where nothing moves, or nothing is pushed.
+fn still(error: &Error, identify: &arguments::Identify) -> String {
+    let rough = identify.axis.as_deref().filter(|file| {
+        error.code() == Code::NoMotion
+            && Axis::read(file).is_ok_and(|axis| axis.mapping.resolution.is_some())
+    });
+    let rough = rough.map_or(String::new(), |file| {
+        format!(
+            "leave resolution out of [log] of {} unless it is one encoder count: what moves by less does not move; ",
+            typed(file)
+        )
+    });
+    let first = &identify.logs[..identify.logs.len().min(1)];
+    let what = format!("{rough}what was read as position and force:");
+    looked_at(first, identify, &what)
+}
+
+/// The command that looks at logs.
+fn check(logs: &[PathBuf], axis: Option<&Path>) -> String {
+    let logs = logs.iter().map(|log| format!(" {}", typed(log)));
+    let axis = axis.map(|file| format!(" --axis {}", typed(file)));
+    format!("stiction check{}", logs.chain(axis).collect::<String>())
 }
 
 /// The same identification by simulation, which filters nothing and needs fewer samples; for a law that can be simulated.
@@ -357,17 +322,10 @@ fn simulated(identify: &arguments::Identify) -> Option<String> {
 
 /// The same identification by another method, given as an option.
 fn again(identify: &arguments::Identify, method: &str, dir: &Path) -> String {
-    let law = match identify.law {
-        // By simulation auto is LuGre.
-        arguments::Law::Auto => "",
-        arguments::Law::Lugre => " --law lugre",
-        arguments::Law::CoulombViscous => " --law coulomb-viscous",
-        arguments::Law::Stribeck => " --law stribeck",
-        arguments::Law::Dahl => " --law dahl",
-        arguments::Law::MaxwellSlip => " --law maxwell-slip",
-        arguments::Law::Gms => " --law gms",
-        arguments::Law::ElastoPlastic => " --law elasto-plastic",
-    };
+    // By simulation auto is LuGre.
+    let law = Some(identify.law).filter(|law| *law != arguments::Law::Auto);
+    let law = law.and_then(|law| law.to_possible_value());
+    let law = law.map_or(String::new(), |law| format!(" --law {}", law.get_name()));
     let mut out = String::from("next: stiction identify");
     let files = |out: &mut String, paths: &[PathBuf]| {
         for path in paths {
@@ -378,7 +336,7 @@ fn again(identify: &arguments::Identify, method: &str, dir: &Path) -> String {
     if let Some(axis) = &identify.axis {
         out.push_str(&format!(" --axis {}", typed(axis)));
     }
-    out.push_str(law);
+    out.push_str(&law);
     if identify.asymmetric {
         out.push_str(" --asymmetric");
     }

@@ -325,8 +325,7 @@ impl Divisions {
         let Some(found) = coupling::sought(self, objective, terms, at, residual) else {
             return misfit;
         };
-        let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Acceleration, residual));
-        misfit.count(found.share, residual);
+        let mut misfit = self.counted(misfit, Divided::Acceleration, found.share, residual);
         misfit.coupling = Some(found).filter(Coupling::is_sure);
         Some(misfit)
     }
@@ -340,10 +339,8 @@ impl Divisions {
         at: &Evaluation,
         residual: &[f64],
     ) -> Option<Misfit> {
-        let least = match misfit.as_ref().map(|misfit| (misfit.cause(), misfit.share)) {
-            None | Some((None, _)) => 0.0,
-            Some((Some(Cause::Shape), share)) => clocks::PART_OF_MISFIT * share,
-            Some((Some(_), _)) => return misfit,
+        let Some(least) = least_beside(misfit.as_ref(), clocks::PART_OF_MISFIT) else {
+            return misfit;
         };
         // Motion one way and at one speed has no instant at which a delay shows, and two show no course of it.
         if !self.measures.is_long() || self.measures.reversals() < clocks::FEWEST_REVERSALS {
@@ -354,10 +351,22 @@ impl Divisions {
         let Some(found) = found.filter(|found| found.share >= least) else {
             return misfit;
         };
-        let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::AfterReversals, residual));
-        misfit.count(found.share, residual);
+        let mut misfit = self.counted(misfit, Divided::AfterReversals, found.share, residual);
         misfit.clocks = Some(found);
         Some(misfit)
+    }
+
+    /// The misfit, or one that nothing has shown yet, of which a cause explains so much.
+    fn counted(
+        &self,
+        misfit: Option<Misfit>,
+        divided: Divided,
+        share: f64,
+        residual: &[f64],
+    ) -> Misfit {
+        let mut misfit = misfit.unwrap_or_else(|| self.unseen(divided, residual));
+        misfit.count(share, residual);
+        misfit
     }
 
     /// The misfit with dynamics between force and motion where they show surely. They are looked for where the misfit has no other cause
@@ -368,16 +377,13 @@ impl Divisions {
         found: Option<Dynamics>,
         residual: &[f64],
     ) -> Option<Misfit> {
-        let least = match misfit.as_ref().map(|misfit| (misfit.cause(), misfit.share)) {
-            None | Some((None, _)) => 0.0,
-            Some((Some(Cause::Shape), share)) => dynamics::PART_OF_MISFIT * share,
-            Some((Some(_), _)) => return misfit,
+        let Some(least) = least_beside(misfit.as_ref(), dynamics::PART_OF_MISFIT) else {
+            return misfit;
         };
         let Some(found) = found.filter(|found| found.is_sure() && found.share >= least) else {
             return misfit;
         };
-        let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Acceleration, residual));
-        misfit.count(found.share, residual);
+        let mut misfit = self.counted(misfit, Divided::Acceleration, found.share, residual);
         misfit.dynamics = Some(found);
         Some(misfit)
     }
@@ -397,8 +403,7 @@ impl Divisions {
         let Some(found) = limit::sought(objective.record(), at, residual) else {
             return misfit;
         };
-        let mut misfit = misfit.unwrap_or_else(|| self.unseen(Divided::Acceleration, residual));
-        misfit.count(found.share, residual);
+        let mut misfit = self.counted(misfit, Divided::Acceleration, found.share, residual);
         misfit.limit = Some(found);
         Some(misfit)
     }
@@ -490,6 +495,16 @@ impl Misfit {
     /// `J^T J` that is given.
     pub(crate) fn spread(&self, inverse: &DMatrix<f64>, samples: usize) -> DMatrix<f64> {
         inverse * (self.rms * self.rms * samples as f64 / WAYS)
+    }
+}
+
+/// What another cause has to explain beside a misfit: nothing where that has none, a part of it where its cause is the shape of the
+/// law; with any other cause none is looked for.
+fn least_beside(misfit: Option<&Misfit>, part: f64) -> Option<f64> {
+    match misfit.map(|misfit| (misfit.cause(), misfit.share)) {
+        None | Some((None, _)) => Some(0.0),
+        Some((Some(Cause::Shape), share)) => Some(part * share),
+        Some((Some(_), _)) => None,
     }
 }
 
