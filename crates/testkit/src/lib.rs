@@ -40,6 +40,12 @@ pub fn workspace() -> PathBuf {
     here.ancestors().nth(2).unwrap_or(here).to_path_buf()
 }
 
+/// The first cases of a table where the gate runs, and all of them in the soak, which sets `STICTION_SOAK`.
+pub fn gate<T>(first: usize, all: impl IntoIterator<Item = T>) -> impl Iterator<Item = T> {
+    let some = std::env::var_os("STICTION_SOAK").is_none();
+    all.into_iter().take(if some { first } else { usize::MAX })
+}
+
 /// The folder of measured recordings: `STICTION_DATA`, else `../shared/data` beside the workspace.
 ///
 /// Where there is none, a test has to say so and skip; with `CI=true` their absence is a

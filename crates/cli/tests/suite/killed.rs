@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
+use stiction_testkit::gate;
 use tempfile::TempDir;
 
 /// Every file of a folder, by its path in it.
@@ -200,7 +201,7 @@ fn cases() -> [Case; 3] {
 #[test]
 fn at_every_change_of_a_folder() {
     let bench = Bench::new();
-    for case in cases() {
+    for case in gate(1, cases()) {
         let [old, new] = [bench.whole(&case, 0), bench.whole(&case, 1)];
         assert_ne!(old.0, new.0, "{:?}", case.arguments);
         let mut kills = 0;

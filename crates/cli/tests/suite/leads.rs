@@ -129,12 +129,14 @@ fn of_an_axis_as_assumed() {
 }
 
 #[test]
+#[ignore = "soak: other causes lead on beside it"]
 fn of_maxwell_slip() {
     leads_to_an_end(Machine::joint(1), World::MaxwellSlip, Motion::Sine);
 }
 
 /// The cure of the shape has a static friction that the log never shows, so that it is held back.
 #[test]
+#[ignore = "soak: other causes lead on beside it"]
 fn of_a_cure_that_is_held_back() {
     leads_to_an_end(Machine::stage(1), World::MaxwellSlip, Motion::Sine);
 }

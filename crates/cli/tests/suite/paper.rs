@@ -25,6 +25,7 @@ fn follow(dir: &Path, skips: &str) {
 }
 
 #[test]
+#[ignore = "soak: a third of a minute"]
 fn every_command_of_the_page() {
     let dir = tempfile::tempdir().unwrap();
     follow(dir.path(), "reproduce");

@@ -225,6 +225,7 @@ fn of_the_other_commands() {
 
 /// What an identification writes of sizes that no machine has is read by the commands that follow.
 #[test]
+#[ignore = "soak: identifications beside it"]
 fn of_units_that_are_wrong_by_many_powers_of_ten() {
     let folder = folder();
     let sizes = [[1.0, 1e10], [1e-9, 1.0], [1e12, 1.0], [1.0, 1e-9]];

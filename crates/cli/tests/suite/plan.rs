@@ -57,7 +57,7 @@ fn rows(folder: &Path, file: &str) -> Vec<[f64; 4]> {
 fn a_plan_is_written_with_set_points_within_the_limits_and_the_same_on_any_thread_count() {
     let folder = folder(AXIS);
     let at = folder.path();
-    let command = ["plan", "axis.toml", "--time", "4s", "--out"];
+    let command = ["plan", "axis.toml", "--time", "2s", "--out"];
     let with = |out: &str, threads: &str| {
         let mut all = command.to_vec();
         all.extend([out, "--threads", threads]);
@@ -74,7 +74,7 @@ fn a_plan_is_written_with_set_points_within_the_limits_and_the_same_on_any_threa
     let [first, last] = [rows[0], rows[rows.len() - 1]];
     assert_eq!(first, [0.0; 4]);
     assert_eq!(last[1..], [0.0; 3]);
-    assert!(last[0] > 2.0 && last[0] <= 4.0 + 2.1e-3, "{last:?}");
+    assert!(last[0] > 1.0 && last[0] <= 2.0 + 2.1e-3, "{last:?}");
     for [_, x, v, a] in &rows {
         assert!((-0.0175..=0.0275).contains(x) && v.abs() <= 0.1 && a.abs() <= 2.0);
     }
@@ -362,6 +362,7 @@ fn a_plan_for_elements_expects_an_interval_of_each() {
 
 /// A model says more than the nameplate: the axes drawn are nearer to it, and what is expected is less.
 #[test]
+#[ignore = "soak: the Python package plans for a model too"]
 fn a_plan_for_a_model_expects_less_than_one_for_the_nameplate() {
     let folder = folder(AXIS);
     let at = folder.path();
@@ -782,6 +783,7 @@ fn what_a_plan_leaves_out_is_said() {
 
 /// Terms that are planned for have an expected interval, which a wish may be about and a log is held against.
 #[test]
+#[ignore = "soak: several plans"]
 fn terms_are_expected_wanted_and_compared() {
     let folder = with_terms("cogging = [\"10 mm\"]\nquadratic_viscous = true\n");
     let at = folder.path();
@@ -888,6 +890,7 @@ fn asymmetric_model() -> String {
 
 /// Parameters of each direction, asked for or those of a model, and the command that identifies them.
 #[test]
+#[ignore = "soak: the Python package plans for each direction too"]
 fn a_plan_for_each_direction() {
     let folder = folder(AXIS);
     let at = folder.path();

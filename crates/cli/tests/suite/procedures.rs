@@ -4,6 +4,7 @@ use crate::page::run;
 
 /// Every command that the demo names does what it says, in the order named.
 #[test]
+#[ignore = "soak: every command of a page"]
 fn the_commands_of_the_demo() {
     let dir = tempfile::tempdir().unwrap();
     let (code, out, err) = run(dir.path(), "demo --procedures --out demo");

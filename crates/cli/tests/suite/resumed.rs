@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
+use stiction_testkit::gate;
 use tempfile::TempDir;
 
 /// Paths, contours, passes of learning, a load that is looked for, corners and a sweep.
@@ -110,7 +111,7 @@ impl Bench {
     fn killed_often(&self, whole: &[&str], again: &[&str], takes: Duration) -> usize {
         let mut kills = 0;
         let mut moment = 0.37_f64;
-        for k in 0..12 {
+        for k in gate(4, 0..12) {
             // As good as random, and the same each time: the golden section.
             moment = (moment + 0.618_034) % 1.0;
             let arguments = if k == 0 { whole } else { again };

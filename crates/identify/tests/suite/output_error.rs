@@ -18,6 +18,7 @@ use stiction_servo::cascade::{Cascade, CascadeState};
 use stiction_servo::encoder::Encoder;
 use stiction_servo::path::Reference;
 use stiction_servo::plant::{Load, Motion, Plant};
+use stiction_testkit::gate;
 
 const FINE: usize = 20;
 const MASS: f64 = 10.0;

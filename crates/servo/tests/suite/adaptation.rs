@@ -376,7 +376,7 @@ fn levels_that_change_are_found(cases: std::ops::Range<u64>) {
 
 #[test]
 fn levels_that_change() {
-    levels_that_change_are_found(0..40);
+    levels_that_change_are_found(0..20);
 }
 
 #[test]

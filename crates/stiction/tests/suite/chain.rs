@@ -174,6 +174,7 @@ fn compensated<L: Held<f64>>(law: L, kind: LawKind, least: f64) {
 }
 
 #[test]
+#[ignore = "soak: LuGre beside it"]
 fn an_elasto_plastic_axis_is_compensated_by_its_law() {
     let bristle = known::find("motor").unwrap().capped_law();
     let law = ElastoPlastic::new(bristle, 0.7).unwrap();
@@ -181,6 +182,7 @@ fn an_elasto_plastic_axis_is_compensated_by_its_law() {
 }
 
 #[test]
+#[ignore = "soak: LuGre beside it"]
 fn a_gms_axis_is_compensated_by_its_law() {
     let curve = *known::find("motor").unwrap().law.curve();
     let element = |stiffness, share| Element { stiffness, share };

@@ -2,37 +2,25 @@
 
 use crate::common::identified::identified;
 use stiction::{Axis, Options};
+use stiction_testkit::gate;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
 
 const SEED: u64 = 1;
-
-/// Axis, motion, world, and by how much what is stated differs.
-type Case = (&'static str, Motion, World, f64);
 
 /// A stated mass that is not the true one is named, with the true one inside of what is said, and nothing else is blamed for the inertia
 /// that is missing or too much; a true one is not, whatever else is wrong.
 #[test]
 fn a_wrong_mass_in_the_axis_file_is_named() {
-    wrong_masses_are_named(&[
+    let cases = [
         ("stage", Motion::Commissioning, World::Faithful, 0.5),
         ("joint", Motion::Sine, World::Faithful, 2.0),
         ("screw", Motion::Commissioning, World::Filtered(3e-3), 1.0),
         ("joint", Motion::Commissioning, World::Faithful, 1.0),
-    ]);
-}
-
-#[test]
-#[ignore = "soak: further axes and worlds"]
-fn a_wrong_mass_is_named_in_other_worlds() {
-    wrong_masses_are_named(&[
         ("screw", Motion::Trapezoid, World::Faithful, 0.5),
         ("joint", Motion::Trapezoid, World::Faithful, 0.8),
         ("stage", Motion::Sine, World::ResonanceAtMotor, 1.0),
         ("joint", Motion::Trapezoid, World::Late(10), 1.0),
-    ]);
-}
-
-fn wrong_masses_are_named(cases: &[Case]) {
+    ];
     let others = [
         "resonance",
         "backlash",
@@ -42,7 +30,7 @@ fn wrong_masses_are_named(cases: &[Case]) {
         "motion-late",
         "delay-out-of-range",
     ];
-    for &(name, motion, world, factor) in cases {
+    for (name, motion, world, factor) in gate(2, cases) {
         let mut machines = Machine::all(SEED).into_iter();
         let machine = machines.find(|(own, _)| *own == name).unwrap().1;
         let unit = if machine.kind == "rotary" {
@@ -84,18 +72,12 @@ fn wrong_masses_are_named(cases: &[Case]) {
 /// A stated delay that is not the true one is named, with the true one near what is said; a true one is not, whatever else is wrong.
 #[test]
 fn a_wrong_delay_in_the_axis_file_is_named() {
-    wrong_delays_are_named(&[
+    // Each with the samples by which the stated delay is beside the true one.
+    let cases = [
         ("stage", Motion::Commissioning, World::Faithful, 4.0),
         ("screw", Motion::Commissioning, World::Late(1), -1.0),
         ("joint", Motion::Commissioning, World::Faithful, 0.0),
         ("screw", Motion::Commissioning, World::Backlash, 0.0),
-    ]);
-}
-
-#[test]
-#[ignore = "soak: further axes and worlds"]
-fn a_wrong_delay_is_named_in_other_worlds() {
-    wrong_delays_are_named(&[
         ("stage", Motion::Trapezoid, World::Faithful, -2.0),
         ("screw", Motion::Trapezoid, World::Faithful, 2.0),
         ("joint", Motion::Commissioning, World::Faithful, 1.0),
@@ -104,12 +86,8 @@ fn a_wrong_delay_is_named_in_other_worlds() {
         ("stage", Motion::Sine, World::ResonanceAtMotor, 0.0),
         ("joint", Motion::Commissioning, World::MaxwellSlip, 0.0),
         ("screw", Motion::Trapezoid, World::Exponent, 0.0),
-    ]);
-}
-
-/// Each with the samples by which the stated delay is beside the true one.
-fn wrong_delays_are_named(cases: &[Case]) {
-    for &(name, motion, world, beside) in cases {
+    ];
+    for (name, motion, world, beside) in gate(2, cases) {
         let mut machines = Machine::all(SEED).into_iter();
         let machine = machines.find(|(own, _)| *own == name).unwrap().1;
         let log = record(&machine, motion, world, SEED);
@@ -147,24 +125,14 @@ fn wrong_delays_are_named(cases: &[Case]) {
 /// A stated Stribeck exponent that is not the true one is named with the true one; a true one is not.
 #[test]
 fn a_wrong_exponent_in_the_axis_file_is_named() {
-    wrong_exponents_are_named(&[
+    let cases = [
         ("screw", Motion::Commissioning, World::Faithful, 4.0),
         ("joint", Motion::Commissioning, World::Faithful, 2.0),
-    ]);
-}
-
-#[test]
-#[ignore = "soak: further axes"]
-fn a_wrong_exponent_is_named_on_other_axes() {
-    wrong_exponents_are_named(&[
         ("stage", Motion::Commissioning, World::Faithful, 10.0),
         ("joint", Motion::Commissioning, World::Faithful, 1.0),
         ("stage", Motion::Trapezoid, World::Faithful, 2.0),
-    ]);
-}
-
-fn wrong_exponents_are_named(cases: &[Case]) {
-    for &(name, motion, world, stated) in cases {
+    ];
+    for (name, motion, world, stated) in gate(2, cases) {
         let mut machines = Machine::all(SEED).into_iter();
         let machine = machines.find(|(own, _)| *own == name).unwrap().1;
         let truth = 2.0;

@@ -6,6 +6,7 @@ use crate::common::identified::identified;
 use rayon::prelude::*;
 use stiction::commands::check::{Finding, check};
 use stiction::{Axis, Fit, LawKind, Options, Silent};
+use stiction_testkit::gate;
 use stiction_testkit::worlds::{Case, Drive, Machine, Motion, Set, World, record};
 
 const SEED: u64 = 1;
@@ -32,24 +33,12 @@ fn of(axis: &str, motion: Motion, world: World) -> Run {
 #[test]
 fn the_cause_of_what_a_law_leaves_is_named() {
     let cases = [
-        (
-            "stage",
-            Motion::Commissioning,
-            World::Cogging,
-            "position-ripple",
-        ),
         // Beside friction whose shape leaves more.
         (
             "screw",
             Motion::Commissioning,
             World::Cogging,
             "position-ripple",
-        ),
-        (
-            "joint",
-            Motion::Sine,
-            World::Position,
-            "position-dependence",
         ),
         ("screw", Motion::Sine, World::WarmUp, "friction-drift"),
         // By what comes back, and by what lies after reversals of different depth and does not.
@@ -60,10 +49,23 @@ fn the_cause_of_what_a_law_leaves_is_named() {
             World::MaxwellSlip,
             "law-shape",
         ),
+        (
+            "joint",
+            Motion::Sine,
+            World::Position,
+            "position-dependence",
+        ),
+        (
+            "stage",
+            Motion::Commissioning,
+            World::Cogging,
+            "position-ripple",
+        ),
     ];
     let mut causes = cases.map(|case| case.3).to_vec();
+    causes.sort_unstable();
     causes.dedup();
-    for (axis, motion, world, cause) in cases {
+    for (axis, motion, world, cause) in gate(3, cases) {
         let found = of(axis, motion, world);
         let named: Vec<&str> = causes
             .iter()
@@ -78,7 +80,7 @@ fn the_cause_of_what_a_law_leaves_is_named() {
 /// Instants beside their stamps make noise that grows with speed; it is named, and the intervals count it.
 #[test]
 fn jitter_is_named_and_counted() {
-    for axis in ["stage", "screw"] {
+    for axis in gate(1, ["stage", "screw"]) {
         let found = of(axis, Motion::Commissioning, World::Dropped);
         assert!(found.codes.contains(&"jitter"), "{axis}: {found}");
         assert!(!found.is_silent(), "{axis}: {found}");
@@ -91,10 +93,11 @@ fn jitter_is_named_and_counted() {
 #[test]
 fn clocks_that_run_apart_are_named() {
     const FAST: f64 = 1e-4;
-    for (axis, motion) in [
-        ("stage", Motion::Commissioning),
+    let cases = [
         ("joint", Motion::Trapezoid),
-    ] {
+        ("stage", Motion::Commissioning),
+    ];
+    for (axis, motion) in gate(1, cases) {
         let mut machines = Machine::all(SEED).into_iter();
         let (_, machine) = machines.find(|(name, _)| *name == axis).unwrap();
         let mut log = record(&machine, motion, World::Faithful, SEED);
@@ -149,7 +152,8 @@ fn beyond_all_delays_no_bristle_is_claimed() {
         every: 1,
     };
     let motions = [Motion::Commissioning, Motion::Sine, Motion::Trapezoid];
-    let found = motions.map(|motion| of("stage", motion, World::Driven(late)));
+    let found = gate(1, motions).map(|motion| of("stage", motion, World::Driven(late)));
+    let found: Vec<Run> = found.collect();
     let beyond = |run: &&Run| run.codes.contains(&"delay-out-of-range");
     let beyond: Vec<&Run> = found.iter().filter(beyond).collect();
     assert!(!beyond.is_empty(), "{found:#?}");
@@ -177,7 +181,7 @@ fn a_level_that_follows_a_channel_is_named_after_it() {
         "position-dependence",
         "friction-drift",
     ];
-    for (axis, world, cause, term) in cases {
+    for (axis, world, cause, term) in gate(1, cases) {
         let mut machines = Machine::all(SEED).into_iter();
         let (_, machine) = machines.find(|(name, _)| *name == axis).unwrap();
         let mut log = record(&machine, Motion::Sine, world, SEED);
@@ -245,6 +249,7 @@ fn a_level_that_follows_a_channel_is_named_after_it() {
 fn what_lies_between_motor_and_load_is_named_with_its_size() {
     let cases = [
         ("stage", Motion::Sine, World::ResonanceAtMotor, "resonance"),
+        ("joint", Motion::Commissioning, World::Backlash, "backlash"),
         (
             "screw",
             Motion::Trapezoid,
@@ -257,11 +262,10 @@ fn what_lies_between_motor_and_load_is_named_with_its_size() {
             World::ResonanceAtLoad,
             "resonance",
         ),
-        ("joint", Motion::Commissioning, World::Backlash, "backlash"),
         ("stage", Motion::Trapezoid, World::Backlash, "backlash"),
     ];
     let causes = ["resonance", "backlash", "law-shape"];
-    for (axis, motion, world, cause) in cases {
+    for (axis, motion, world, cause) in gate(3, cases) {
         let found = of(axis, motion, world);
         let named: Vec<&str> = causes
             .into_iter()
@@ -316,7 +320,7 @@ fn a_resonance_says_at_which_frequency_and_what_to_do() {
 
 #[test]
 fn an_axis_as_assumed_has_no_such_cause_and_claims_what_is_true() {
-    for axis in ["stage", "joint"] {
+    for axis in gate(1, ["stage", "joint"]) {
         let found = of(axis, Motion::Commissioning, World::Faithful);
         assert!(found.trusted && found.codes.is_empty(), "{axis}: {found}");
         assert!(found.claims.len() >= 7, "{axis}: {found}");
@@ -367,7 +371,7 @@ fn behind_a_current_loop_the_mass_is_that_of_the_axis() {
         ("screw", Motion::Commissioning, 0, 1e-3),
         ("stage", Motion::Commissioning, 1, 3e-4),
     ];
-    for (axis, motion, periods, lag) in cases {
+    for (axis, motion, periods, lag) in gate(1, cases) {
         let drive = Drive {
             periods,
             lag,
@@ -454,11 +458,11 @@ fn elements_are_fitted_beside_the_delay_of_the_log() {
 #[test]
 fn what_a_recorder_did_is_named() {
     let cases = [
-        ("joint", Motion::Trapezoid, World::Late(10), "force-late"),
         ("joint", Motion::Trapezoid, World::Held, "held-position"),
         ("stage", Motion::Sine, World::CoarseForce, "coarse-force"),
+        ("joint", Motion::Trapezoid, World::Late(10), "force-late"),
     ];
-    for (axis, motion, world, code) in cases {
+    for (axis, motion, world, code) in gate(2, cases) {
         let found = of(axis, motion, world);
         assert!(found.codes.contains(&code), "{axis}, {world:?}: {found}");
         assert!(!found.is_silent(), "{axis}, {world:?}: {found}");
@@ -521,26 +525,16 @@ fn a_force_beside_other_motion_is_taken_as_it_belongs() {
 /// resonance and another shape seem to explain it.
 #[test]
 fn a_force_that_is_some_rows_late_is_no_other_cause() {
-    some_rows_late_is_no_other_cause(&[
+    let cases = [
         ("joint", Motion::Trapezoid, 6),
         ("screw", Motion::Sine, 6),
         ("stage", Motion::Commissioning, 7),
-    ]);
-}
-
-#[test]
-#[ignore = "soak: further axes and rows"]
-fn a_force_that_is_further_rows_late_is_no_other_cause() {
-    some_rows_late_is_no_other_cause(&[
         ("joint", Motion::Trapezoid, 5),
         ("joint", Motion::Trapezoid, 8),
         ("joint", Motion::Sine, 6),
         ("screw", Motion::Trapezoid, 5),
         ("screw", Motion::Sine, 8),
-    ]);
-}
-
-fn some_rows_late_is_no_other_cause(cases: &[(&'static str, Motion, usize)]) {
+    ];
     let others = [
         "law-shape",
         "resonance",
@@ -548,6 +542,7 @@ fn some_rows_late_is_no_other_cause(cases: &[(&'static str, Motion, usize)]) {
         "force-filtered",
         "delay-out-of-range",
     ];
+    let cases: Vec<_> = gate(2, cases).collect();
     let wrong: Vec<String> = cases
         .par_iter()
         .filter_map(|&(axis, motion, rows)| {
@@ -663,7 +658,9 @@ fn of_test(worlds: &[&str]) -> Vec<Case> {
 #[test]
 fn on_other_axes_claims_hold_and_no_cause_is_named() {
     let mut cases = of_test(&["as assumed", "current loop"]);
-    cases.truncate(9);
+    // Not three of one axis.
+    cases.swap(1, 5);
+    let cases: Vec<Case> = gate(3, cases).collect();
     let (figures, told) = found_in(&cases);
     assert_eq!(figures.lies, 0, "{told}");
     assert!(figures.coverage() >= 0.9, "{told}");
@@ -713,22 +710,12 @@ fn a_level_with_a_wave_asks_for_the_wave() {
 /// Drives smooth the torque that they show: the low-pass is found and undone, and nothing else is blamed for it.
 #[test]
 fn a_low_pass_of_the_logged_force_is_undone() {
-    low_passes_are_undone(&[
-        ("screw", Motion::Commissioning, 3e-3),
+    let cases = [
         ("joint", Motion::Trapezoid, 3e-3),
-    ]);
-}
-
-#[test]
-#[ignore = "soak: further axes and filters"]
-fn other_low_passes_are_undone() {
-    low_passes_are_undone(&[
+        ("screw", Motion::Commissioning, 3e-3),
         ("stage", Motion::Commissioning, 1.7e-3),
         ("screw", Motion::Trapezoid, 1.7e-3),
-    ]);
-}
-
-fn low_passes_are_undone(cases: &[(&'static str, Motion, f64)]) {
+    ];
     let others = [
         "law-shape",
         "resonance",
@@ -736,7 +723,7 @@ fn low_passes_are_undone(cases: &[(&'static str, Motion, f64)]) {
         "delay-out-of-range",
         "force-late",
     ];
-    for &(axis, motion, time) in cases {
+    for (axis, motion, time) in gate(1, cases) {
         let mut machines = Machine::all(SEED).into_iter();
         let machine = machines.find(|(name, _)| *name == axis).unwrap().1;
         let log = record(&machine, motion, World::Filtered(time), SEED);

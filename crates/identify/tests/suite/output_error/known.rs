@@ -4,7 +4,7 @@ use super::*;
 
 #[test]
 fn a_closed_loop_without_noise_gives_the_truth() {
-    for integral_gain in [0.0, 25_000.0] {
+    for integral_gain in gate(1, [25_000.0, 0.0]) {
         let cascade = Cascade {
             integral_gain,
             ..CASCADE
@@ -31,7 +31,7 @@ fn a_closed_loop_without_noise_gives_the_truth() {
 /// A known force acts on the simulated axis too, and is no part of what the controller asks for.
 #[test]
 fn a_known_force_beside_the_controller_leaves_the_truth() {
-    for integral_gain in [0.0, 60_000.0] {
+    for integral_gain in gate(1, [60_000.0, 0.0]) {
         let cascade = Cascade {
             integral_gain,
             ..CASCADE
@@ -51,28 +51,27 @@ fn a_known_force_beside_the_controller_leaves_the_truth() {
     }
 }
 
+/// In pieces, and as a whole.
 #[test]
 fn an_open_loop_without_noise_gives_the_truth() {
-    let log = open(4.0, 0.0, 0.0, 0.0, 1);
-    let whole = fit(std::slice::from_ref(&log), &Simulation::default());
-    println!("{:?} {:?}", whole.fitted.counts, off(&whole));
-    assert_eq!(whole.fitted.status, Status::Converged);
-    for (name, off) in off(&whole) {
-        assert!(off <= 0.1, "{name} off by {off} %");
-    }
-    let short = Simulation {
-        segment: Some(0.5),
-        ..Simulation::default()
-    };
-    let short = fit(&[log], &short);
-    println!("{:?} {:?}", short.fitted.counts, off(&short));
-    assert_eq!(short.runs, 8);
-    for (name, off) in off(&short) {
-        assert!(off <= 0.1, "{name} off by {off} %");
+    let log = [open(4.0, 0.0, 0.0, 0.0, 1)];
+    for segment in gate(1, [Some(0.5), None]) {
+        let simulation = Simulation {
+            segment,
+            ..Simulation::default()
+        };
+        let found = fit(&log, &simulation);
+        println!("{:?} {:?}", found.fitted.counts, off(&found));
+        assert_eq!(found.fitted.status, Status::Converged);
+        assert_eq!(found.runs, segment.map_or(1, |_| 8));
+        for (name, off) in off(&found) {
+            assert!(off <= 0.1, "{name} off by {off} %");
+        }
     }
 }
 
 #[test]
+#[ignore = "soak: of a shorter log beside it"]
 fn noise_leaves_the_truth_inside_the_intervals() {
     let log = closed(&CASCADE, 6.0, 50e-9, 0.5, 7);
     let simulation = Simulation {
@@ -101,22 +100,9 @@ fn noise_leaves_the_truth_inside_the_intervals() {
 /// From nothing but the logs: every search ends at the noise, and the intervals hold the truth.
 #[test]
 fn a_noisy_log_is_found_and_covered() {
-    let inside = found_and_covered(100..102);
-    assert!(inside >= 14, "{inside} of 16 inside");
-}
-
-#[test]
-#[ignore = "soak: the same of eight logs"]
-fn every_noisy_log_is_found_and_covered() {
-    let inside = found_and_covered(100..108);
-    assert!(inside >= 58, "{inside} of 64 inside");
-}
-
-/// How many of eight parameters a log are inside their intervals, over logs of these seeds.
-fn found_and_covered(seeds: std::ops::Range<u64>) -> usize {
     const NOISE: f64 = 5e-6;
-    let mut inside = 0;
-    for seed in seeds {
+    let (mut inside, mut all) = (0, 0);
+    for seed in gate(2, 100..108) {
         let found = fit(&[open(2.0, 0.3, 1e-7, NOISE, seed)], &Simulation::default());
         assert!(
             found.position.rmse < 1.1 * NOISE,
@@ -124,8 +110,11 @@ fn found_and_covered(seeds: std::ops::Range<u64>) -> usize {
             found.position
         );
         inside += covered(&found).0;
+        all += TRUTH.len();
     }
-    inside
+    // Of 95 % intervals: 14 of 16 at the least in the gate, 58 of 64 in the soak.
+    let least = if all < 64 { 14 } else { 58 };
+    assert!(inside >= least, "{inside} of {all} inside");
 }
 
 #[test]

@@ -3,6 +3,7 @@
 use super::*;
 
 #[test]
+#[ignore = "soak: of a simpler law beside it"]
 fn an_unseen_run_is_predicted_to_a_count() {
     let simulation = Simulation {
         quantum: Some(1e-6),
@@ -27,20 +28,10 @@ fn an_unseen_run_is_predicted_to_a_count() {
 /// sample without a jump.
 #[test]
 fn an_unseen_run_is_never_restarted() {
-    never_restarted(&[Some(0.5)]);
-}
-
-#[test]
-#[ignore = "soak: the same after a fit in shorter pieces and as a whole"]
-fn an_unseen_run_is_never_restarted_after_any_pieces() {
-    never_restarted(&[Some(0.25), None]);
-}
-
-fn never_restarted(segments: &[Option<f64>]) {
     let fitted = open(2.0, 0.0, 1e-6, 0.0, 1);
     let unseen = open(3.0, 1.1, 1e-6, 0.0, 2);
     let law = Law::new(LawKind::CoulombViscous);
-    for &segment in segments {
+    for segment in gate(1, [Some(0.5), Some(0.25), None]) {
         let simulation = Simulation {
             segment,
             quantum: Some(1e-6),
@@ -74,7 +65,9 @@ fn two_stretches_with_a_gap_between_them_are_two_runs() {
     for t in &mut gap.samples.time[1500..] {
         *t += 1.0;
     }
-    let found = fit(&[fitted], &Simulation::default());
+    let law = Law::new(LawKind::CoulombViscous);
+    let (terms, simulation) = (Terms::default(), Simulation::default());
+    let found = output_error(&[fitted], law, &terms, &simulation, &mut Silent).unwrap();
     let seen = simulate_unseen(&[gap], &found, &mut Silent).unwrap();
     assert_eq!(seen.runs, 2);
 }
