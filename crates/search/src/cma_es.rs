@@ -78,13 +78,8 @@ impl CmaEs {
         let within = deviation > 0.0 && deviation <= 1.0;
         require(within, name, "deviation", deviation, "above 0 to 1")?;
         let restarts = settings.restarts;
-        require(
-            restarts <= 100,
-            name,
-            "restarts",
-            restarts as f64,
-            "0 to 100",
-        )?;
+        let within = restarts <= 100;
+        require(within, name, "restarts", restarts as f64, "0 to 100")?;
         let spread = settings.spread;
         require(spread >= 0.0, name, "spread", spread, "0 or more")?;
         Ok(Self {

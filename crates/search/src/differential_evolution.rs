@@ -59,29 +59,15 @@ impl DifferentialEvolution {
         let (n, g) = (settings.per_dimension, settings.generations);
         let size = |name, v: usize, ok: bool, allowed| require(ok, "de", name, v as f64, allowed);
         size("per_dimension", n, (1..=10_000).contains(&n), "1 to 10000")?;
-        size(
-            "generations",
-            g,
-            (1..=1_000_000).contains(&g),
-            "1 to 1000000",
-        )?;
+        let within = (1..=1_000_000).contains(&g);
+        size("generations", g, within, "1 to 1000000")?;
         let [low, high] = settings.scale;
-        require(
-            (0.0..=high).contains(&low),
-            "de",
-            "scale",
-            low,
-            "0 to its upper end",
-        )?;
+        let within = (0.0..=high).contains(&low);
+        require(within, "de", "scale", low, "0 to its upper end")?;
         require(high <= 2.0, "de", "scale", high, "at most 2")?;
         let cross = settings.crossover;
-        require(
-            (0.0..=1.0).contains(&cross),
-            "de",
-            "crossover",
-            cross,
-            "0 to 1",
-        )?;
+        let within = (0.0..=1.0).contains(&cross);
+        require(within, "de", "crossover", cross, "0 to 1")?;
         let spread = settings.spread;
         require(spread >= 0.0, "de", "spread", spread, "0 or more")?;
         let mut dice = Dice::new(seed);

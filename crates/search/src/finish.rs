@@ -35,20 +35,10 @@ impl Finish {
     pub(crate) fn check(&self) -> Result<(), Error> {
         let ok = |v: usize, most: usize| (1..=most).contains(&v);
         let (starts, steps) = (self.starts, self.steps);
-        require(
-            ok(starts, 1000),
-            "finish",
-            "starts",
-            starts as f64,
-            "1 to 1000",
-        )?;
-        require(
-            ok(steps, 100_000),
-            "finish",
-            "steps",
-            steps as f64,
-            "1 to 100000",
-        )?;
+        let within = ok(starts, 1000);
+        require(within, "finish", "starts", starts as f64, "1 to 1000")?;
+        let within = ok(steps, 100_000);
+        require(within, "finish", "steps", steps as f64, "1 to 100000")?;
         let apart = self.apart;
         require(
             (0.0..=1.0).contains(&apart),

@@ -66,13 +66,8 @@ impl Levenberg {
 pub(crate) fn check(settings: &Settings) -> Result<(), Error> {
     let allowed = "1 to 100000";
     let starts = settings.starts;
-    require(
-        (1..=100_000).contains(&starts),
-        "lm",
-        "starts",
-        starts as f64,
-        allowed,
-    )?;
+    let within = (1..=100_000).contains(&starts);
+    require(within, "lm", "starts", starts as f64, allowed)?;
     let scan = settings.scan;
     require(scan <= 1_000_000, "lm", "scan", scan as f64, "0 to 1000000")?;
     let steps = settings.steps;

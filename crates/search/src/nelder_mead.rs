@@ -82,13 +82,8 @@ impl NelderMead {
         let name = "nelder-mead";
         let within = (1..=100_000).contains(&m);
         require(within, name, "simplices", m as f64, "1 to 100000")?;
-        require(
-            edge > 0.0 && edge <= 0.5,
-            name,
-            "edge",
-            edge,
-            "above 0 to 0.5",
-        )?;
+        let within = edge > 0.0 && edge <= 0.5;
+        require(within, name, "edge", edge, "above 0 to 0.5")?;
         let (width, spread) = (settings.width, settings.spread);
         require(width > 0.0, name, "width", width, "above 0")?;
         require(spread >= 0.0, name, "spread", spread, "0 or more")?;

@@ -59,12 +59,8 @@ impl ParticleSwarm {
         let (n, g) = (settings.particles, settings.generations);
         let size = |name, v: usize, ok: bool, allowed| require(ok, "pso", name, v as f64, allowed);
         size("particles", n, (3..=100_000).contains(&n), "3 to 100000")?;
-        size(
-            "generations",
-            g,
-            (1..=1_000_000).contains(&g),
-            "1 to 1000000",
-        )?;
+        let within = (1..=1_000_000).contains(&g);
+        size("generations", g, within, "1 to 1000000")?;
         let spread = settings.spread;
         require(spread >= 0.0, "pso", "spread", spread, "0 or more")?;
         let mut dice = Dice::new(seed);
