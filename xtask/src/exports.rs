@@ -26,7 +26,8 @@ const PASSED: &str = "crates/export/tests/passed";
 pub fn run() -> Outcome {
     setup()?;
     let hash = hash()?.ok_or("commit first: what passed is named by what is committed")?;
-    let mut tests = tools::command(&tools::NEXTEST, "nextest run --workspace --run-ignored all")?;
+    let tests = tools::command(&tools::NEXTEST, "nextest run --workspace --run-ignored all")?;
+    let mut tests = shell::linted(tests);
     tests.args(["-E", TESTS]);
     shell::run(tests)?;
     fs::write(shell::root().join(PASSED), hash).map_err(|e| format!("{PASSED}: {e}"))

@@ -55,6 +55,14 @@ pub fn cargo(arguments: &str) -> Command {
     )
 }
 
+/// As `cargo clippy -- -D warnings` has it, of a command that also makes code; the same for all that shares a target folder, or all is built twice.
+pub fn linted(mut command: Command) -> Command {
+    command
+        .env("RUSTC_WORKSPACE_WRAPPER", "clippy-driver")
+        .env("CLIPPY_ARGS", "-Dwarnings__CLIPPY_HACKERY__");
+    command
+}
+
 /// Every command run so far, with the time it took.
 static STEPS: Mutex<Vec<(String, Duration)>> = Mutex::new(Vec::new());
 

@@ -24,7 +24,7 @@ pub fn run() -> Outcome {
     shell::run(tools::command(&tools::NEXTEST, BARE)?)?;
     // The ordinary tests too: their property tests draw other cases here than in CI.
     let tests = "nextest run --workspace --no-fail-fast --run-ignored all";
-    let mut tests = tools::command(&tools::NEXTEST, tests)?;
+    let mut tests = shell::linted(tools::command(&tools::NEXTEST, tests)?);
     // Of tables of cases, all.
     tests.env("STICTION_SOAK", "1");
     shell::run(tests)?;

@@ -2,7 +2,6 @@
 
 use crate::shell::{self, Outcome, cargo};
 use crate::{exports, licences, setup, times, tools, web, wheel};
-use std::process::Command;
 use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
@@ -36,7 +35,7 @@ fn checks() -> Outcome {
     // One more than there are cores: some tests wait, for LinuxCNC's own clock or for a program that is to be ended.
     let at_once = 1 + thread::available_parallelism().map_or(1, usize::from);
     let tests = format!("{TESTS} --test-threads {at_once}");
-    let mut tests = linted(tools::command(&tools::NEXTEST, &tests)?);
+    let mut tests = shell::linted(tools::command(&tools::NEXTEST, &tests)?);
     tests.env(SEED.0, SEED.1);
     if exports::have_passed() {
         println!(
@@ -53,7 +52,7 @@ fn checks() -> Outcome {
     joined(aside)?;
     tests?;
     // nextest runs no doctests.
-    shell::run(linted(cargo("test --quiet --workspace --doc")))
+    shell::run(shell::linted(cargo("test --quiet --workspace --doc")))
 }
 
 /// What a thread came to.
@@ -65,14 +64,6 @@ fn joined(aside: JoinHandle<Outcome>) -> Outcome {
 
 /// What needs the compiler alone.
 fn build() -> Outcome {
-    shell::run(linted(cargo(BUILD)))?;
+    shell::run(shell::linted(cargo(BUILD)))?;
     licences::run()
-}
-
-/// As `cargo clippy -- -D warnings` has it, of a command that also makes code.
-fn linted(mut command: Command) -> Command {
-    command
-        .env("RUSTC_WORKSPACE_WRAPPER", "clippy-driver")
-        .env("CLIPPY_ARGS", "-Dwarnings__CLIPPY_HACKERY__");
-    command
 }

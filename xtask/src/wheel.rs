@@ -29,7 +29,7 @@ const FREE_THREADED: &[&str] = &[
 /// Builds what the tests of the package need, then runs them.
 pub fn built() -> Outcome {
     // With an example, dependencies have the features that they have in the tests, and are not built once more.
-    shell::run(cargo(BUILD))?;
+    shell::run(shell::linted(cargo(BUILD)))?;
     test()
 }
 
