@@ -43,7 +43,13 @@ impl Rename {
     /// Renames, unless that was done before.
     pub(super) fn run(&self, dir: &Path) -> std::io::Result<()> {
         let (from, to) = self.names();
-        if let Some(link) = linked(dir, from).or_else(|| linked(dir, to)) {
+        // What is published was written under its first name, and a link never is.
+        let from_is_link = matches!(self, Rename::Publish(..)) && dir.join(from).is_symlink();
+        let link = from_is_link.then(|| dir.join(from));
+        if let Some(link) = link
+            .or_else(|| linked(dir, from))
+            .or_else(|| linked(dir, to))
+        {
             let found = format!("{} is a link, which no record may follow", link.display());
             return Err(std::io::Error::other(found));
         }
@@ -170,8 +176,11 @@ pub(crate) fn whole(file: &Path) -> Result<PathBuf, Error> {
     let left = left(dir)?;
     for rename in left.iter().flat_map(|left| &left.renames) {
         match rename {
-            Rename::Publish(from, to) if to == name && dir.join(from).is_file() => {
-                return Ok(dir.join(from));
+            Rename::Publish(from, to) if to == name => {
+                let from = dir.join(from);
+                if from.is_file() && !from.is_symlink() {
+                    return Ok(from);
+                }
             }
             _ => {}
         }

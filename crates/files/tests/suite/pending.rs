@@ -83,6 +83,25 @@ fn no_record_leads_out_of_its_folder_through_a_link() {
     }
 }
 
+/// What a record is to give its name is a link to a file outside: it is neither read nor put in the place of the model.
+#[test]
+#[cfg(unix)]
+fn no_record_publishes_a_link() {
+    let outside = tempfile::tempdir().unwrap();
+    let theirs = outside.path().join("theirs.toml");
+    std::fs::write(&theirs, GOOD.replace("stage", "table")).unwrap();
+    let dir = tempfile::tempdir().unwrap();
+    let model = dir.path().join("model.toml");
+    std::fs::write(&model, GOOD).unwrap();
+    std::os::unix::fs::symlink(&theirs, dir.path().join(PART)).unwrap();
+    record(dir.path(), &format!("publish\t{PART}\tmodel.toml\n"));
+    let named = || ModelFile::read(&model).unwrap().name;
+    assert_eq!(named().as_deref(), Some("stage"));
+    let refused = write_folder(dir.path(), [("a.txt", &b"x"[..])], true).unwrap_err();
+    assert!(refused.to_string().contains("is a link"), "{refused}");
+    assert_eq!(named().as_deref(), Some("stage"));
+}
+
 #[test]
 #[cfg(unix)]
 fn no_file_is_written_through_a_link() {
