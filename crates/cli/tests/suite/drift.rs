@@ -111,6 +111,14 @@ fn what_is_quiet_is_said_and_ends_well() {
             && out.contains("too few logs to follow anything"),
         "{out}"
     );
+    // A limit asks for no course: the logs as they stand are beyond it or not.
+    for (limit, expected) in [("coulomb > 1 N", 1), ("coulomb > 1000 N", 0)] {
+        let (code, out, _) = run(
+            folder.path(),
+            &["drift", "results.parquet", "--limit", limit],
+        );
+        assert_eq!(code, expected, "{out}");
+    }
 }
 
 #[test]

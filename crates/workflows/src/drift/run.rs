@@ -174,11 +174,10 @@ fn followed(
             let judged = beyond
                 .as_ref()
                 .and_then(|(found, limits)| judge(&followed.points, found, limits));
-            let mut own = Vec::new();
-            if let Some(judged) = &judged {
-                own = changes(number, machine, followed, judged);
-                own.extend(exceeded(limits, number, machine, followed, judged));
-            }
+            // A limit holds for the logs as they stand where nothing is known of their noise.
+            let judged = judged.unwrap_or_else(|| plain(&followed.points));
+            let mut own = changes(number, machine, followed, &judged);
+            own.extend(exceeded(limits, number, machine, followed, &judged));
             let into = match own.is_empty() {
                 false => &mut shown,
                 true if quiet.len() < MOST_QUIET => &mut quiet,
@@ -191,7 +190,7 @@ fn followed(
                 law: number.law.clone(),
                 unit: number.unit.clone(),
                 followed: followed.clone(),
-                judged: judged.unwrap_or_else(|| plain(&followed.points)),
+                judged,
             });
         }
     }
