@@ -55,7 +55,7 @@ pub fn cargo(arguments: &str) -> Command {
     )
 }
 
-/// As `cargo clippy -- -D warnings` has it, of a command that also makes code; the same for all that shares a target folder, or all is built twice.
+/// A build through clippy, with warnings as errors. All that share a target folder go through it, or the workspace is built twice.
 pub fn linted(mut command: Command) -> Command {
     command
         .env("RUSTC_WORKSPACE_WRAPPER", "clippy-driver")
