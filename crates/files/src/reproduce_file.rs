@@ -119,6 +119,9 @@ pub struct SearchEntry {
     pub seed: u64,
     /// Least cost J of the method itself, dimensionless.
     pub cost: f64,
+    /// Evaluations until J was at most 3e-3.
+    #[serde(default)]
+    pub evaluations_to_3e3: Option<f64>,
     /// Evaluations until J was at most 1e-3.
     pub evaluations_to_1e3: Option<f64>,
     /// What the method found by itself, SI.

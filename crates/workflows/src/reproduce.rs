@@ -8,7 +8,7 @@ mod watch;
 pub use canudas::canudas_1995;
 pub use outcome::{Body, Reproduction};
 pub use paper::{
-    Budget, Compensation, Control, Cornered, Crawled, Dynamics, LoadFound, Measured, OwnAxis,
-    PARAMETERS, Paper, Presliding, Pull, REACHED, Searched, Stage, Statics, Stiffness, Tracked,
-    Units, zhang_2025, zhang_2025_on,
+    Budget, Compensation, Control, Cornered, Crawled, Delayed, Dynamics, Hold, LeftOut, LoadFound,
+    Measured, OwnAxis, PARAMETERS, Paper, Presliding, Pull, REACHED, Rested, Searched, Stage,
+    Statics, Stiffness, Tracked, Turn, Units, annealing, zhang_2025, zhang_2025_on,
 };

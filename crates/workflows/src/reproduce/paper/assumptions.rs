@@ -1,17 +1,19 @@
 //! What is assumed where the paper gives no number, each with what is known.
 
 use super::stage::Stage;
-use super::{crawl, dynamics, load, presliding, search, statics, stiffness, tracking};
+use super::{
+    corner, crawl, dynamics, load, presliding, rest, search, statics, stiffness, tracking,
+};
 use stiction_number::{Percent, quantity, short, unit};
 
 /// What holds on any axis.
 const ANYWHERE: [&str; 6] = [
     "The paper simulates for 3 s with ode4 in steps of 0.1 ms, along a motion that its text does not give. Sine, low speed and \
      change of load last 3 s here; all other durations are ours.",
-    "Neither damper B nor spring K beside the friction, no disturbance force, no delay, no current loop of its own.",
-    "PID and fuzzy PID: gains for a bandwidth of 60 Hz (45 Hz on a second axis), velocity and acceleration fed forward; \
-     the fuzzy one with scales from the friction and gains within 30 % of those of the PID. Its tables of 49 rules have \
-     the usual form. The paper gives neither gains nor tables.",
+    "Neither damper B nor spring K beside the friction, no disturbance force and, but where it is said, neither delay nor current loop.",
+    "PID, fuzzy PID and cascade: velocity and acceleration fed forward; the fuzzy PID with scales from the friction and gains \
+     within 30 % of those of the PID, its tables of 49 rules in the usual form; the cascade with a current loop of 1 kHz \
+     below it. The paper gives neither gains nor tables.",
     "Baselines: Coulomb and viscous friction, the steady curve, and a simplified law, of the same identified law, driven by \
      the reference velocity. The paper compares with a simplified law and does not say what is left out; here it is the \
      Stribeck effect.",
@@ -52,8 +54,18 @@ pub(super) fn of(stage: &Stage) -> Vec<String> {
         step => format!("in steps of {}", length(step)),
     };
     let masses = load::HEAVIER.map(|part| short(part * stage.truth.mass));
+    let [first, second] = stage.bandwidths();
     all.extend([
         boxes,
+        format!(
+            "Gains for a bandwidth of {}, and {} on the second axis of the corner{}.",
+            quantity(first, "Hz"),
+            quantity(second, "Hz"),
+            match stage.is_own() {
+                true => ": the first of several with which the axis slides evenly at low speed, or that with which it does so best",
+                false => "",
+            },
+        ),
         format!("Positions are measured {resolution}; a velocity that is measured is the difference of two of them over 0.1 ms."),
         format!(
             "Constant velocities: {} from {} to {} in both directions, at least {} s to settle and {} s to average.",
@@ -61,7 +73,7 @@ pub(super) fn of(stage: &Stage) -> Vec<String> {
             speed(stage.speed(1e-3 * slowest)),
             speed(stage.speed(1e-3 * fastest)),
             statics::SETTLE,
-            statics::MEAN,
+            statics::SETTLE,
         ),
         format!(
             "Dynamic test: a sine of ±{} at {} Hz, three cycles, with velocity and acceleration as the simulation has them.",
@@ -87,11 +99,16 @@ pub(super) fn of(stage: &Stage) -> Vec<String> {
             load::CHANGE_AT,
         ),
         format!(
-            "Low speed: {} for 3 s, on springs with dampers (the PID without its integral, for bandwidths of {} to {} Hz), \
-             and under the controllers. The paper does not say what pulls its axis.",
+            "Low speed: {} for 3 s, on springs with dampers (the PID without its integral, for bandwidths of {} to {} times that \
+             of the controllers), and under the controllers. The paper does not say what pulls its axis.",
             speed(stage.speed(crawl::VELOCITY)),
             crawl::SPRINGS[0],
             crawl::SPRINGS[crawl::SPRINGS.len() - 1],
+        ),
+        format!(
+            "Standstill: {} s after a move of {}.",
+            rest::DWELL,
+            length(rest::DEFLECTIONS * stage.truth.law.bound()),
         ),
         format!(
             "Stiffness of the bristles: {} to {} times that of the axis.",
@@ -105,21 +122,25 @@ pub(super) fn of(stage: &Stage) -> Vec<String> {
             stage.steps
         ));
     }
-    if stage.second.is_some() {
-        all.extend(corners());
-    }
+    let limits = corner::limits(stage);
+    all.push(format!(
+        "Corner: {side} by {side} at {}, once with a stop and once with the start of one axis in the stop of the other, 0.2 s to \
+         either side of which count; the second axis is {}, whose parameters are known to its compensation.",
+        quantity(units.feed.1 * limits.velocity, units.feed.0),
+        match stage.is_own() {
+            true => "this axis once more",
+            false => "a slide of 10 kg, σ₀ 1.2·10⁵ N/m, Fc 20 N, Fs 30 N",
+        },
+        side = length(stage.stroke(corner::SIDE)),
+    ));
+    all.extend(CORNERS.map(String::from));
     all
 }
 
-/// What is assumed of the corner.
-fn corners() -> [String; 3] {
-    [
-        "Corner: 20 mm by 20 mm at 3 m/min, with a stop at the corner, 0.2 s to either side of which count; the second axis is \
-         a slide of 10 kg, σ₀ 1.2·10⁵ N/m, Fc 20 N, Fs 30 N, whose parameters are known to its compensation.",
-        "Cross coupling: a PD on the deviation from the contour above both axes (Koren 1980), tuned for the slower axis. \
+/// What is assumed of the corner on any axis.
+const CORNERS: [&str; 2] = [
+    "Cross coupling: a PD on the deviation from the contour above both axes (Koren 1980), tuned for the slower axis. \
          The paper names cross coupling and does not say how it is made.",
-        "Feed error: the velocity of both axes along the contour less that of the reference; contour error: the deviation \
+    "Feed error: the velocity of both axes along the contour less that of the reference; contour error: the deviation \
          across it. The paper defines neither of its two metrics.",
-    ]
-    .map(String::from)
-}
+];

@@ -1,7 +1,7 @@
 //! Metrics of every run, and those that are like what the paper claims beside its words.
 
 use super::compensation::Compensation;
-use super::corner::Cornered;
+use super::corner::{Cornered, Turn};
 use super::results::Paper;
 use super::stage::Control;
 use super::tracking::Tracked;
@@ -13,15 +13,12 @@ use stiction_servo::metrics::Feed;
 const FEED: &str = "feed error 2.8 to 2.3 m/min, 17.8 %";
 const CORNER: &str = "up to 25.1 % at corners";
 
-/// Seconds in a minute.
-const MINUTE: f64 = 60.0;
-
 /// Name and unit of a metric, the claim that is like it, and its value.
 type Metric<R> = (
     &'static str,
     fn(&Units) -> &'static str,
     &'static str,
-    fn(&R) -> f64,
+    fn(&R, &Units) -> f64,
 );
 
 const SINE: [Metric<Tracked>; 4] = [
@@ -29,11 +26,16 @@ const SINE: [Metric<Tracked>; 4] = [
         "largest error at reversals",
         |u| u.length,
         "",
-        |t| t.position.reversal_peak,
+        |t, _| t.position.reversal_peak,
     ),
-    ("rms position error", |u| u.length, "", |t| t.position.rms),
-    ("largest speed error", |u| u.speed, "", |t| peak(t.feed)),
-    ("rms speed error", |u| u.speed, "", |t| rms(t.feed)),
+    (
+        "rms position error",
+        |u| u.length,
+        "",
+        |t, _| t.position.rms,
+    ),
+    ("largest speed error", |u| u.speed, "", |t, _| peak(t.feed)),
+    ("rms speed error", |u| u.speed, "", |t, _| rms(t.feed)),
 ];
 
 const CORNERED: [Metric<Cornered>; 4] = [
@@ -41,16 +43,21 @@ const CORNERED: [Metric<Cornered>; 4] = [
         "largest contour error",
         |u| u.length,
         CORNER,
-        |c| c.contour.peak,
+        |c, _| c.contour.peak,
     ),
-    ("rms contour error", |u| u.length, "", |c| c.contour.rms),
+    ("rms contour error", |u| u.length, "", |c, _| c.contour.rms),
     (
         "largest feed error",
-        |_| "m/min",
+        |u| u.feed.0,
         FEED,
-        |c| MINUTE * peak(c.feed),
+        |c, u| u.feed.1 * peak(c.feed),
     ),
-    ("rms feed error", |_| "m/min", "", |c| MINUTE * rms(c.feed)),
+    (
+        "rms feed error",
+        |u| u.feed.0,
+        "",
+        |c, u| u.feed.1 * rms(c.feed),
+    ),
 ];
 
 fn peak(feed: Option<Feed>) -> f64 {
@@ -84,9 +91,11 @@ impl Run for Tracked {
 
 impl Run for Cornered {
     fn experiment(&self) -> &'static str {
-        match self.coupled {
-            false => "corner",
-            true => "corner, cross-coupled",
+        match (self.turn, self.coupled) {
+            (Turn::Stop, false) => "corner with a stop",
+            (Turn::Stop, true) => "corner with a stop, cross-coupled",
+            (Turn::Blend, false) => "corner at speed",
+            (Turn::Blend, true) => "corner at speed, cross-coupled",
         }
     }
 
@@ -110,21 +119,25 @@ impl Paper {
     }
 
     /// Our metrics with LuGre beside those without compensation under the same fuzzy PID, each with the paper's claim
-    /// where the paper makes one. It couples its axes, so its claims stand beside the coupled runs.
+    /// where the paper makes one. It couples its axes and contours, so its claims stand beside the coupled runs at speed.
     pub(super) fn claims(&self) -> Vec<ClaimEntry> {
         let fuzzy = |run: &dyn Run| run.control() == Control::Fuzzy;
         let sines: Vec<&Tracked> = self.tracked.iter().filter(|r| fuzzy(*r)).collect();
         let units = self.stage.units();
         let mut claims = beside(&sines, &SINE, &units);
-        for coupled in [false, true] {
-            let corners = self.cornered.iter();
-            let corners: Vec<&Cornered> = corners
-                .filter(|r| fuzzy(*r) && r.coupled == coupled)
-                .collect();
-            let words = |(name, unit, published, of): Metric<Cornered>| {
-                (name, unit, if coupled { published } else { "" }, of)
-            };
-            claims.extend(beside(&corners, &CORNERED.map(words), &units));
+        for turn in [Turn::Stop, Turn::Blend] {
+            for coupled in [false, true] {
+                let corners = self.cornered.iter();
+                let corners: Vec<&Cornered> = corners
+                    .filter(|r| fuzzy(*r) && r.turn == turn && r.coupled == coupled)
+                    .collect();
+                // A path of a machine tool goes round its corners at speed.
+                let like = coupled && turn == Turn::Blend;
+                let words = |(name, unit, published, of): Metric<Cornered>| {
+                    (name, unit, if like { published } else { "" }, of)
+                };
+                claims.extend(beside(&corners, &CORNERED.map(words), &units));
+            }
         }
         claims
     }
@@ -140,7 +153,7 @@ fn entry<R: Run>(run: &R, metrics: &[Metric<R>], units: &Units) -> RunEntry {
             .map(|(name, unit, _, of)| MetricEntry {
                 name: (*name).into(),
                 unit: unit(units).into(),
-                value: of(run),
+                value: of(run, units),
             })
             .collect(),
     }
@@ -154,7 +167,7 @@ fn beside<R: Run>(runs: &[&R], metrics: &[Metric<R>], units: &Units) -> Vec<Clai
     };
     let mut claims = Vec::new();
     for (name, unit, published, of) in metrics {
-        let without = of(bare);
+        let without = of(bare, units);
         for fed in [Compensation::Reference, Compensation::Measured] {
             let run = runs.iter().find(|r| is(r, fed));
             claims.extend(run.map(|run| ClaimEntry {
@@ -163,8 +176,8 @@ fn beside<R: Run>(runs: &[&R], metrics: &[Metric<R>], units: &Units) -> Vec<Clai
                 controller: run.control().name().into(),
                 compensation: fed.name().into(),
                 without,
-                with: of(run),
-                reduction_percent: 100.0 * (1.0 - of(run) / without),
+                with: of(run, units),
+                reduction_percent: 100.0 * (1.0 - of(run, units) / without),
                 published: (*published).into(),
             }));
         }

@@ -11,7 +11,7 @@ use stiction_servo::law::AxisLaw;
 /// compensation is a positive feedback of friction.
 const MEASURED_GAIN: f64 = 0.9;
 
-/// What compensates friction. All but [`Measured`](Self::Measured) are driven by the reference velocity.
+/// What compensates friction, driven by the reference velocity where nothing else is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compensation {
     /// There is none.
@@ -26,10 +26,12 @@ pub enum Compensation {
     Reference,
     /// LuGre, driven by the measured velocity, as the paper draws it.
     Measured,
+    /// The steady curve, driven by the measured velocity: at standstill only.
+    StribeckMeasured,
 }
 
 impl Compensation {
-    /// All of them, none first.
+    /// All that are compared in motion, none first.
     pub const ALL: [Compensation; 6] = [
         Compensation::Nothing,
         Compensation::Coulomb,
@@ -48,6 +50,7 @@ impl Compensation {
             Compensation::Simplified => "simplified",
             Compensation::Reference => "LuGre, reference velocity",
             Compensation::Measured => "LuGre, measured velocity",
+            Compensation::StribeckMeasured => "Stribeck, measured velocity",
         }
     }
 
@@ -74,14 +77,14 @@ impl Compensation {
                 let viscous = sides.map(|s| s.viscous);
                 Friction::Coulomb(CoulombViscous::new(levels, viscous, curve.offset())?)
             }
-            Compensation::Stribeck => Friction::Stribeck(*curve),
+            Compensation::Stribeck | Compensation::StribeckMeasured => Friction::Stribeck(*curve),
             Compensation::Simplified => without_stribeck(&AxisLaw::LuGre(*law))?.friction(),
             Compensation::Reference | Compensation::Measured => Friction::LuGre(*law),
         };
         let period = 1.0 / settings.rate;
         let whole = Settings::bare(period, settings.drive.peak_force());
         let (source, limits, preview) = match self {
-            Compensation::Measured => {
+            Compensation::Measured | Compensation::StribeckMeasured => {
                 let gain = MEASURED_GAIN;
                 (Source::Measured, Settings { gain, ..whole }, 0.0)
             }

@@ -17,8 +17,9 @@ pub(super) const VELOCITY: f64 = 1e-3;
 /// Time at it, and to reach and leave it, s: 3 s together, as long as the paper simulates.
 const HOLD: f64 = 2.9;
 const RAMP: f64 = 0.05;
-/// Bandwidths of the PIDs without their integral, which are springs with dampers, Hz: their stiffness grows as the square.
-pub(super) const SPRINGS: [f64; 7] = [8.0, 12.0, 15.0, 20.0, 30.0, 60.0, 120.0];
+/// Bandwidths of the PIDs without their integral, which are springs with dampers, in parts of that of the controllers: their
+/// stiffness grows as the square.
+pub(super) const SPRINGS: [f64; 7] = [0.133, 0.2, 0.25, 0.333, 0.5, 1.0, 2.0];
 
 /// What pulls the axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,8 +50,8 @@ pub struct Crawled {
 /// Springs from the softest on, then the controllers; each without and with the law on the reference velocity.
 pub(super) fn run(stage: &Stage, law: &LuGre<f64>, watch: &Watch) -> Result<Vec<Crawled>, Fault> {
     let mut pulled = Vec::new();
-    for bandwidth in SPRINGS {
-        let settings = sprung(stage, bandwidth)?;
+    for part in SPRINGS {
+        let settings = sprung(stage, part * stage.bandwidths()[0])?;
         let Controller::Pid(spring) = settings.controller else {
             continue;
         };
@@ -98,8 +99,8 @@ fn one(
     })
 }
 
-/// The axis on a spring with a damper.
-fn sprung(stage: &Stage, bandwidth: f64) -> Result<AxisSettings, ParamError> {
+/// The axis on a spring with a damper: the PID without its integral.
+pub(super) fn sprung(stage: &Stage, bandwidth: f64) -> Result<AxisSettings, ParamError> {
     let settings = stage.settings(Control::Pid)?;
     let limit = settings.controller.force_limit();
     let spring = Pid {

@@ -3,10 +3,9 @@
 
 use super::budget::Budget;
 use super::fault::Fault;
-use super::search::{METHODS, Searched, bounds, search, search_box};
+use super::search::{METHODS, Searched, bounds, each_seed, search, search_box};
 use super::stage::{Control, RATE, Stage};
 use crate::reproduce::watch::Watch;
-use rayon::prelude::*;
 use stiction_friction::{Direction, ParamError};
 use stiction_identify::candidates::{Dynamic, Named, Scheme, SixParameters};
 use stiction_identify::{
@@ -23,12 +22,12 @@ const CYCLES: f64 = 3.0;
 /// Every n-th sample is fitted, n: 5 kHz of 10 kHz.
 const FITTED_SAMPLE: usize = 2;
 
-/// Both identifications.
+/// Both identifications, each with one search for each method and seed, in that order.
 #[derive(Clone, Debug)]
 pub struct Dynamics {
     /// sigma0 and sigma1 with the static parameters held.
-    pub two: Searched,
-    /// All six at once: one search for each method and seed, in that order.
+    pub two: Vec<Searched>,
+    /// All six at once.
     pub six: Vec<Searched>,
 }
 
@@ -41,17 +40,14 @@ pub(super) fn run(
     let record = record(stage)?;
     watch.done()?;
     let cost = || cost(stage, &record, Mass::Absent);
-    let held = Dynamic::new(cost()?, &curve(statics))?;
-    let two = search(&held, "annealing-ga", budget, 1, watch)?;
-    let tasks: Vec<(&str, u64)> = METHODS
-        .iter()
-        .flat_map(|m| (1..=budget.seeds).map(move |seed| (*m, seed)))
-        .collect();
-    let six: Result<Vec<Searched>, Fault> = tasks
-        .par_iter()
-        .map(|(method, seed)| search(&cost()?, method, budget, *seed, watch))
-        .collect();
-    Ok(Dynamics { two, six: six? })
+    let (held, all) = (Dynamic::new(cost()?, &curve(statics))?, cost()?);
+    let two = each_seed(&METHODS, budget, |method, seed| {
+        search(&held, method, budget, seed, watch)
+    })?;
+    let six = each_seed(&METHODS, budget, |method, seed| {
+        search(&all, method, budget, seed, watch)
+    })?;
+    Ok(Dynamics { two, six })
 }
 
 /// Friction `Ke u - M a` over the velocity. Force and acceleration are taken at the instant of the velocity: the mean

@@ -1,6 +1,7 @@
 //! A user's own axis in place of the stage of this project.
 
-use super::stage::{RATE, Stage};
+use super::stage::{BANDWIDTH, RATE, Stage};
+use super::tune;
 use crate::error::Error;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
@@ -117,21 +118,25 @@ impl Stage {
             let found = format!("{} = {}", e.name, stiction_number::four_digits(e.value));
             model.refuse("parameter", found, e.allowed)
         };
+        let truth = KnownAxis {
+            name: "own",
+            source: "an axis of the user",
+            kind,
+            mass,
+            law,
+        };
         let mut stage = Stage {
             name: axis.name.clone(),
-            truth: KnownAxis {
-                name: "own",
-                source: "an axis of the user",
-                kind,
-                mass,
-                law,
-            },
-            second: None,
+            truth,
+            own: true,
+            // One file describes one axis: the corner is driven by two of them.
+            second: truth,
             drive: Drive {
                 peak_current: peak,
                 ..Drive::ideal()
             },
             encoder: Encoder::new(resolution).map_err(refused)?,
+            bandwidth: BANDWIDTH,
             steps: 1,
             notes,
         };
@@ -147,6 +152,7 @@ impl Stage {
             return Err(model.refuse_parameter("sigma0", found, allowed).into());
         };
         stage.steps = steps;
+        stage.bandwidth = tune::bandwidth(&stage).map_err(refused)?;
         Ok(stage)
     }
 }

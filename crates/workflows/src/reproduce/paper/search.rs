@@ -4,6 +4,7 @@ use super::budget::Budget;
 use super::fault::Fault;
 use super::stage::Stage;
 use crate::reproduce::watch::Watch;
+use rayon::prelude::*;
 use stiction_identify::candidates::{Candidates, Named};
 use stiction_search::{
     Bounds, Control, Finish, Generation, Limits, Method, Plan, Progress, Run, Status, genetic,
@@ -11,6 +12,15 @@ use stiction_search::{
 
 /// The three of Z25 Fig. 7.
 pub(super) const METHODS: [&str; 3] = ["ga", "adaptive-ga", "annealing-ga"];
+
+/// The least squares after the annealing search: from points that are a fifth of the box apart, since the best points of a
+/// search that ended in a wrong valley all lie there, and each long enough for the valley along which sigma1 and sigma2
+/// trade.
+const FINISH: Finish = Finish {
+    starts: 16,
+    apart: 0.2,
+    steps: 400,
+};
 
 /// Result of a search.
 #[derive(Clone, Debug)]
@@ -67,6 +77,24 @@ pub(super) fn bounds(low: &[f64], high: &[f64]) -> Result<Bounds, Fault> {
     Ok(Bounds::new(logarithms(low), logarithms(high))?)
 }
 
+/// A search by each method with each seed, in that order.
+pub(super) fn each_seed(
+    methods: &[&'static str],
+    budget: Budget,
+    one: impl Fn(&'static str, u64) -> Result<Searched, Fault> + Sync,
+) -> Result<Vec<Searched>, Fault> {
+    let tasks = methods
+        .iter()
+        .flat_map(|m| (1..=budget.seeds).map(move |seed| (*m, seed)));
+    let tasks: Vec<(&str, u64)> = tasks.collect();
+    tasks.par_iter().map(|(m, seed)| one(m, *seed)).collect()
+}
+
+/// Of searches, those by annealing: the paper's.
+pub fn annealing(searches: &[Searched]) -> impl Iterator<Item = &Searched> {
+    searches.iter().filter(|s| s.method == "annealing-ga")
+}
+
 /// Runs a method to its end on a cost with or without derivatives.
 pub(super) fn search<P: Candidates>(
     problem: &P,
@@ -90,7 +118,7 @@ pub(super) fn search<P: Candidates>(
             Method::AdaptiveGa(plain(genetic::Settings::adaptive())),
             None,
         ),
-        _ => (Method::AnnealingGa(annealed), Some(Finish::default())),
+        _ => (Method::AnnealingGa(annealed), Some(FINISH)),
     };
     let plan = Plan {
         method: method_settings,

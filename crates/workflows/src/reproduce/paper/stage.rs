@@ -1,9 +1,12 @@
 //! The axis of the experiments, with numbers of our own where the paper gives none.
 
+use super::search::search_box;
 use super::units::Units;
 use super::{dynamics, statics, tracking};
+use std::f64::consts::TAU;
 use stiction_friction::ParamError;
 use stiction_servo::axis::{AxisSettings, Sample};
+use stiction_servo::cascade::Cascade;
 use stiction_servo::controller::Controller;
 use stiction_servo::drive::Drive;
 use stiction_servo::encoder::Encoder;
@@ -19,8 +22,11 @@ use stiction_servo::trajectory::Trajectory;
 /// Control rate, Hz: one step of ode4 of 1e-4 s in each period.
 pub(super) const RATE: f64 = 1e4;
 
-/// Bandwidths for which the controllers of x and y are tuned, Hz.
-pub(super) const BANDWIDTHS: [f64; 2] = [60.0, 45.0];
+/// Bandwidth for which the controller of x is tuned on our stage, Hz, and that of y as a part of it.
+pub(super) const BANDWIDTH: f64 = 60.0;
+const SECOND: f64 = 0.75;
+/// Bandwidth of the current loop below the cascade, Hz: that of [`Drive::linear_motor`].
+const CURRENT_LOOP: f64 = 1000.0;
 
 /// Encoder step of the stage, m: published.
 const ENCODER: f64 = 50e-9;
@@ -52,17 +58,20 @@ pub enum Control {
     Pid,
     /// The same PID with gains scheduled by fuzzy rules: that of the paper.
     Fuzzy,
+    /// The three loops of the paper's drive: position, velocity and current.
+    Cascade,
 }
 
 impl Control {
-    /// Both, the plain one first.
-    pub const ALL: [Control; 2] = [Control::Pid, Control::Fuzzy];
+    /// All of them, the plain one first.
+    pub const ALL: [Control; 3] = [Control::Pid, Control::Fuzzy, Control::Cascade];
 
     /// Name for tables.
     pub fn name(self) -> &'static str {
         match self {
             Control::Pid => "PID",
             Control::Fuzzy => "fuzzy PID",
+            Control::Cascade => "cascade",
         }
     }
 }
@@ -74,10 +83,14 @@ pub struct Stage {
     pub name: Option<String>,
     /// Mass and friction of the axis that is identified: the truth.
     pub truth: KnownAxis,
-    /// The other axis of the corner, if there is one.
-    pub(super) second: Option<KnownAxis>,
+    /// Whether it is an axis of the user.
+    pub(super) own: bool,
+    /// The other axis of the corner.
+    pub(super) second: KnownAxis,
     pub(super) drive: Drive,
     pub(super) encoder: Encoder,
+    /// Bandwidth for which its controllers are tuned, Hz.
+    pub(super) bandwidth: f64,
     /// Steps of ode4 in a control period.
     pub(super) steps: u32,
     /// What is assumed of this axis, in words.
@@ -90,13 +103,15 @@ impl Stage {
         Ok(Stage {
             name: None,
             truth: axis("motor")?,
+            own: false,
             // A heavier slide carries the stage.
-            second: Some(axis("machine")?),
+            second: axis("machine")?,
             drive: Drive {
                 current_lag: 0.0,
                 ..Drive::linear_motor(0.0)
             },
             encoder: Encoder::new(ENCODER)?,
+            bandwidth: BANDWIDTH,
             steps: 1,
             notes: OURS.map(String::from).into(),
         })
@@ -109,7 +124,12 @@ impl Stage {
 
     /// Whether it is an axis of the user.
     pub fn is_own(&self) -> bool {
-        self.second.is_none()
+        self.own
+    }
+
+    /// Bandwidths of the controllers of x and y, Hz.
+    pub fn bandwidths(&self) -> [f64; 2] {
+        [self.bandwidth, SECOND * self.bandwidth]
     }
 
     /// Parameters that the experiments cannot find, since the axis has none.
@@ -127,9 +147,7 @@ impl Stage {
 
     /// The fastest speed of any experiment, with some overshoot, m/s (rad/s).
     pub(super) fn fastest(&self) -> f64 {
-        let sine = |amplitude: f64, frequency: f64| {
-            2.0 * std::f64::consts::PI * frequency * self.stroke(amplitude)
-        };
+        let sine = |amplitude: f64, frequency: f64| TAU * frequency * self.stroke(amplitude);
         let constant = self.speed(1e-3 * statics::SPEEDS[statics::SPEEDS.len() - 1]);
         let tracked = sine(tracking::AMPLITUDE, tracking::FREQUENCY);
         let dynamic = sine(dynamics::AMPLITUDE, dynamics::FREQUENCY);
@@ -148,6 +166,26 @@ impl Stage {
             side.static_friction - side.coulomb,
             side.stribeck_velocity,
         ]
+    }
+
+    /// The same in logarithms, as the searches have them; what the axis has none of is at the low end of its box.
+    pub(super) fn point(&self) -> [f64; 6] {
+        let [low, _] = search_box(self);
+        let genome = self.genome();
+        std::array::from_fn(|i| libm::log(if genome[i] > 0.0 { genome[i] } else { low[i] }))
+    }
+
+    /// The true value of a parameter, SI.
+    pub fn true_value(&self, name: &str) -> f64 {
+        let [s0, s1, s2, coulomb, rise, slow] = self.genome();
+        match name {
+            "sigma0" => s0,
+            "sigma1" => s1,
+            "sigma2" => s2,
+            "coulomb" => coulomb,
+            "static" => coulomb + rise,
+            _ => slow,
+        }
     }
 
     /// A speed on our stage, m/s, as the same part of the Stribeck velocity of this axis, m/s (rad/s).
@@ -171,15 +209,15 @@ impl Stage {
         run_with(settings, trajectory, Ode4::new(self.steps)?)
     }
 
-    /// The stage under a controller, Z25 eqs. (23)-(24): `M x'' = Ke u - F`, no delay and no current loop of its own.
+    /// The stage under a controller, Z25 eqs. (23)-(24): `M x'' = Ke u - F`, no delay, and a current loop of its own under
+    /// the cascade only.
     pub(super) fn settings(&self, control: Control) -> Result<AxisSettings, ParamError> {
-        self.controlled(&self.truth, control, BANDWIDTHS[0])
+        self.controlled(&self.truth, control, self.bandwidths()[0])
     }
 
     /// The second axis of the corner.
-    pub(super) fn second(&self, control: Control) -> Option<Result<AxisSettings, ParamError>> {
-        let axis = self.second.as_ref()?;
-        Some(self.controlled(axis, control, BANDWIDTHS[1]))
+    pub(super) fn second(&self, control: Control) -> Result<AxisSettings, ParamError> {
+        self.controlled(&self.second, control, self.bandwidths()[1])
     }
 
     fn controlled(
@@ -190,15 +228,20 @@ impl Stage {
     ) -> Result<AxisSettings, ParamError> {
         let limit = self.drive.peak_force();
         let friction = axis.law.curve().largest_static_level();
+        let mut drive = self.drive;
         let controller = match control {
             Control::Pid => Controller::Pid(Pid::tuned(axis.mass, bandwidth, limit)?),
             Control::Fuzzy => {
                 Controller::Fuzzy(FuzzyPid::tuned(axis.mass, bandwidth, limit, friction)?)
             }
+            Control::Cascade => {
+                drive.current_lag = 1.0 / (TAU * CURRENT_LOOP);
+                Controller::Cascade(Cascade::tuned(axis.mass, bandwidth, limit)?)
+            }
         };
         Ok(AxisSettings {
             plant: Plant::new(axis.mass, axis.law)?,
-            drive: self.drive,
+            drive,
             encoder: self.encoder,
             controller,
             feedforward: Feedforward::default(),

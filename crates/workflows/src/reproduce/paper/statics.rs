@@ -2,12 +2,14 @@
 
 use super::budget::Budget;
 use super::fault::Fault;
-use super::search::{Searched, bounds, search, search_box};
+use super::search::{METHODS, Searched, bounds, each_seed, search, search_box};
 use super::stage::{Control, Stage};
 use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
-use stiction_friction::ParamError;
+use stiction_identify::Samples;
 use stiction_identify::candidates::Curve;
+use stiction_identify::procedure::{Run, StaticPoint, Unsteady, stretches};
+use stiction_servo::axis::Sample;
 use stiction_servo::speeds::{SpeedRun, Speeds};
 
 /// Velocities of the runs, mm/s, each in both directions.
@@ -16,82 +18,124 @@ pub(super) const SPEEDS: [f64; 16] = [
 ];
 
 /// Time to reach a velocity, s.
-const RAMP: f64 = 0.1;
-/// Least time to settle there, s.
+pub(super) const RAMP: f64 = 0.1;
+/// Least time to settle there, and least time over which the force is then averaged, s.
 pub(super) const SETTLE: f64 = 0.3;
 /// Least way to settle in, in deflections at break-away, dimensionless, and the longest time for it, s.
 const DEFLECTIONS: f64 = 6.5;
 const LONGEST_SETTLE: f64 = 30.0;
-/// Time over which the force is averaged, s.
-pub(super) const MEAN: f64 = 0.3;
 
 /// The map and what was made of it.
 #[derive(Clone, Debug)]
 pub struct Statics {
-    /// m/s
+    /// Mean velocity of the runs at a steady velocity, m/s (rad/s), ascending.
     pub speed: Vec<f64>,
-    /// Mean control force, N.
+    /// Their mean control force, N (N m).
     pub force: Vec<f64>,
-    /// What was made of them.
-    pub search: Searched,
+    /// The time over which each was averaged, s.
+    pub(super) seconds: Vec<f64>,
+    /// Runs that are no points of the map.
+    pub left_out: Vec<LeftOut>,
+    /// What was made of the map: one search for each method and seed, in that order.
+    pub searches: Vec<Searched>,
+}
+
+/// A run that does not slide steadily.
+#[derive(Clone, Copy, Debug)]
+pub struct LeftOut {
+    /// Velocity of the reference, m/s (rad/s).
+    pub velocity: f64,
+    /// Mean control force, N (N m).
+    pub force: f64,
+    /// What it does instead.
+    pub reason: Unsteady,
 }
 
 pub(super) fn run(stage: &Stage, budget: Budget, watch: &Watch) -> Result<Statics, Fault> {
-    let (speed, force) = map(stage, watch)?;
-    let search = identify(stage, (speed.clone(), force.clone()), budget, 1, watch)?;
+    let (points, left_out) = map(stage, watch)?;
+    let of = |of: fn(&StaticPoint) -> f64| points.iter().map(of).collect::<Vec<f64>>();
+    let (speed, force) = (of(|p| p.velocity), of(|p| p.force));
+    let curve = curve(stage, (speed.clone(), force.clone()))?;
     Ok(Statics {
+        searches: each_seed(&METHODS, budget, |method, seed| {
+            search(&curve, method, budget, seed, watch)
+        })?,
+        seconds: of(|p| p.time.1 - p.time.0),
         speed,
         force,
-        search,
+        left_out,
     })
 }
 
-/// The static parameters of a map of speeds and forces.
-pub(super) fn identify(
-    stage: &Stage,
-    (speed, force): (Vec<f64>, Vec<f64>),
-    budget: Budget,
-    seed: u64,
-    watch: &Watch,
-) -> Result<Searched, Fault> {
-    // sigma2, Fc, Fs - Fc, vs.
+/// The cost of the static parameters `[sigma2, Fc, Fs - Fc, vs]` on a map of speeds and forces.
+pub(super) fn curve(stage: &Stage, (speed, force): (Vec<f64>, Vec<f64>)) -> Result<Curve, Fault> {
     let pick = |ends: [f64; 6]| [2, 3, 4, 5].map(|i| ends[i]);
     let [low, high] = search_box(stage).map(pick);
-    let curve = Curve::new(speed, force, bounds(&low, &high)?)?;
-    search(&curve, "annealing-ga", budget, seed, watch)
+    Ok(Curve::new(speed, force, bounds(&low, &high)?)?)
 }
 
-fn map(stage: &Stage, watch: &Watch) -> Result<(Vec<f64>, Vec<f64>), Fault> {
+/// The runs whose speed is steady, and those that stick and slip.
+type Map = (Vec<StaticPoint>, Vec<LeftOut>);
+
+fn map(stage: &Stage, watch: &Watch) -> Result<Map, Fault> {
     let speeds: Vec<f64> = SPEEDS
         .iter()
         .map(|v| stage.speed(1e-3 * v))
         .flat_map(|v| [-v, v])
         .collect();
-    let points: Result<Vec<(f64, f64)>, ParamError> =
-        speeds.par_iter().map(|&v| Ok((v, at(stage, v)?))).collect();
-    let mut points = points?;
+    let runs: Result<Vec<Map>, Fault> = speeds.par_iter().map(|&v| at(stage, v)).collect();
+    let (mut points, mut left_out) = (Vec::new(), Vec::new());
+    for (point, out) in runs? {
+        points.extend(point);
+        left_out.extend(out);
+    }
     watch.done()?;
-    points.sort_by(|a, b| a.0.total_cmp(&b.0));
-    Ok(points.into_iter().unzip())
+    points.sort_by(|a, b| a.velocity.total_cmp(&b.velocity));
+    Ok((points, left_out))
 }
 
-/// Mean control force, N, at a constant velocity, m/s.
-fn at(stage: &Stage, velocity: f64) -> Result<f64, ParamError> {
+/// A run at a constant velocity, m/s (rad/s), read as the procedure for a log does.
+fn at(stage: &Stage, velocity: f64) -> Result<Map, Fault> {
     let settle = settle(stage, velocity);
     let run = SpeedRun {
         velocity,
-        hold: settle + MEAN,
+        hold: 2.0 * settle,
         ramp: RAMP,
     };
     let samples = stage.along(&stage.settings(Control::Fuzzy)?, &Speeds::new(vec![run])?)?;
-    let settled = RAMP + settle..RAMP + settle + MEAN;
-    let forces = samples.iter().filter(|s| settled.contains(&s.time));
-    let (sum, n) = forces.fold((0.0, 0.0), |(sum, n), s| (sum + s.command, n + 1.0));
-    Ok(sum / n)
+    let settled = RAMP + settle..RAMP + 2.0 * settle;
+    let settled = samples.iter().filter(|s| settled.contains(&s.time));
+    let column = |of: fn(&Sample) -> f64| settled.clone().map(of).collect::<Vec<f64>>();
+    let log = Samples {
+        time: column(|s| s.time),
+        position: Some(column(|s| s.measured)),
+        force: column(|s| s.command),
+        ..Samples::default()
+    };
+    let found = stretches(
+        &[Run {
+            samples: &log,
+            reference: Some(&column(|s| s.reference.position)),
+            resolution: Some(stage.encoder.resolution()),
+        }],
+        &[],
+    )?;
+    // The whole run has one speed: what is steady in a part of it only is not.
+    let whole = |p: &&StaticPoint| 2 * p.samples > log.time.len();
+    let point: Vec<StaticPoint> = found.points.iter().filter(whole).copied().collect();
+    let left_out = point.is_empty().then(|| LeftOut {
+        velocity,
+        force: log.force.iter().sum::<f64>() / log.force.len() as f64,
+        reason: found
+            .rejected
+            .first()
+            .map_or(Unsteady::Unsettled, |r| r.reason),
+    });
+    Ok((point, left_out.into_iter().collect()))
 }
 
 /// Time to settle at a velocity, m/s (rad/s), in s: until the axis has moved by some deflections at break-away.
-fn settle(stage: &Stage, velocity: f64) -> f64 {
+pub(super) fn settle(stage: &Stage, velocity: f64) -> f64 {
     let time = DEFLECTIONS * stage.truth.law.bound() / velocity.abs();
     time.clamp(SETTLE, LONGEST_SETTLE)
 }

@@ -3,12 +3,14 @@
 use stiction_servo::known::Kind;
 
 /// SI units of an axis as they are typed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Units {
     /// Of a position.
     pub length: &'static str,
     /// Of a velocity.
     pub speed: &'static str,
+    /// Of a feed, and how many of it are one of the speed.
+    pub feed: (&'static str, f64),
     /// Of what drives it.
     pub force: &'static str,
     /// Of what moves.
@@ -25,6 +27,7 @@ impl Units {
             Kind::Linear => Units {
                 length: "m",
                 speed: "m/s",
+                feed: ("m/min", 60.0),
                 force: "N",
                 mass: "kg",
                 stiffness: "N/m",
@@ -33,6 +36,7 @@ impl Units {
             Kind::Rotary => Units {
                 length: "rad",
                 speed: "rad/s",
+                feed: ("rad/s", 1.0),
                 force: "N*m",
                 mass: "kg*m^2",
                 stiffness: "N*m/rad",

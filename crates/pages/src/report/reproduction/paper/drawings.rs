@@ -5,14 +5,17 @@ use stiction_report::{Block, Drawing};
 /// The law, and the axis in presliding.
 pub(super) fn law() -> Block {
     Block::Columns(vec![
-        Drawing::new("The LuGre law", include_str!("drawings/bristles.svg"))
-            .half()
-            .caption(
-                "Bristles of mean deflection z carry the force and slip as they reach their limit.",
-            )
-            .into(),
         Drawing::new(
-            "The axis below break-away",
+            "The LuGre law (FIG. 2)",
+            include_str!("drawings/bristles.svg"),
+        )
+        .half()
+        .caption(
+            "Bristles of mean deflection z carry the force and slip as they reach their limit.",
+        )
+        .into(),
+        Drawing::new(
+            "The axis below break-away (FIG. 8)",
             include_str!("drawings/presliding.svg"),
         )
         .half()
@@ -24,7 +27,7 @@ pub(super) fn law() -> Block {
 /// The steps of the search.
 pub(super) fn search() -> Drawing {
     Drawing::new(
-        "The annealing genetic search",
+        "The annealing genetic search (FIG. 3)",
         include_str!("drawings/search.svg"),
     )
 }
@@ -32,7 +35,7 @@ pub(super) fn search() -> Drawing {
 /// The axis under control.
 pub(super) fn control() -> Drawing {
     Drawing::new(
-        "The axis under control with compensation",
+        "The axis under control with compensation (FIG. 18)",
         include_str!("drawings/loop.svg"),
     )
 }

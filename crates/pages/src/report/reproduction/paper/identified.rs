@@ -18,7 +18,11 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
     document = document
         .block(drawings::law())
         .heading(2, "Static parameters")
-        .block(numbers(file, "static"))
+        .block(numbers(file, "static"));
+    if !statics.left_out.is_empty() {
+        document = document.paragraph(left_out(statics, paper.stage.units()));
+    }
+    document = document
         .block(map(paper, statics))
         .block(stribeck(&paper.stage.truth.law, paper.stage.units()));
     let Some(dynamics) = &paper.dynamics else {
@@ -37,6 +41,19 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
             .block(response(step, paper.stage.units())),
         None => document,
     }
+}
+
+/// The runs that are no points of the map.
+fn left_out(statics: &Statics, units: Units) -> String {
+    let each = statics.left_out.iter().map(|run| {
+        let velocity = number::quantity(run.velocity, units.speed);
+        format!("{velocity}, {}", run.reason.name())
+    });
+    format!(
+        "Left out, as the loop does not hold a steady velocity there, which is the stick-slip that the paper compensates: {}. \
+         Their mean force is no point of the steady curve.",
+        each.collect::<Vec<String>>().join("; ")
+    )
 }
 
 /// Steady friction of a law over velocities, N.
@@ -69,13 +86,14 @@ fn map(paper: &Paper, statics: &Statics) -> Figure {
             let line = Layer::line(v.clone(), steady(law, &v)).dash(Dash::Dashed);
             panel = panel.layer(line.color(Color::Blue).label("Identified"));
         }
-        panel.layer(
-            Layer::points(shown.0, shown.1)
-                .color(Color::Vermilion)
-                .width(6.0)
-                .opacity(1.0)
-                .label("Runs"),
-        )
+        let out = statics.left_out.iter().map(|run| (run.velocity, run.force));
+        let out: (Vec<f64>, Vec<f64>) = out.filter(|(v, _)| v.abs() <= reach).unzip();
+        let points = |(x, y): (Vec<f64>, Vec<f64>)| Layer::points(x, y).width(6.0).opacity(1.0);
+        panel = panel.layer(points(shown).color(Color::Vermilion).label("Runs"));
+        match out.0.is_empty() {
+            true => panel,
+            false => panel.layer(points(out).color(Color::Sky).label("Left out")),
+        }
     };
     Figure::new("Friction over velocity (FIG. 12)")
         .panel(panel("", top))
@@ -98,6 +116,7 @@ fn stribeck(law: &LuGre<f64>, units: Units) -> Figure {
     .layer(
         Layer::hline(side.static_friction)
             .color(Color::Vermilion)
+            .dash(Dash::Dashed)
             .label("Fs"),
     )
     .layer(
@@ -111,7 +130,7 @@ fn stribeck(law: &LuGre<f64>, units: Units) -> Figure {
 fn inversion(paper: &Paper, step: &Presliding) -> String {
     let units = paper.stage.units();
     let off = |found: f64, name: &str| {
-        let true_value = paper.true_value(name);
+        let true_value = paper.stage.true_value(name);
         Percent::error(100.0 * (found / true_value - 1.0)).signed(1)
     };
     let overshoot = step.overshoot.map_or(String::new(), |part| {

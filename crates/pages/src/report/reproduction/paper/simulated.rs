@@ -1,6 +1,6 @@
 //! The axis in motion: tracking without and with compensation, corner, change of load.
 
-use super::{corners, drawings, parts, slow};
+use super::{corners, delayed, drawings, parts, rested, slow};
 use crate::report::reproduction::checks::numbers;
 use stiction_files::reproduce_file::ReproduceFile;
 use stiction_report::{Axis, Color, Dash, Document, Figure, Layer, Panel, number};
@@ -38,7 +38,9 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
         ));
         document = figures.fold(document, Document::block);
     }
+    document = delayed::sections(document, paper);
     document = corners::sections(document, paper);
+    document = rested::sections(document, paper);
     document = slow::sections(document, paper);
     if paper.loads.is_empty() {
         return document;
@@ -126,28 +128,17 @@ fn friction(run: &Tracked, units: Units) -> Figure {
     let [true_force, found] = &run.friction;
     let time = column(&run.samples, |s| s.time);
     let velocity = column(&run.samples, |s| s.velocity);
-    let pair = |panel: Panel, x: &[f64]| {
-        panel
-            .layer(
-                Layer::line(x, true_force.clone())
-                    .color(Color::Grey)
-                    .width(3.0)
-                    .label("True"),
-            )
-            .layer(
-                Layer::line(x, found.clone())
-                    .color(Color::Blue)
-                    .dash(Dash::Dashed)
-                    .label("Identified"),
-            )
-    };
-    let over_velocity = Panel::new(axis("Velocity", units.speed), axis("Friction", units.force));
-    Figure::new("Friction over time and velocity, true and identified (FIG. 17)")
-        .panel(pair(
-            over_time("Friction", units.force).height(180.0),
-            &time,
-        ))
-        .panel(pair(over_velocity, &velocity))
+    let off: Vec<f64> = found.iter().zip(true_force).map(|(a, b)| a - b).collect();
+    let over_velocity =
+        |name: &str| Panel::new(axis("Velocity", units.speed), axis(name, units.force));
+    let over_time = |name: &str| over_time(name, units.force).height(130.0);
+    let friction = |x: &[f64]| Layer::line(x, true_force.clone()).color(Color::Grey);
+    let error = |x: &[f64]| Layer::line(x, off.clone()).color(Color::Vermilion);
+    Figure::new("Friction over time and velocity, and the error of the identified law (FIG. 17)")
+        .panel(over_time("Friction").layer(friction(&time)))
+        .panel(over_time("Identified less true").layer(error(&time)))
+        .panel(over_velocity("Friction").layer(friction(&velocity)))
+        .panel(over_velocity("Identified less true").layer(error(&velocity)))
         .caption("Both laws along the same motion.")
 }
 

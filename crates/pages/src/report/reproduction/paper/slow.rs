@@ -3,7 +3,7 @@
 use super::simulated::{axis, over_time};
 use stiction_number::{Percent, quantity};
 use stiction_report::{Align, Color, Document, Figure, Layer, Panel, Table, number};
-use stiction_workflows::reproduce::{Compensation, Crawled, Paper, Pull, Stiffness, Units};
+use stiction_workflows::reproduce::{Compensation, Crawled, Paper, Pull, Stage, Stiffness, Units};
 
 /// Colours from soft to stiff.
 const COLORS: [Color; 4] = [Color::Vermilion, Color::Orange, Color::Green, Color::Blue];
@@ -22,8 +22,8 @@ pub(super) fn sections(mut document: Document, paper: &Paper) -> Document {
                  a stiff one does not. The force of the law at the reference velocity takes the load off the spring; it does \
                  not take away that friction falls.",
             )
-            .block(crawl(&paper.crawled, units))
-            .block(evenness(&paper.crawled, units));
+            .block(crawl(&paper.crawled, &paper.stage))
+            .block(evenness(&paper.crawled, &paper.stage));
     }
     if !paper.stiffnesses.is_empty() {
         document = document
@@ -40,10 +40,16 @@ pub(super) fn sections(mut document: Document, paper: &Paper) -> Document {
 }
 
 /// What pulls, for tables and legends.
-fn pulled(run: &Crawled, units: Units) -> String {
+fn pulled(run: &Crawled, stage: &Stage) -> String {
     match run.pull {
-        Pull::Spring(stiffness) => format!("Spring, {}", stiff(stiffness, units)),
-        Pull::Control(control) => format!("{}, 60 Hz", control.name()),
+        Pull::Spring(stiffness) => format!("Spring, {}", stiff(stiffness, stage.units())),
+        Pull::Control(control) => {
+            format!(
+                "{}, {}",
+                control.name(),
+                quantity(stage.bandwidths()[0], "Hz")
+            )
+        }
     }
 }
 
@@ -58,7 +64,8 @@ fn stiff(x: f64, units: Units) -> String {
     format!("{} {prefix}{unit}", number::sig(factor * x, 3))
 }
 
-fn crawl(runs: &[Crawled], units: Units) -> Figure {
+fn crawl(runs: &[Crawled], stage: &Stage) -> Figure {
+    let units = stage.units();
     let bare = |c: &&Crawled| c.compensation == Compensation::Nothing;
     let springs: Vec<&Crawled> = runs.iter().filter(bare).collect();
     // The softest, the last that rests, the first that does not, and the fuzzy PID.
@@ -79,7 +86,7 @@ fn crawl(runs: &[Crawled], units: Units) -> Figure {
     for (i, color) in shown.into_iter().zip(COLORS) {
         let run = springs[i];
         let line = |y: &[f64]| Layer::line(run.time.clone(), y).color(color);
-        position = position.layer(line(&run.position[1]).label(pulled(run, units)));
+        position = position.layer(line(&run.position[1]).label(pulled(run, stage)));
         velocity = velocity.layer(line(&run.velocity));
     }
     Figure::new("Low speed: stick and slip on a soft spring")
@@ -89,7 +96,7 @@ fn crawl(runs: &[Crawled], units: Units) -> Figure {
         .caption("Without compensation.")
 }
 
-fn evenness(runs: &[Crawled], units: Units) -> Table {
+fn evenness(runs: &[Crawled], stage: &Stage) -> Table {
     let columns = [
         ("Pulled by", Align::Left),
         ("At rest, without", Align::Right),
@@ -105,7 +112,7 @@ fn evenness(runs: &[Crawled], units: Units) -> Table {
     runs.chunks(2).fold(table, |table, pair| {
         let [without, with] = pair else { return table };
         table.row([
-            pulled(without, units),
+            pulled(without, stage),
             percent(without.crawl.rest_share),
             percent(with.crawl.rest_share),
             percent(without.crawl.ripple),
