@@ -515,6 +515,10 @@ pub enum CompareCost {
     Separable,
     /// Six parameters, force in and position out.
     Position,
+    /// Its steady curve from constant velocities: the static step of the 2025 paper.
+    Curve,
+    /// sigma0 and sigma1 with the steady curve known: its dynamic step.
+    Dynamic,
 }
 
 #[derive(Clone, Debug, Args)]

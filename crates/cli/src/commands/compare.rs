@@ -46,6 +46,8 @@ pub fn run(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
             arguments::CompareCost::Six => Cost::Six,
             arguments::CompareCost::Separable => Cost::Separable,
             arguments::CompareCost::Position => Cost::Position,
+            arguments::CompareCost::Curve => Cost::Curve,
+            arguments::CompareCost::Dynamic => Cost::Dynamic,
         }),
         max_samples: compare.max_samples,
     };

@@ -114,6 +114,14 @@ fn motions_costs_and_integrators_can_be_chosen() {
         CompareOptions {
             cost: Some(Cost::Separable),
             excitation: Some(Excitation::ThreeSegments),
+            ..base.clone()
+        },
+        CompareOptions {
+            cost: Some(Cost::Curve),
+            ..base.clone()
+        },
+        CompareOptions {
+            cost: Some(Cost::Dynamic),
             ..base
         },
     ]

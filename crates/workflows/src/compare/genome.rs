@@ -48,9 +48,16 @@ pub(super) fn genome(truth: &[(String, f64)], cost: Cost, floor: Floor) -> Vec<f
     match cost {
         Cost::Curve => truth
             .chunks(4)
-            .flat_map(|side| [side[0].1, side[1].1, side[2].1 - side[1].1, side[3].1])
+            .flat_map(|side| {
+                let [s2, fc, fs, vs] = [0, 1, 2, 3].map(|i: usize| side[i].1);
+                let excess = (fs - fc).max(floor.excess);
+                [s2.max(floor.damping), fc, excess, vs]
+            })
             .map(libm::log)
             .collect(),
+        Cost::Dynamic => ["sigma0", "sigma1"]
+            .map(|name| libm::log(value(name)))
+            .into(),
         _ => {
             let (fc, fs, vs) = (
                 value("coulomb"),

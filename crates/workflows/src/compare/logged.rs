@@ -25,12 +25,12 @@ pub(super) fn subject(
         (Setting::Excitation.into(), options.excitation.is_some()),
         (Setting::Rate.into(), options.rate.is_some()),
         (Setting::OtherLaw.into(), options.other_law),
-        (
-            Setting::Cost.is(Cost::Position.name()),
-            options.cost == Some(Cost::Position),
-        ),
     ];
-    if let Some((setting, _)) = made.into_iter().find(|(_, given)| *given) {
+    let of_a_problem = [Cost::Position, Cost::Curve, Cost::Dynamic];
+    let cost = options.cost.filter(|cost| of_a_problem.contains(cost));
+    let cost = cost.map(|cost| (Setting::Cost.is(cost.name()), true));
+    let mut made = made.into_iter().chain(cost);
+    if let Some((setting, _)) = made.find(|(_, given)| *given) {
         return Err(Error::usage(
             [setting, " together with a log".into()],
             "only a problem is made; a log is what it is",
@@ -97,6 +97,7 @@ pub(super) fn subject(
             thinned: thinned(&record).map(Box::new),
             record: Box::new(record),
             terms,
+            held: None,
         },
     })
 }

@@ -58,8 +58,28 @@ pub(super) fn from_curve(options: &CompareOptions, curve: &KnownCurve) -> Result
         cost: Cost::Curve,
         law: lugre(),
         scheme: Scheme::Explin,
-        data: Data::Curve { force },
+        data: Data::Curve {
+            speed: known::speeds(),
+            force,
+        },
     })
+}
+
+/// Slowest and fastest speed of the static step, in Stribeck velocities, and how many between them, spaced evenly in their
+/// logarithm, each in both directions: those of `stiction reproduce paper`, about.
+const SPEEDS: (f64, f64, usize) = (0.067, 33.0, 16);
+
+/// The steady curve of an axis.
+fn curve_of(axis: &KnownAxis, noise: f64) -> Data {
+    let (low, high, count) = SPEEDS;
+    let curve = axis.law.curve();
+    let step = libm::log(high / low) / (count - 1) as f64;
+    let speeds = (0..count).map(|i| low * libm::exp(step * i as f64));
+    let speeds = speeds.map(|part| part * curve.positive().stribeck_velocity);
+    let speed: Vec<f64> = speeds.flat_map(|v| [-v, v]).collect();
+    let mut force: Vec<f64> = speed.iter().map(|v| curve.force(*v)).collect();
+    add_noise(&mut force, noise);
+    Data::Curve { speed, force }
 }
 
 fn noise_of(options: &CompareOptions) -> Result<f64, Error> {
@@ -106,23 +126,37 @@ pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Su
         ("static", side.static_friction),
         ("stribeck_velocity", side.stribeck_velocity),
     ];
-    let truth: Vec<(String, f64)> = truth.map(|(n, v)| (n.to_string(), v)).into();
+    let searched = |name: &str| match cost {
+        Cost::Curve => !["sigma0", "sigma1"].contains(&name),
+        Cost::Dynamic => ["sigma0", "sigma1"].contains(&name),
+        _ => true,
+    };
+    let truth = truth.into_iter().filter(|(name, _)| searched(name));
+    let truth: Vec<(String, f64)> = truth.map(|(n, v)| (n.to_string(), v)).collect();
     let floor = Floor::new(side.coulomb, 10.0 * side.stribeck_velocity);
     let bounds = about(&genome(&truth, cost, floor), options.decades.unwrap_or(1.0))?;
     let made = |e: ParamError| Error::usage(e.to_string(), "a law");
-    let (data, motion) = if cost == Cost::Position {
-        if options.excitation.is_some() || options.integrator != Scheme::Explin {
-            return Err(Error::usage(
-                [
-                    Setting::Excitation.into(),
-                    " or ".into(),
-                    Setting::Integrator.into(),
-                    TOGETHER_WITH.into(),
-                    Setting::Cost.is(Cost::Position.name()),
-                ],
-                "the motion is what the force makes of it",
-            ));
-        }
+    let given = options.excitation.is_some() || options.integrator != Scheme::Explin;
+    if given && [Cost::Position, Cost::Curve].contains(&cost) {
+        return Err(Error::usage(
+            [
+                Setting::Excitation.into(),
+                " or ".into(),
+                Setting::Integrator.into(),
+                TOGETHER_WITH.into(),
+                Setting::Cost.is(cost.name()),
+            ],
+            match cost {
+                Cost::Position => "the motion is what the force makes of it",
+                _ => "a steady curve has no motion and no memory",
+            },
+        ));
+    }
+    let (data, motion) = if cost == Cost::Curve {
+        let (low, high, count) = SPEEDS;
+        let motion = format!("forces at {count} speeds from {low} to {high} vs, both ways");
+        (curve_of(axis, noise), motion)
+    } else if cost == Cost::Position {
         let size = 1.5 * side.static_friction;
         let force: Vec<f64> = (0..samples)
             .map(|i| size * libm::sin(std::f64::consts::TAU * (i as f64 + 0.5) * step))
@@ -159,6 +193,7 @@ pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Su
                 offset: false,
                 ..Terms::default()
             },
+            held: (cost == Cost::Dynamic).then_some(*side),
         };
         (data, excitation.description().to_string())
     };
@@ -166,6 +201,10 @@ pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Su
         "; the data follow another law: Stribeck exponent 1, in the negative direction Fc and sigma2 of 80 %, Fs of 90 %"
     } else {
         ""
+    };
+    let (samples, rate) = match &data {
+        Data::Curve { force, .. } => (force.len(), 0.0),
+        _ => (samples, rate),
     };
     Ok(Subject {
         name: axis.name.into(),

@@ -25,8 +25,10 @@ pub enum Cost {
     Separable,
     /// The six parameters of LuGre, force in and position out.
     Position,
-    /// The parameters of a steady curve; for the problems that are one.
+    /// The parameters of a steady curve: of the problems that are one, and the static step of an axis.
     Curve,
+    /// sigma0 and sigma1 of LuGre with the steady curve known: the dynamic step of an axis.
+    Dynamic,
 }
 
 impl Cost {
@@ -37,6 +39,7 @@ impl Cost {
             Cost::Separable => "separable",
             Cost::Position => "position",
             Cost::Curve => "curve",
+            Cost::Dynamic => "dynamic",
         }
     }
 }

@@ -1,13 +1,13 @@
 //! What is compared on: a record, a curve or a drive, with its box, and where its optimum is.
 
 use super::genome::{Floor, genome};
-use super::known;
 use super::options::{Cost, Shared};
 use crate::error::Error;
 use crate::spread::Spread;
 use std::f64::consts::LN_10;
+use stiction_friction::Direction;
 use stiction_identify as engine;
-use stiction_identify::candidates::{Curve, Nonlinear, Scheme, Simulated, SixParameters};
+use stiction_identify::candidates::{Curve, Dynamic, Nonlinear, Scheme, Simulated, SixParameters};
 use stiction_identify::{Delay, Law, LawKind, Observer, Record, SearchBox, Settings, Terms};
 use stiction_search::{Bounds, Fidelity, Limits, Method, Plan, Points, Problem, Run, levenberg};
 
@@ -41,8 +41,11 @@ pub(super) enum Data {
         record: Box<Record>,
         thinned: Option<Box<Record>>,
         terms: Terms,
+        /// The steady curve, where it is known and only the bristles are searched.
+        held: Option<Direction<f64>>,
     },
     Curve {
+        speed: Vec<f64>,
         force: Vec<f64>,
     },
     Drive {
@@ -66,6 +69,7 @@ impl Subject {
                 record,
                 thinned,
                 terms,
+                held,
             } => match self.cost {
                 Cost::Separable => {
                     let bounds = search_box(&bounds);
@@ -75,13 +79,20 @@ impl Subject {
                             .map_err(refused)?,
                     )
                 }
-                _ => Box::new(
-                    SixParameters::new(record, self.law, terms, bounds, self.scheme)
-                        .map_err(refused)?,
-                ),
+                _ => {
+                    let six =
+                        |bounds| SixParameters::new(record, self.law, terms, bounds, self.scheme);
+                    match held {
+                        None => Box::new(six(bounds).map_err(refused)?),
+                        Some(curve) => {
+                            let all = six(beside(&bounds, curve)).map_err(refused)?;
+                            Box::new(Dynamic::new(all, curve).map_err(refused)?)
+                        }
+                    }
+                }
             },
-            Data::Curve { force } => {
-                Box::new(Curve::new(known::speeds(), force.clone(), bounds).map_err(refused)?)
+            Data::Curve { speed, force } => {
+                Box::new(Curve::new(speed.clone(), force.clone(), bounds).map_err(refused)?)
             }
             Data::Drive {
                 mass,
@@ -103,7 +114,13 @@ impl Subject {
     /// The least cost that is known before any search runs, and how it was found.
     pub fn reference(&self, observer: &mut dyn Observer) -> Result<(f64, &'static str), Error> {
         let refused = |e| self.refused(e);
-        if let Data::Record { record, terms, .. } = &self.data {
+        if let Data::Record {
+            record,
+            terms,
+            held: None,
+            ..
+        } = &self.data
+        {
             // The searches do not fit a delay; they take one that is given.
             let still = Terms {
                 delay: match terms.delay {
@@ -140,7 +157,7 @@ impl Subject {
             self.problem()?.costs(&points, Fidelity::Full, &mut cost);
             return Ok((cost[0], "separable (EXPLIN), seen by this integrator"));
         }
-        if let Data::Curve { .. } = &self.data {
+        if !matches!(self.data, Data::Drive { .. }) {
             let many = levenberg::Settings {
                 scan: 1024,
                 starts: 64,
@@ -176,6 +193,21 @@ impl Subject {
             source,
         }
     }
+}
+
+/// The box of six parameters with that of sigma0 and sigma1 in front; the others are held, so that theirs does not matter.
+fn beside(bounds: &Bounds, curve: &Direction<f64>) -> Bounds {
+    let held = [
+        curve.viscous,
+        curve.coulomb,
+        curve.static_friction - curve.coulomb,
+        curve.stribeck_velocity,
+    ];
+    let ends = |own: &[f64], off: f64| -> Vec<f64> {
+        let own = own.iter().copied();
+        own.chain(held.map(|x| libm::log(x) + off)).collect()
+    };
+    Bounds::new(ends(bounds.low(), -1.0), ends(bounds.high(), 1.0)).unwrap_or(bounds.clone())
 }
 
 /// The least cost that a method finds.

@@ -121,7 +121,7 @@ fn stribeck(law: &LuGre<f64>, units: Units) -> Figure {
     )
     .layer(
         Layer::vline(side.stribeck_velocity)
-            .color(Color::Purple)
+            .color(Color::Sky)
             .label("vs"),
     );
     Figure::new("The Stribeck curve of the axis (FIG. 1)").panel(panel)
