@@ -8,8 +8,11 @@ use stiction_dispatch::InstructionSet;
 mod alone;
 mod batch;
 mod explicit;
+mod residuals;
 mod terms;
 
+use batch::{Batch, Squares};
+pub use residuals::residuals;
 pub use terms::Scheme;
 
 /// Number of candidates that share the lanes of a batch.
@@ -52,9 +55,21 @@ fn explin(track: &Track, group: &[Candidate], instructions: InstructionSet) -> V
                 false => instructions.run(alone::Alone::<true>::new(track, c)),
             })
             .collect(),
-        (..=8, false) => instructions.run(batch::Batch::<8, false>::new(track, group)),
-        (..=8, true) => instructions.run(batch::Batch::<8, true>::new(track, group)),
-        (_, false) => instructions.run(batch::Batch::<LANES, false>::new(track, group)),
-        (_, true) => instructions.run(batch::Batch::<LANES, true>::new(track, group)),
+        (..=8, _) => in_lanes::<8>(track, group, power, instructions),
+        _ => in_lanes::<LANES>(track, group, power, instructions),
     }
+}
+
+fn in_lanes<const N: usize>(
+    track: &Track,
+    group: &[Candidate],
+    power: bool,
+    instructions: InstructionSet,
+) -> Vec<f64> {
+    let sink = Squares::<N>::new();
+    let costs = match power {
+        false => instructions.run(Batch::<_, N, false>::new(track, group, sink)),
+        true => instructions.run(Batch::<_, N, true>::new(track, group, sink)),
+    };
+    costs[..group.len()].to_vec()
 }

@@ -8,6 +8,7 @@
 //! |---|---|
 //! | a recorded motion, made ready once | [`Track::new`] |
 //! | costs of candidates with all parameters given | [`costs`] |
+//! | their residual force at every sample, to be filtered | [`residuals`] |
 //! | what a step of the separable search needs, for many trials | [`sums`], [`shared_sums`] |
 //! | the same for one trial | [`sums_alone`] |
 //! | the motion of a mass under a given force, and its cost | [`plants`] |
@@ -60,7 +61,7 @@ mod trace;
 mod track;
 
 pub use candidate::Candidate;
-pub use cost::{Scheme, costs};
+pub use cost::{Scheme, costs, residuals};
 pub use directed::{DIRECTED, Directed, directed_levels, directed_slopes};
 pub use error::Error;
 pub use normal::{Sums, Trial, levels, shared_sums, sums, sums_alone};

@@ -11,10 +11,47 @@ use stiction_dispatch::Kernel;
 
 type Rows<const N: usize, const R: usize> = Aligned<[[f64; N]; R]>;
 
-pub(super) struct Batch<'a, const N: usize, const POWER: bool> {
+pub(super) struct Batch<'a, S, const N: usize, const POWER: bool> {
     track: &'a Track,
     terms: LaneTerms<N>,
-    used: usize,
+    sink: S,
+}
+
+/// Receives the residuals of the nodes with one of some marks. Its methods must be `#[inline(always)]`.
+pub(super) trait Sink<const N: usize> {
+    /// The marks.
+    const MARKS: u8;
+    /// What is returned in the end.
+    type Output;
+    /// Measured minus model force of every lane, in the direction of motion, at a node.
+    fn take(&mut self, node: usize, residual: &[f64; N]);
+    fn end(self) -> Self::Output;
+}
+
+/// Sums of squares over the nodes that count.
+pub(super) struct Squares<const N: usize>(Aligned<[f64; N]>);
+
+impl<const N: usize> Squares<N> {
+    pub fn new() -> Self {
+        Squares(Aligned([0.0; N]))
+    }
+}
+
+impl<const N: usize> Sink<N> for Squares<N> {
+    const MARKS: u8 = KEPT;
+    type Output = [f64; N];
+
+    #[inline(always)]
+    fn take(&mut self, _: usize, residual: &[f64; N]) {
+        for j in 0..N {
+            self.0.0[j] = fma(residual[j], residual[j], self.0.0[j]);
+        }
+    }
+
+    #[inline(always)]
+    fn end(self) -> [f64; N] {
+        self.0.0
+    }
 }
 
 /// The terms of all lanes, one array for each quantity.
@@ -48,8 +85,9 @@ impl<const N: usize> LaneTerms<N> {
     }
 }
 
-impl<'a, const N: usize, const POWER: bool> Batch<'a, N, POWER> {
-    pub fn new(track: &'a Track, group: &[Candidate]) -> Self {
+impl<'a, S, const N: usize, const POWER: bool> Batch<'a, S, N, POWER> {
+    /// Unused lanes repeat the last candidate of the group.
+    pub fn new(track: &'a Track, group: &[Candidate], sink: S) -> Self {
         let all: [Terms; N] = lanes(group, Terms::new);
         let each = |f: fn(&Terms) -> f64| all.each_ref().map(f);
         Batch {
@@ -64,16 +102,16 @@ impl<'a, const N: usize, const POWER: bool> Batch<'a, N, POWER> {
                 damping: each(|t| t.damping),
                 speed: each(|t| t.speed),
             },
-            used: group.len(),
+            sink,
         }
     }
 }
 
-impl<const N: usize, const POWER: bool> Kernel for Batch<'_, N, POWER> {
-    type Output = Vec<f64>;
+impl<S: Sink<N>, const N: usize, const POWER: bool> Kernel for Batch<'_, S, N, POWER> {
+    type Output = S::Output;
 
     #[inline(always)]
-    fn run(self) -> Vec<f64> {
+    fn run(mut self) -> S::Output {
         let (track, terms) = (self.track, &self.terms);
         let ln_speed = if POWER {
             track.ln_speed()
@@ -81,7 +119,7 @@ impl<const N: usize, const POWER: bool> Kernel for Batch<'_, N, POWER> {
             &track.speed
         };
         let mut w = Aligned([-START.g; N]);
-        let mut cost = Aligned([0.0; N]);
+        let mut residuals = Aligned([0.0; N]);
         let mut g: Rows<N, { T + 1 }> = Aligned([[START.g; N]; T + 1]);
         let mut q: Rows<N, { T + 1 }> = Aligned([[START.q; N]; T + 1]);
         let mut keep: Rows<N, T> = Aligned([[0.0; N]; T]);
@@ -91,7 +129,7 @@ impl<const N: usize, const POWER: bool> Kernel for Batch<'_, N, POWER> {
         let tiles = tiles.zip(track.half_step.as_chunks::<T>().0);
         let tiles = tiles.zip(track.force.as_chunks::<T>().0);
         let tiles = tiles.zip(track.marks.as_chunks::<T>().0);
-        for ((((speed, ln), half), force), marks) in tiles {
+        for (tile, ((((speed, ln), half), force), marks)) in tiles.enumerate() {
             for t in 0..HALF {
                 let v = [t, t + HALF].map(|t| Speed {
                     value: speed[t],
@@ -130,11 +168,12 @@ impl<const N: usize, const POWER: bool> Kernel for Batch<'_, N, POWER> {
                         w.0[j] = -g[j];
                     }
                 }
-                if marks[t] & KEPT != 0 {
+                if marks[t] & S::MARKS != 0 {
                     for j in 0..N {
-                        let e = residual(&terms.at(j), w.0[j] + g[j], q[j], speed[t], force[t]);
-                        cost.0[j] = fma(e, e, cost.0[j]);
+                        let y = w.0[j] + g[j];
+                        residuals.0[j] = residual(&terms.at(j), y, q[j], speed[t], force[t]);
                     }
+                    self.sink.take(T * tile + t, &residuals.0);
                 }
                 if marks[t] & REVERSE != 0 {
                     for j in 0..N {
@@ -145,6 +184,6 @@ impl<const N: usize, const POWER: bool> Kernel for Batch<'_, N, POWER> {
             g.0[0] = g.0[T];
             q.0[0] = q.0[T];
         }
-        cost.0[..self.used].to_vec()
+        self.sink.end()
     }
 }

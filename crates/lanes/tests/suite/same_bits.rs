@@ -4,6 +4,7 @@ use crate::common::{candidate, force, motion, sine, spread, track};
 use proptest::prelude::*;
 use stiction_lanes::{
     Candidate, Directed, InstructionSet, Scheme, Track, costs, directed_levels, directed_slopes,
+    residuals,
 };
 
 fn bits(track: &Track, all: &[Candidate], scheme: Scheme, set: InstructionSet) -> Vec<u64> {
@@ -46,6 +47,32 @@ fn costs_have_the_same_bits_with_any_number_of_threads() {
     };
     assert_eq!(with(1), with(2));
     assert_eq!(with(1), with(5));
+}
+
+/// Residuals written out, in lanes of any number, leave the costs and have the same bits.
+#[test]
+fn residuals_are_those_of_the_costs() {
+    let velocity = sine(700, 1e-3, 0.05, 7.0);
+    let track = track(1e-3, &velocity, &force(&velocity));
+    for exponents in [false, true] {
+        let all = spread(8, exponents);
+        let costs = costs(&track, &all, Scheme::Explin, InstructionSet::best()).unwrap();
+        let (mut right, mut rows, mut one) = (Vec::new(), Vec::new(), Vec::new());
+        residuals::<8>(&track, &all, InstructionSet::best(), &mut right).unwrap();
+        assert_eq!(right.len(), velocity.len());
+        for (j, cost) in costs.iter().enumerate() {
+            let sum: f64 = right.iter().map(|row| row[j] * row[j]).sum();
+            assert!((sum / cost - 1.0).abs() < 1e-12, "{sum} {cost}");
+        }
+        for set in InstructionSet::all() {
+            residuals::<8>(&track, &all[1..5], set, &mut rows).unwrap();
+            residuals::<1>(&track, &all[2..3], set, &mut one).unwrap();
+            for ((right, row), one) in right.iter().zip(&rows).zip(&one) {
+                assert_eq!(right[1..5], row[..4], "{set}");
+                assert_eq!(right[2], one[0], "{set}");
+            }
+        }
+    }
 }
 
 #[test]
