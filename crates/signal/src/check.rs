@@ -26,7 +26,7 @@ pub(crate) fn finite(signal: &[f64]) -> Result<(), SignalError> {
 /// At least `needed` samples.
 pub(crate) fn length(
     operation: &'static str,
-    signal: &[f64],
+    signal: &[impl Sized],
     needed: usize,
 ) -> Result<(), SignalError> {
     let found = signal.len();

@@ -3,6 +3,7 @@
 use crate::cascade::{Cascade, for_each_length};
 use crate::sos::{Section, Sos};
 use crate::{SignalError, check};
+use stiction_dispatch::{InstructionSet, Kernel};
 
 impl Sos {
     /// The signal filtered forward and backward: no delay at any frequency, and the gain squared.
@@ -74,6 +75,30 @@ impl Sos {
         Ok(())
     }
 
+    /// [`zero_phase_in_place`](Self::zero_phase_in_place) for `L` signals that stand side by side, a row for each sample: the
+    /// same to the last bit. A signal with a sample that is not finite becomes one without any that is, the others stay right.
+    ///
+    /// # Errors
+    /// If there are no more rows than [`padding`](Self::padding); they are then left as they were.
+    pub fn zero_phase_rows<const L: usize>(
+        &self,
+        rows: &mut [[f64; L]],
+    ) -> Result<(), SignalError> {
+        let padding = self.padding();
+        check::length("zero-phase filtering", rows, padding + 1)?;
+        let settled = self.settled_state();
+        for_each_length!(self.sections(), |sections| {
+            let state = core::array::from_fn(|index| settled[index]);
+            let pass = Pass {
+                sections,
+                state,
+                padding,
+            };
+            InstructionSet::best().run(OverRows(pass, rows));
+        });
+        Ok(())
+    }
+
     /// Samples by which [`zero_phase`](Self::zero_phase) continues the signal beyond each end:
     /// three times the number of coefficients of the whole filter, as in scipy.
     pub fn padding(&self) -> usize {
@@ -95,30 +120,88 @@ struct Pass<const S: usize> {
     padding: usize,
 }
 
+struct OverRows<'a, const S: usize, const L: usize>(Pass<S>, &'a mut [[f64; L]]);
+
+impl<const S: usize, const L: usize> Kernel for OverRows<'_, S, L> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        self.0.run(self.1);
+    }
+}
+
+/// `L` signals of one length.
+trait Signals<const L: usize> {
+    fn length(&self) -> usize;
+    fn at(&self, sample: usize) -> [f64; L];
+    fn set(&mut self, sample: usize, values: [f64; L]);
+}
+
+impl<const L: usize> Signals<L> for [&mut [f64]; L] {
+    #[inline(always)]
+    fn length(&self) -> usize {
+        self[0].len()
+    }
+
+    #[inline(always)]
+    fn at(&self, sample: usize) -> [f64; L] {
+        core::array::from_fn(|l| self[l][sample])
+    }
+
+    #[inline(always)]
+    fn set(&mut self, sample: usize, values: [f64; L]) {
+        for (column, value) in self.iter_mut().zip(values) {
+            column[sample] = value;
+        }
+    }
+}
+
+impl<const L: usize> Signals<L> for [[f64; L]] {
+    #[inline(always)]
+    fn length(&self) -> usize {
+        self.len()
+    }
+
+    #[inline(always)]
+    fn at(&self, sample: usize) -> [f64; L] {
+        self[sample]
+    }
+
+    #[inline(always)]
+    fn set(&mut self, sample: usize, values: [f64; L]) {
+        self[sample] = values;
+    }
+}
+
 impl<const S: usize> Pass<S> {
-    /// Forward and backward over `L` columns of one length, longer than the padding.
-    fn run<const L: usize>(&self, columns: &mut [&mut [f64]; L]) {
-        let length = columns[0].len();
-        let mut columns: [&mut [f64]; L] = columns.each_mut().map(|column| &mut column[..length]);
-        let rotated = |columns: &[&mut [f64]; L], end: usize, inside: usize| {
-            core::array::from_fn(|l| 2.0 * columns[l][end] - columns[l][inside])
+    /// Forward and backward over signals longer than the padding.
+    #[inline(always)]
+    fn run<const L: usize>(&self, signals: &mut (impl Signals<L> + ?Sized)) {
+        let length = signals.length();
+        let rotated = |end: [f64; L], inside: [f64; L]| {
+            let mut value = end;
+            for l in 0..L {
+                value[l] = 2.0 * end[l] - inside[l];
+            }
+            value
         };
         let mut cascade = Cascade::<S, L>::new(self.sections);
 
         // The continuation at the start only prepares the state: the backward pass ends before it.
-        cascade.settle(&self.state, rotated(&columns, 0, self.padding));
+        let first = signals.at(0);
+        cascade.settle(&self.state, rotated(first, signals.at(self.padding)));
         for inside in (1..=self.padding).rev() {
-            cascade.step(rotated(&columns, 0, inside));
+            cascade.step(rotated(first, signals.at(inside)));
         }
-        let last = length - 1;
-        let mut beyond: Vec<[f64; L]> = (1..=self.padding)
-            .map(|k| rotated(&columns, last, last - k))
-            .collect();
+        let end = signals.at(length - 1);
+        let mut beyond: Vec<[f64; L]> = Vec::with_capacity(self.padding);
+        for k in 1..=self.padding {
+            beyond.push(rotated(end, signals.at(length - 1 - k)));
+        }
         for n in 0..length {
-            let output = cascade.step(core::array::from_fn(|l| columns[l][n]));
-            for (column, value) in columns.iter_mut().zip(output) {
-                column[n] = value;
-            }
+            let output = cascade.step(signals.at(n));
+            signals.set(n, output);
         }
         for value in &mut beyond {
             *value = cascade.step(*value);
@@ -129,10 +212,8 @@ impl<const S: usize> Pass<S> {
             cascade.step(*value);
         }
         for n in (0..length).rev() {
-            let output = cascade.step(core::array::from_fn(|l| columns[l][n]));
-            for (column, value) in columns.iter_mut().zip(output) {
-                column[n] = value;
-            }
+            let output = cascade.step(signals.at(n));
+            signals.set(n, output);
         }
     }
 }
