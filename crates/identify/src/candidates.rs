@@ -13,9 +13,9 @@
 //! relative error. Mass and offset are solved for and are not part of the genome: they enter linearly, no
 //! range is known for them beforehand, and the six genes keep the meaning they have in the publication.
 //!
-//! The six-parameter cost of a record without a common filter is computed in lanes
-//! (`stiction_lanes`); with one, the columns of the law must pass it as the force did, which is done
-//! by the scalar recursion.
+//! The six-parameter costs are computed in lanes (`stiction_lanes`), where the record has a common filter that included: the
+//! force of a candidate passes it as the measured one did. Derivatives need every column of the law, and with a filter take
+//! the scalar recursion.
 
 mod algebra;
 mod boxes;
@@ -23,6 +23,7 @@ mod curve;
 mod dynamic;
 mod nonlinear;
 mod problem;
+mod projected;
 mod simulated;
 mod six;
 mod sums;

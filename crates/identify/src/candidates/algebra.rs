@@ -10,6 +10,7 @@
 //! sigma2  sigma2 v            vs       J_vs
 //! ```
 
+use crate::separable::linear::{Factor, Normal};
 use nalgebra::{DMatrix, DVector};
 use stiction_lanes::{OWN, Sums};
 use stiction_search::Derivatives;
@@ -22,8 +23,8 @@ const FURTHER: usize = OWN + 2;
 pub(super) struct Products {
     gram: DMatrix<f64>,
     residual: DVector<f64>,
-    /// Further columns that take part, with the factor of their scaled products.
-    further: Vec<usize>,
+    /// The further columns that take part.
+    further: Factor,
 }
 
 impl Products {
@@ -42,54 +43,39 @@ impl Products {
         residual[1] = -s1;
         residual[FORCE] = 1.0;
         residual[SPEED] = -s2;
+        let normal = Normal {
+            gram: gram.view_range(FURTHER.., FURTHER..).into_owned(),
+            rhs: (FURTHER..n)
+                .map(|j| gram.row(j).tr_dot(&residual))
+                .collect(),
+            energy: residual.dot(&(&gram * &residual)),
+        };
+        let (further, ..) = normal.solve(nonnegative);
         let mut out = Self {
             gram,
             residual,
-            further: (FURTHER..n).collect(),
+            further,
         };
-        let bare = out.residual.clone();
-        // A bounded coefficient below zero is held at zero; there are one or two of them.
-        loop {
-            out.residual = out.outside(&bare);
-            let broken = |&j: &usize| nonnegative[j - FURTHER] && out.residual[j] > 0.0;
-            match out.further.iter().position(broken) {
-                Some(at) => out.further.remove(at),
-                None => break,
-            };
-        }
+        out.residual = out.outside(&out.residual);
         out
     }
 
     /// The part of a combination that the further columns cannot express.
     fn outside(&self, x: &DVector<f64>) -> DVector<f64> {
         let mut out = x.clone();
-        let wanted: Vec<usize> = self
+        let taken = self.further.columns();
+        let product = |&j: &usize| self.gram.row(FURTHER + j).tr_dot(x);
+        let inside = self
             .further
-            .iter()
-            .copied()
-            .filter(|&j| self.gram[(j, j)] > 0.0)
-            .collect();
-        if wanted.is_empty() {
-            return out;
-        }
-        let scale = |k: usize| 1.0 / self.gram[(wanted[k], wanted[k])].sqrt();
-        let m = wanted.len();
-        let matrix = DMatrix::from_fn(m, m, |a, b| {
-            scale(a) * self.gram[(wanted[a], wanted[b])] * scale(b)
-        });
-        let rhs = DVector::from_fn(m, |a, _| scale(a) * self.gram.row(wanted[a]).tr_dot(x));
-        // Columns that repeat each other: what they express is expressed by fewer of them.
-        let Some(factor) = matrix.cholesky() else {
-            return out;
-        };
-        for (k, c) in factor.solve(&rhs).iter().enumerate() {
-            out[wanted[k]] -= scale(k) * c;
+            .solve(&taken.iter().map(product).collect::<Vec<_>>());
+        for (&j, c) in taken.iter().zip(inside) {
+            out[FURTHER + j] -= c;
         }
         out
     }
 
     /// Sum of squares of the residual.
-    pub fn cost(&self) -> f64 {
+    fn cost(&self) -> f64 {
         let cost = self.residual.dot(&(&self.gram * &self.residual));
         // Rounding may take it below zero, never far.
         if cost < 0.0 { 0.0 } else { cost }

@@ -8,7 +8,7 @@ use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::law::terms::Terms;
 use crate::law::{Law, LawKind};
-use stiction_lanes::{Candidate, InstructionSet, Trial, costs};
+use stiction_lanes::{Candidate, Trial};
 use stiction_parameters::{Name, Quantity};
 use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
 
@@ -95,7 +95,7 @@ impl SixParameters {
             });
         }
         let full = Sampled::new(record, law, terms)?;
-        if scheme != Scheme::Explin && full.bare().is_none() {
+        if scheme != Scheme::Explin && !full.is_bare() {
             return Err(Error::Setting {
                 name: "further terms or filters",
                 found: full.nonnegative.len() as f64,
@@ -149,17 +149,6 @@ impl SixParameters {
             exponent: self.exponent,
         }
     }
-
-    fn products(&self, points: &Points, sampled: &Sampled, slopes: bool) -> Vec<Products> {
-        let trials: Vec<Trial> = points.rows().map(|x| self.trial(x)).collect();
-        // A checked box holds only points that can be computed, so the sums always exist.
-        let sums = sampled.sums(&trials, slopes).unwrap_or_default();
-        let each = points.rows().zip(&sums);
-        each.map(|(x, sums)| {
-            Products::new(sums, &sampled.shared, &physical(x), &sampled.nonnegative)
-        })
-        .collect()
-    }
 }
 
 impl Problem for SixParameters {
@@ -168,25 +157,14 @@ impl Problem for SixParameters {
     }
 
     fn costs(&self, points: &Points, fidelity: Fidelity, out: &mut [f64]) {
-        let sampled = self.sampled(fidelity);
-        let energy = sampled.energy;
-        if let Some(track) = sampled.bare() {
-            let candidates: Vec<Candidate> = points
-                .rows()
-                .map(|x| Candidate {
-                    exponent: self.exponent,
-                    ..Candidate::gaussian(physical(x))
-                })
-                .collect();
-            let found = costs(track, &candidates, self.scheme, InstructionSet::best());
-            for (out, cost) in out.iter_mut().zip(found.unwrap_or_default()) {
-                *out = cost / energy;
-            }
-            return;
-        }
-        let products = self.products(points, sampled, false);
-        for (out, products) in out.iter_mut().zip(&products) {
-            *out = products.cost() / energy;
+        let candidate = |x| Candidate {
+            exponent: self.exponent,
+            ..Candidate::gaussian(physical(x))
+        };
+        let candidates: Vec<Candidate> = points.rows().map(candidate).collect();
+        let found = self.sampled(fidelity).costs(&candidates, self.scheme);
+        for (out, cost) in out.iter_mut().zip(found) {
+            *out = cost;
         }
     }
 
@@ -200,9 +178,13 @@ impl Problem for SixParameters {
             return Err(CostsOnly);
         }
         let sampled = self.sampled(fidelity);
-        let products = self.products(points, sampled, true);
-        for ((x, out), products) in points.rows().zip(out).zip(&products) {
-            products.derivatives(&physical(x), sampled.energy, out);
+        let trials: Vec<Trial> = points.rows().map(|x| self.trial(x)).collect();
+        // A checked box holds only points that can be computed, so the sums always exist.
+        let sums = sampled.sums(&trials).unwrap_or_default();
+        for ((x, out), sums) in points.rows().zip(out).zip(&sums) {
+            let six = physical(x);
+            let products = Products::new(sums, &sampled.shared, &six, &sampled.nonnegative);
+            products.derivatives(&six, sampled.energy, out);
         }
         Ok(())
     }

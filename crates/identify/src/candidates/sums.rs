@@ -1,19 +1,24 @@
-//! Sums of products of the columns that a trial makes, with or without a filter on the record.
+//! A record as the six-parameter cost reads it: costs, and the sums of products that derivatives are made of.
 
-use crate::conditioning::record::Record;
+use super::projected::Projected;
+use crate::conditioning::record::{self, Record};
 use crate::conditioning::shift::Shift;
 use crate::error::Error;
 use crate::law::Law;
 use crate::law::terms::{ColumnKind, Delay, Terms};
 use crate::separable::linear::dot;
 use crate::separable::objective::Objective;
-use crate::separable::recursion::trace;
-use stiction_lanes::{InstructionSet, OWN, Segment, Sums, Time, Track, Trial, shared_sums, sums};
+use stiction_lanes::{
+    Candidate, InstructionSet, Scheme, Segment, Sums, Time, Track, Trial, costs, sums,
+};
 
-/// A record as the six-parameter cost reads it.
+/// A record with what stands beside the law.
 pub(super) struct Sampled {
-    source: Source,
     law: Law,
+    /// The record as the lane kernels read it, where neither filter nor shift stands between law and measured force.
+    track: Option<Track>,
+    /// What computes costs beside filter, shift or further columns; `None` without all of them.
+    projected: Option<Projected>,
     /// Products of `[force, velocity, further..]` with each other.
     pub shared: Vec<Vec<f64>>,
     /// For each further column, whether its coefficient must not be negative.
@@ -22,18 +27,6 @@ pub(super) struct Sampled {
     pub energy: f64,
     /// Samples that are run through for one candidate.
     pub samples: usize,
-}
-
-enum Source {
-    /// The columns of the law are used directly, without filter or shift, in the lane kernels.
-    Lanes(Track),
-    /// The columns pass the filter of the record, or are shifted earlier by a known delay.
-    Filtered {
-        record: Box<Record>,
-        shift: Shift,
-        /// Force, velocity, further columns at the kept samples.
-        shared: Vec<Vec<f64>>,
-    },
 }
 
 impl Sampled {
@@ -51,60 +44,54 @@ impl Sampled {
         let objective = crate::separable::checked::checked(record, law, &terms)?;
         let (shared, nonnegative) = shared_columns(&objective);
         let shift = match still {
-            Delay::Given(0.0) | Delay::Fitted => None,
-            Delay::Given(time) => Some(Shift::earlier(time / record.step())),
+            Delay::Given(0.0) | Delay::Fitted => Shift::NONE,
+            Delay::Given(time) => Shift::earlier(time / record.step()),
         };
-        let gram = |columns: &[Vec<f64>]| -> Vec<Vec<f64>> {
-            let row = |a: &Vec<f64>| columns.iter().map(|b| dot(a, b)).collect();
-            columns.iter().map(row).collect()
+        let reads_lanes = record.common.is_none() && record.decimate == 1 && shift == Shift::NONE;
+        let track = reads_lanes.then(|| spread(record, &shared)).transpose()?;
+        let row = |a: &Vec<f64>| shared.iter().map(|b| dot(a, b)).collect();
+        let products = shared.iter().map(row).collect();
+        let projected = match reads_lanes && nonnegative.is_empty() {
+            true => None,
+            false => Some(Projected::new(record, shift, shared, &nonnegative)?),
         };
-        let energy = objective.energy();
-        let samples = record.segments.iter().map(|s| s.velocity.len()).sum();
-        if record.common.is_none() && record.decimate == 1 && shift.is_none() {
-            let track = track(record, &shared)?;
-            return Ok(Self {
-                law,
-                shared: shared_sums(&track),
-                source: Source::Lanes(track),
-                nonnegative,
-                energy,
-                samples,
-            });
-        }
         Ok(Self {
             law,
-            shared: gram(&shared),
-            source: Source::Filtered {
-                record: Box::new(record.clone()),
-                shift: shift.unwrap_or(Shift::NONE),
-                shared,
-            },
+            track,
+            projected,
+            shared: products,
             nonnegative,
-            energy,
-            samples,
+            energy: objective.energy(),
+            samples: record.segments.iter().map(|s| s.velocity.len()).sum(),
         })
     }
 
-    /// The record as the lane kernels read it, where they give the cost directly: no further columns.
-    pub fn bare(&self) -> Option<&Track> {
-        match &self.source {
-            Source::Lanes(track) if self.nonnegative.is_empty() => Some(track),
-            _ => None,
-        }
+    /// Whether nothing stands between the force of the law and the measured one: neither filter nor further columns.
+    pub fn is_bare(&self) -> bool {
+        self.projected.is_none()
     }
 
-    /// Sums for each trial; without `slopes` those of the sensitivities may be zero.
-    pub fn sums(&self, trials: &[Trial], slopes: bool) -> Option<Vec<Sums>> {
-        match &self.source {
-            Source::Lanes(track) => sums(track, trials, InstructionSet::best()).ok(),
-            Source::Filtered {
-                record,
-                shift,
-                shared,
-            } => {
-                let one = |trial| filtered(&self.law, record, *shift, shared, trial, slopes);
-                Some(trials.iter().map(one).collect())
-            }
+    /// The cost of each candidate. Further columns and filters are for [`Scheme::Explin`] alone.
+    pub fn costs(&self, candidates: &[Candidate], scheme: Scheme) -> Vec<f64> {
+        let found = match (&self.projected, &self.track) {
+            (Some(projected), _) => Some(projected.costs(candidates)),
+            // A checked box holds only candidates that can be computed.
+            (None, track) => track
+                .as_ref()
+                .and_then(|track| costs(track, candidates, scheme, InstructionSet::best()).ok()),
+        };
+        let found = found.unwrap_or_default().into_iter();
+        found.map(|cost| cost / self.energy).collect()
+    }
+
+    /// Sums for each trial.
+    pub fn sums(&self, trials: &[Trial]) -> Option<Vec<Sums>> {
+        match (&self.track, &self.projected) {
+            (Some(track), _) => sums(track, trials, InstructionSet::best()).ok(),
+            (None, projected) => projected.as_ref().map(|projected| {
+                let one = |trial| projected.products(&self.law, trial);
+                trials.iter().map(one).collect()
+            }),
         }
     }
 }
@@ -134,7 +121,7 @@ fn shared_columns(objective: &Objective) -> (Vec<Vec<f64>>, Vec<bool>) {
     (shared, nonnegative)
 }
 
-fn track(record: &Record, shared: &[Vec<f64>]) -> Result<Track, Error> {
+fn spread(record: &Record, shared: &[Vec<f64>]) -> Result<Track, Error> {
     // Puts the values of the kept samples back at their places; samples that do not count are never read.
     let mut at = 0;
     let spread: Vec<Vec<Vec<f64>>> = record
@@ -158,58 +145,31 @@ fn track(record: &Record, shared: &[Vec<f64>]) -> Result<Track, Error> {
         .iter()
         .map(|columns| columns[2..].iter().map(Vec::as_slice).collect())
         .collect();
-    let segments: Vec<Segment> = record
-        .segments
-        .iter()
-        .enumerate()
-        .map(|(i, s)| Segment {
-            time: Time::Step(s.step),
-            velocity: &s.velocity,
-            force: &spread[i][0],
-            keep: &s.keep,
-            columns: &further[i],
-        })
-        .collect();
+    let segments = record.segments.iter().enumerate();
+    let segments = segments.map(|(i, s)| motion(s, &spread[i][0], &s.keep, &further[i]));
+    track(record, segments.collect())
+}
+
+/// A segment of a record as the lane kernels read it.
+pub(super) fn motion<'a>(
+    of: &'a record::Segment,
+    force: &'a [f64],
+    keep: &'a [bool],
+    columns: &'a [&'a [f64]],
+) -> Segment<'a> {
+    Segment {
+        time: Time::Step(of.step),
+        velocity: &of.velocity,
+        force,
+        keep,
+        columns,
+    }
+}
+
+pub(super) fn track(record: &Record, segments: Vec<Segment>) -> Result<Track, Error> {
     Track::new(&segments).map_err(|_| Error::Setting {
         name: "largest speed or force",
         found: record.top_speed(),
         allowed: "finite and below 1e100",
     })
-}
-
-/// The sums of one trial, its columns filtered like the force.
-fn filtered(
-    law: &Law,
-    record: &Record,
-    shift: Shift,
-    shared: &[Vec<f64>],
-    trial: &Trial,
-    slopes: bool,
-) -> Sums {
-    let p = [trial.ln_kappa, trial.ln_excess, trial.ln_velocity];
-    let used = if slopes { OWN } else { 2 };
-    let mut own: Vec<Vec<f64>> = vec![Vec::new(); used];
-    for segment in &record.segments {
-        let traced = trace(law, &p, segment.step, &segment.velocity, slopes);
-        let mut full = vec![traced.eta, traced.rate];
-        full.extend(traced.eta_slope);
-        full.extend(traced.rate_slope);
-        full.truncate(used);
-        record.filter(&mut full);
-        for (out, column) in own.iter_mut().zip(&full) {
-            record.thin(segment, column, shift, out);
-        }
-    }
-    let product = |i: usize, j: usize| match (own.get(i), own.get(j)) {
-        (Some(a), Some(b)) => dot(a, b),
-        _ => 0.0,
-    };
-    let with = |s: &Vec<f64>, i: usize| own.get(i).map_or(0.0, |a| dot(a, s));
-    Sums {
-        own: std::array::from_fn(|i| std::array::from_fn(|j| product(i, j))),
-        shared: shared
-            .iter()
-            .map(|s| std::array::from_fn(|i| with(s, i)))
-            .collect(),
-    }
 }

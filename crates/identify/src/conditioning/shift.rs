@@ -162,6 +162,24 @@ impl Shift {
             .map(|i| self.weights[i] * read(self.first + i as isize))
             .sum()
     }
+
+    /// The same of channels side by side.
+    #[inline(always)]
+    pub fn row<const L: usize>(&self, full: &[[f64; L]], at: usize) -> [f64; L] {
+        let last = full.len() as isize - 1;
+        let read = |i: isize| full[(at as isize + i).clamp(0, last) as usize];
+        if let Some(whole) = self.whole {
+            return read(whole);
+        }
+        let mut out = [0.0; L];
+        for (i, weight) in (self.first..).zip(self.weights) {
+            let row = read(i);
+            for l in 0..L {
+                out[l] += weight * row[l];
+            }
+        }
+        out
+    }
 }
 
 /// The sample before the point asked for, relative, and how far beyond it the point stands.

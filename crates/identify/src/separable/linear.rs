@@ -133,7 +133,7 @@ pub(crate) struct Solution {
 }
 
 #[derive(Clone, Debug)]
-pub(super) struct Factor {
+pub(crate) struct Factor {
     /// Indices of the active columns.
     columns: Vec<usize>,
     scale: Vec<f64>,
@@ -337,7 +337,7 @@ type Taken = (Factor, Vec<f64>, Vec<usize>);
 
 /// Products of columns with each other and with the target.
 #[derive(Clone, Debug)]
-pub(super) struct Normal {
+pub(crate) struct Normal {
     pub gram: DMatrix<f64>,
     pub rhs: Vec<f64>,
     /// Sum of squares of the target.

@@ -8,8 +8,8 @@ use stiction_identify::candidates::{
     Candidates, Curve, Nonlinear, Scheme, SixParameters, box_of_six, thinned,
 };
 use stiction_identify::{
-    Conditioning, Cutoff, Law, LawKind, Mass, Record, Samples, SearchBox, Settings, Silent, Terms,
-    condition, fit_law, fit_law_from,
+    Conditioning, Cutoff, Delay, Law, LawKind, Mass, Record, Samples, SearchBox, Settings, Silent,
+    Terms, condition, fit_law, fit_law_from,
 };
 use stiction_search::{Bounds, Derivatives, Fidelity, Limits, Plan, Points, Problem, Run};
 
@@ -175,6 +175,73 @@ fn gradients_are_slopes_whatever_stands_beside_the_law() {
         check_gradient(&least, &three, 1e-4);
         // With Fc, sigma1 and sigma2 solved too, the cost can only be less.
         assert!(cost(&least, &three) < cost(&problem, &off));
+    }
+}
+
+/// Costs come from the filtered force of a candidate and what further columns express of it, derivatives from the products of
+/// all columns: two ways to one number, whatever filter, delay and terms there are, and where a coefficient is held at zero.
+#[test]
+fn costs_are_those_of_the_products_of_all_columns() {
+    let wide = Terms {
+        cogging: vec![4e-3],
+        ..Terms::default()
+    };
+    let offset_alone = Terms {
+        mass: Mass::Given(3.0),
+        ..Terms::default()
+    };
+    let delayed = |samples: f64| Terms {
+        delay: Delay::Given(samples * STEP),
+        ..Terms::default()
+    };
+    let all = [
+        bare(),
+        Terms::default(),
+        wide,
+        offset_alone,
+        delayed(1.0),
+        delayed(-0.5),
+        delayed(2.3),
+    ];
+    // A negative mass cannot be: beside friction of the right size it is held at zero.
+    for mass in [7.0, -7.0] {
+        let mut log = samples(mass, 1.5);
+        log.valid = (0..SAMPLES).map(|i| !(900..1100).contains(&i)).collect();
+        log.breaks = vec![2000];
+        for common_cutoff in [Cutoff::Off, Cutoff::Hz(120.0), Cutoff::Hz(40.0)] {
+            let conditioning = Conditioning {
+                source_cutoff: Cutoff::Off,
+                common_cutoff,
+                ..Conditioning::default()
+            };
+            let record = condition(std::slice::from_ref(&log), &conditioning).unwrap();
+            for terms in &all {
+                let problem =
+                    SixParameters::new(&record, lugre(), terms, about(&SIX), Scheme::Explin)
+                        .unwrap();
+                let mut points = Points::new(6);
+                points.push(&genome(&SIX));
+                let mut noise = Noise::new(8);
+                for _ in 0..20 {
+                    let unit = [(); 6].map(|()| (0.5 + 0.25 * noise.normal()).clamp(0.0, 1.0));
+                    points.push(&about(&SIX).at(&unit));
+                }
+                let mut found = [f64::NAN; 21];
+                problem.costs(&points, Fidelity::Full, &mut found);
+                let mut products = vec![Derivatives::zeros(6); 21];
+                problem
+                    .derivatives(&points, Fidelity::Full, &mut products)
+                    .unwrap();
+                for (found, products) in found.iter().zip(&products) {
+                    let apart = (found / products.cost - 1.0).abs();
+                    assert!(
+                        apart < 1e-9,
+                        "{common_cutoff:?} {terms:?}: {found} {}",
+                        products.cost
+                    );
+                }
+            }
+        }
     }
 }
 
