@@ -3,6 +3,8 @@
 
 use super::problem::{Candidates, Named, checked};
 use crate::error::Error;
+use crate::procedure::robust::{self, ROUNDS, Rows, Tukey};
+use crate::procedure::{Exponent, StaticPoint, StaticSettings, Weighed, weighed};
 use stiction_parameters::{Name, Quantity, Side};
 use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem};
 
@@ -10,7 +12,7 @@ use stiction_search::{Bounds, CostsOnly, Derivatives, Fidelity, Points, Problem}
 const GENES: usize = 4;
 
 /// Mean square of measured force minus `(Fc + (Fs - Fc) exp(-|v/vs|^delta)) sgn v + sigma2 v`, over that of
-/// the force; delta is 2 unless another is given. The genome is the natural logarithms of `[sigma2, Fc, Fs - Fc, vs]`, SI, once for both
+/// the force, or twice the robust loss of a [static map](crate::procedure::static_map()) in its place; delta is 2 unless another is given. The genome is the natural logarithms of `[sigma2, Fc, Fs - Fc, vs]`, SI, once for both
 /// directions or once for each, the positive one first.
 ///
 /// ```
@@ -36,9 +38,20 @@ pub struct Curve {
     bounds: Bounds,
     speed: Vec<f64>,
     force: Vec<f64>,
+    /// Standard deviation that each point is expected to have; 1 for a mean square.
+    deviation: Vec<f64>,
+    /// Least scale of Tukey's loss, deviations; `None` for a mean square.
+    scale: Option<f64>,
     energy: f64,
     exponent: f64,
     offset: bool,
+}
+
+/// A point of the map beside a candidate, in units of its deviation.
+struct Row {
+    residual: f64,
+    slopes: [f64; GENES],
+    weight: f64,
 }
 
 impl Curve {
@@ -68,6 +81,8 @@ impl Curve {
         }
         Ok(Self {
             bounds,
+            deviation: vec![1.0; speed.len()],
+            scale: None,
             speed,
             force,
             energy,
@@ -76,38 +91,90 @@ impl Curve {
         })
     }
 
-    /// The same with another Stribeck exponent, above 0.
-    pub fn exponent(self, exponent: f64) -> Self {
-        Self { exponent, ..self }
-    }
-
-    /// The same with a constant force beside the curve, which is solved for each candidate; beside one curve for both
-    /// directions only, as it cannot be told from two.
-    pub fn with_offset(self) -> Self {
-        Self {
-            offset: self.bounds.dimensions() == GENES,
-            ..self
+    /// The robust loss that [`static_map`](crate::procedure::static_map()) minimises, of the same points and settings. Where the
+    /// residuals of a candidate are larger than the scatter of the points, their own median is the scale: beyond a few times
+    /// its scale the loss is constant, and a search would not see where to go. A fitted exponent is taken as 2.
+    ///
+    /// # Errors
+    /// As [`Curve::new`] and `static_map`.
+    pub fn robust(
+        points: &[StaticPoint],
+        settings: &StaticSettings,
+        bounds: Bounds,
+    ) -> Result<Self, Error> {
+        let Weighed { blocks, scale, .. } = weighed(points, settings)?;
+        let (mut speed, mut force, mut deviation) = (Vec::new(), Vec::new(), Vec::new());
+        for (block, turn) in blocks.iter().zip([1.0, -1.0]) {
+            let along = block.columns[0].iter().zip(&block.speed);
+            speed.extend(along.map(|(sign, v)| turn * sign * v));
+            force.extend(block.target.iter().map(|f| turn * f));
+            deviation.extend(&block.deviation);
         }
+        let curve = Self::new(speed, force, bounds)?;
+        let each = curve.force.iter().zip(&deviation);
+        Ok(Self {
+            energy: each.map(|(f, s)| (f / s) * (f / s)).sum(),
+            exponent: match settings.exponent {
+                Exponent::Given(exponent) => exponent,
+                Exponent::Fitted => curve.exponent,
+            },
+            offset: settings.offset && !settings.asymmetric,
+            scale: Some(scale),
+            deviation,
+            ..curve
+        })
     }
 
-    /// Residuals with their slopes at every point of the map, the constant force taken out.
-    fn rows(&self, x: &[f64]) -> Vec<(f64, [f64; GENES])> {
+    /// What each point says of a candidate, the constant force taken out, and the loss of a residual.
+    fn rows(&self, x: &[f64]) -> (Vec<Row>, Option<Tukey>) {
         let p: Vec<f64> = x.iter().map(|&x| libm::exp(x)).collect();
         let each = self.speed.iter().zip(&self.force);
-        let mut rows: Vec<_> = each
+        let (mut left, slopes): (Vec<f64>, Vec<[f64; GENES]>) = each
             .map(|(&v, &f)| residual(&p[self.side(v)..], v, f, self.exponent))
+            .unzip();
+        let own =
+            |left: &[f64]| robust::scale(left.iter().zip(&self.deviation).map(|(r, s)| r / s), 0);
+        let loss = self.scale.map(|least| {
+            if !self.offset {
+                return Tukey::new(least.max(own(&left)));
+            }
+            let problem = Rows {
+                columns: &[vec![1.0; left.len()]],
+                nonnegative: &[false],
+                target: &left,
+                deviation: &self.deviation,
+            };
+            let rough = problem.absolute(ROUNDS);
+            let scale = least.max(own(&rough.residual));
+            left = problem.tukey(scale, &rough.weights, ROUNDS).residual;
+            Tukey::new(scale)
+        });
+        let each = left.iter().zip(slopes).zip(&self.deviation);
+        let mut rows: Vec<Row> = each
+            .map(|((r, slopes), s)| Row {
+                residual: r / s,
+                slopes: slopes.map(|slope| slope / s),
+                weight: loss.map_or(1.0, |loss| loss.weight(r / s)),
+            })
             .collect();
         if self.offset {
-            let n = rows.len() as f64;
-            let mean = rows.iter().map(|row| row.0).sum::<f64>() / n;
-            let means: [f64; GENES] =
-                std::array::from_fn(|i| rows.iter().map(|row| row.1[i]).sum::<f64>() / n);
-            for row in &mut rows {
-                row.0 -= mean;
-                row.1.iter_mut().zip(means).for_each(|(x, mean)| *x -= mean);
+            // The constant force follows each unknown.
+            let all = || rows.iter().zip(&self.deviation);
+            let total: f64 = all().map(|(row, s)| row.weight / (s * s)).sum();
+            let moved: [f64; GENES] = std::array::from_fn(|i| {
+                all()
+                    .map(|(row, s)| row.weight * row.slopes[i] / s)
+                    .sum::<f64>()
+                    / total
+            });
+            for (row, s) in rows.iter_mut().zip(&self.deviation) {
+                row.slopes
+                    .iter_mut()
+                    .zip(moved)
+                    .for_each(|(x, moved)| *x -= moved / s);
             }
         }
-        rows
+        (rows, loss)
     }
 
     /// Where the genes of the direction of a speed begin.
@@ -116,6 +183,15 @@ impl Curve {
             GENES
         } else {
             0
+        }
+    }
+}
+
+impl Row {
+    fn cost(&self, loss: Option<Tukey>) -> f64 {
+        match loss {
+            Some(loss) => 2.0 * loss.cost(self.residual),
+            None => self.residual * self.residual,
         }
     }
 }
@@ -146,8 +222,8 @@ impl Problem for Curve {
 
     fn costs(&self, points: &Points, _: Fidelity, out: &mut [f64]) {
         for (x, out) in points.rows().zip(out) {
-            let sum: f64 = self.rows(x).iter().map(|(r, _)| r * r).sum();
-            *out = sum / self.energy;
+            let (rows, loss) = self.rows(x);
+            *out = rows.iter().map(|row| row.cost(loss)).sum::<f64>() / self.energy;
         }
     }
 
@@ -159,13 +235,15 @@ impl Problem for Curve {
     ) -> Result<(), CostsOnly> {
         let n = self.bounds.dimensions();
         for (x, out) in points.rows().zip(out) {
-            for (&v, (r, slopes)) in self.speed.iter().zip(self.rows(x)) {
+            let (rows, loss) = self.rows(x);
+            for (&v, row) in self.speed.iter().zip(&rows) {
                 let side = self.side(v);
-                out.cost += r * r / self.energy;
-                for (i, a) in slopes.iter().enumerate() {
-                    out.gradient[side + i] += a * r / self.energy;
-                    for (j, b) in slopes.iter().enumerate() {
-                        out.normal[n * (side + i) + side + j] += a * b / self.energy;
+                let part = row.weight / self.energy;
+                out.cost += row.cost(loss) / self.energy;
+                for (i, a) in row.slopes.iter().enumerate() {
+                    out.gradient[side + i] += part * a * row.residual;
+                    for (j, b) in row.slopes.iter().enumerate() {
+                        out.normal[n * (side + i) + side + j] += part * a * b;
                     }
                 }
             }

@@ -20,7 +20,7 @@ const EXPONENT_SETTLED_WIDTH: f64 = 1e-5;
 
 /// Points that share one Stribeck velocity: all of a symmetric map, or those of one direction.
 #[derive(Clone, Debug)]
-pub(super) struct Block {
+pub(crate) struct Block {
     /// Speed, m/s or rad/s.
     pub speed: Vec<f64>,
     /// Columns of the Coulomb level, of the viscous term and what stands beside them.
@@ -36,7 +36,7 @@ pub(super) struct Block {
 
 /// The best curve of a block.
 #[derive(Clone, Debug)]
-pub(super) struct Best {
+pub(crate) struct Best {
     /// Stribeck velocity; 0 without a Stribeck curve.
     pub velocity: f64,
     /// Coefficients of the block's columns, then of the Stribeck rise where there is one.

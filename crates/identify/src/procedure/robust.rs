@@ -7,13 +7,42 @@ const TUKEY_BIWEIGHT: f64 = 4.685;
 /// Factor from the median absolute residual to the standard deviation of normal residuals.
 const MAD_TO_DEVIATION: f64 = 1.482_602_218_505_602;
 /// Most rounds of reweighting.
-pub(super) const ROUNDS: usize = 50;
+pub(crate) const ROUNDS: usize = 50;
 /// Relative change of the cost that ends them: near the rounding of a sum of a thousand residuals.
 const SETTLED_CHANGE: f64 = 1e-12;
 
+/// Tukey's biweight loss of residuals in units of their deviations: half their square where they are small, constant beyond
+/// 4.685 times the scale.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tukey {
+    limit: f64,
+}
+
+impl Tukey {
+    pub fn new(scale: f64) -> Self {
+        Tukey {
+            limit: TUKEY_BIWEIGHT * scale,
+        }
+    }
+
+    fn inside(self, u: f64) -> f64 {
+        (1.0 - (u / self.limit) * (u / self.limit)).max(0.0)
+    }
+
+    /// The slope of the loss over the residual, 0 to 1.
+    pub fn weight(self, u: f64) -> f64 {
+        self.inside(u) * self.inside(u)
+    }
+
+    pub fn cost(self, u: f64) -> f64 {
+        let inside = self.inside(u);
+        self.limit * self.limit / 6.0 * (1.0 - inside * inside * inside)
+    }
+}
+
 /// A linear problem: columns, which coefficients must not be negative, what is to be explained, and
 /// the standard deviation that each row is expected to have.
-pub(super) struct Rows<'a> {
+pub(crate) struct Rows<'a> {
     pub columns: &'a [Vec<f64>],
     pub nonnegative: &'a [bool],
     pub target: &'a [f64],
@@ -22,7 +51,7 @@ pub(super) struct Rows<'a> {
 
 /// Coefficients, residual and weights (0 to 1) of the rows.
 #[derive(Clone, Debug)]
-pub(super) struct Solved {
+pub(crate) struct Solved {
     pub coefficients: Vec<f64>,
     pub residual: Vec<f64>,
     pub weights: Vec<f64>,
@@ -42,10 +71,8 @@ impl Rows<'_> {
 
     /// Least Tukey loss for residuals of `scale` deviations, from given weights.
     pub fn tukey(&self, scale: f64, start: &[f64], rounds: usize) -> Solved {
-        let limit = TUKEY_BIWEIGHT * scale;
-        let inside = |u: f64| (1.0 - (u / limit) * (u / limit)).max(0.0);
-        let weight = |u: f64| inside(u) * inside(u);
-        let cost = |u: f64| limit * limit / 6.0 * (1.0 - inside(u) * inside(u) * inside(u));
+        let loss = Tukey::new(scale);
+        let (weight, cost) = (|u| loss.weight(u), |u| loss.cost(u));
         self.reweighted(start.to_vec(), rounds, weight, cost)
     }
 
@@ -111,7 +138,7 @@ impl Rows<'_> {
 }
 
 /// Standard deviation of normal residuals around zero by their median size, with `unknowns` counted.
-pub(super) fn scale(residual: impl Iterator<Item = f64>, unknowns: usize) -> f64 {
+pub(crate) fn scale(residual: impl Iterator<Item = f64>, unknowns: usize) -> f64 {
     let mut sizes: Vec<f64> = residual.map(f64::abs).collect();
     let n = sizes.len();
     if n == 0 {

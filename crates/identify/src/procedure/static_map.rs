@@ -136,22 +136,13 @@ pub fn static_map_near(
     settings: &StaticSettings,
     near: &[f64],
 ) -> Result<StaticMap, Error> {
-    let points = checked(points, settings)?;
-    let mut blocks = blocks(&points, settings)?;
-    let first = match settings.exponent {
-        Exponent::Given(delta) => delta,
-        Exponent::Fitted => 2.0,
-    };
-    let unknowns = unknowns(&blocks, settings);
-    let scatter = expect(&mut blocks, &points, first, unknowns);
-    let scale = blocks
-        .iter()
-        .flat_map(|b| {
-            let rough = b.rough(first);
-            standardised(&rough.residual, b).collect::<Vec<_>>()
-        })
-        .collect::<Vec<_>>();
-    let scale = robust::scale(scale.into_iter(), unknowns).max(1.0);
+    let Weighed {
+        points,
+        blocks,
+        scatter,
+        scale,
+        unknowns,
+    } = weighed(points, settings)?;
     let exponent = match settings.exponent {
         Exponent::Given(delta) => delta,
         Exponent::Fitted => best_exponent(&blocks, scale),
@@ -171,6 +162,39 @@ pub fn static_map_near(
         unknowns,
     }
     .map())
+}
+
+/// Points as the robust loss sees them, before any curve is fitted.
+pub(crate) struct Weighed {
+    /// In order of velocity.
+    points: Vec<StaticPoint>,
+    /// The linear problems, with the deviation that each point is expected to have.
+    pub blocks: Vec<Block>,
+    scatter: f64,
+    /// The scale of the loss, deviations.
+    pub scale: f64,
+    unknowns: usize,
+}
+
+/// Finds what the points scatter by, with outliers among them, from fits of least absolute residuals.
+pub(crate) fn weighed(points: &[StaticPoint], settings: &StaticSettings) -> Result<Weighed, Error> {
+    let points = checked(points, settings)?;
+    let mut blocks = blocks(&points, settings)?;
+    let first = match settings.exponent {
+        Exponent::Given(delta) => delta,
+        Exponent::Fitted => 2.0,
+    };
+    let unknowns = unknowns(&blocks, settings);
+    let scatter = expect(&mut blocks, &points, first, unknowns);
+    let rough = |b| standardised(&Block::rough(b, first).residual, b).collect::<Vec<_>>();
+    let scale = robust::scale(blocks.iter().flat_map(rough), unknowns).max(1.0);
+    Ok(Weighed {
+        points,
+        blocks,
+        scatter,
+        scale,
+        unknowns,
+    })
 }
 
 /// Points in order of velocity, all usable.

@@ -5,8 +5,9 @@ use proptest::prelude::*;
 use std::f64::consts::TAU;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
 use stiction_identify::candidates::{
-    Candidates, Curve, Nonlinear, Scheme, SixParameters, box_of_six, thinned,
+    Candidates, Curve, Nonlinear, Scheme, SixParameters, box_of_curve, box_of_six, thinned,
 };
+use stiction_identify::procedure::{StaticPoint, StaticSettings, static_map};
 use stiction_identify::{
     Conditioning, Cutoff, Delay, Law, LawKind, Mass, Record, Samples, SearchBox, Settings, Silent,
     Terms, condition, fit_law, fit_law_from,
@@ -316,6 +317,76 @@ fn a_curve_has_the_slopes_of_its_cost_and_names_for_each_direction() {
         .collect();
     check_gradient(&curve, &off, 1e-5);
     assert_eq!(curve.parameters(&off)[6].0, "static_neg");
+}
+
+/// A search of a static map minimises what the least squares of the map do: two bad points move neither. Their mean square
+/// has its minimum elsewhere.
+#[test]
+fn a_search_of_a_static_map_is_as_robust_as_its_least_squares() {
+    let mut noise = Noise::new(5);
+    let mut points: Vec<StaticPoint> = (0..12)
+        .map(|i| 5e-4 * 600_f64.powf(f64::from(i) / 11.0))
+        .flat_map(|v| [v, -v])
+        .map(|velocity| StaticPoint {
+            log: 0,
+            time: (0.0, 1.0),
+            position: 0.0,
+            velocity,
+            force: 0.4 + MACHINE.law().curve().force(velocity) + 0.05 * noise.normal(),
+            error: 0.05,
+            samples: 1000,
+            effective: 1000.0,
+            dropped: 0.0,
+            pitches: 0,
+        })
+        .collect();
+    points[4].force += 6.0;
+    points[11].force += 9.0;
+    for asymmetric in [false, true] {
+        let settings = StaticSettings {
+            asymmetric,
+            offset: !asymmetric,
+            ..StaticSettings::default()
+        };
+        let map = static_map(&points, &settings).unwrap();
+        let (speed, force): (Vec<f64>, Vec<f64>) =
+            points.iter().map(|p| (p.velocity, p.force)).unzip();
+        let bounds = || box_of_curve(&speed, &force, asymmetric).unwrap();
+        let robust = Curve::robust(&points, &settings, bounds()).unwrap();
+        let squares = Curve::new(speed.clone(), force.clone(), bounds()).unwrap();
+        let ended = |problem: &Curve| {
+            let plan = Plan::named("de").unwrap();
+            let search = plan.start(bounds().dimensions(), 5).unwrap();
+            let mut run = Run::new(search, problem);
+            let limits = Limits {
+                costs: 60_000,
+                ..Limits::default()
+            };
+            run.advance(problem, &limits, &mut stiction_search::Silent)
+                .unwrap();
+            run.best().unwrap().clone()
+        };
+        let found = ended(&robust);
+        check_gradient(
+            &robust,
+            &found.point.iter().map(|x| x + 1e-3).collect::<Vec<_>>(),
+            1e-4,
+        );
+        let mut elsewhere = 0.0_f64;
+        for ((name, found), (_, other)) in robust
+            .parameters(&found.point)
+            .into_iter()
+            .zip(squares.parameters(&ended(&squares).point))
+        {
+            let least = map.value(name).unwrap();
+            assert!(
+                (found / least - 1.0).abs() < 1e-3,
+                "{name}: {found} {least}"
+            );
+            elsewhere = elsewhere.max((other / least - 1.0).abs());
+        }
+        assert!(elsewhere > 0.04, "{elsewhere}");
+    }
 }
 
 #[test]

@@ -70,23 +70,17 @@ pub(in crate::identify) fn curve(
         return Ok(None);
     };
     let fail = |e| refused(sources, e);
-    let Exponent::Given(exponent) = settings.exponent else {
+    if settings.exponent == Exponent::Fitted {
         return Err(Error::usage(
             "stribeck_exponent = \"fit\" beside a search",
             "a number",
         ));
-    };
+    }
     let speed: Vec<f64> = points.iter().map(|p| p.velocity).collect();
     let force: Vec<f64> = points.iter().map(|p| p.force).collect();
     let bounds = box_of_curve(&speed, &force, settings.asymmetric).map_err(fail)?;
     let bounds = ranges::given(asked.axis, sources, bounds, ranges::CURVE)?;
-    let problem = Curve::new(speed, force, bounds)
-        .map_err(fail)?
-        .exponent(exponent);
-    let problem = match settings.offset {
-        true => problem.with_offset(),
-        false => problem,
-    };
+    let problem = Curve::robust(points, settings, bounds).map_err(fail)?;
     let names = ranges::names(ranges::CURVE);
     let unknowns = match settings.asymmetric {
         true => ["_pos", "_neg"]
