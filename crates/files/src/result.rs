@@ -14,7 +14,7 @@ pub use procedure::{
     BreakAwayEntry, InversionEntry, PreslidingStepEntry, RejectedEntry, StaticMapEntry,
     StaticPointEntry, TwoStepEntry, TwoStepParameter,
 };
-pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint};
+pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint, end_of};
 pub use seen::{PitchEntry, RangeEntry};
 use serde::{Deserialize, Serialize};
 use stiction_codes::Code;

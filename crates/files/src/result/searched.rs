@@ -29,6 +29,28 @@ pub struct SearchedEntry {
     pub generations: Vec<(f64, Vec<Option<f64>>)>,
 }
 
+/// How near an end of its range, as a part of it, an unknown counts as at the end: a search without least squares stops short
+/// of it.
+const AT_AN_END: f64 = 0.02;
+
+/// The end of a range, whose logarithm is searched, that a value stands at: 0 the lower, 1 the upper one; `None` inside.
+pub fn end_of([low, high]: [f64; 2], value: f64) -> Option<usize> {
+    let part = (value / low).ln() / (high / low).ln();
+    match (part <= AT_AN_END, part >= 1.0 - AT_AN_END) {
+        (true, _) => Some(0),
+        (_, true) => Some(1),
+        _ => None,
+    }
+}
+
+impl SearchedEntry {
+    /// Whether the search itself left this parameter at an end of its range, or beyond: then the range gave its value.
+    pub fn is_at_an_end(&self, name: &str, value: f64) -> bool {
+        let mut ranges = self.unknowns.iter().zip(&self.bounds);
+        ranges.any(|(unknown, range)| unknown == name && end_of(*range, value).is_some())
+    }
+}
+
 /// Evaluations by kind.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evaluations {
@@ -47,7 +69,8 @@ pub struct Evaluations {
 /// A point that a search found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SearchedPoint {
-    /// Sum of squares of the residual over that of the force.
+    /// Sum of squares of the residual over that of the force; of the steady curve twice the robust loss of its least squares
+    /// over the sum of squares of force by deviation.
     pub cost: f64,
     /// Evaluations of the full record until it was found.
     pub evaluations: f64,

@@ -30,7 +30,7 @@ fn heading(entry: &SearchedEntry) -> &'static str {
 
 fn told(entry: &SearchedEntry) -> String {
     let then = match entry.cost.as_str() {
-        "curve" => "follow the search and count points that lie off the curve less",
+        "curve" => "minimise the same loss, which counts points that lie off the curve less",
         "dynamic" => "follow the search, the steady curve held",
         _ => "fit everything at once, a delay included",
     };
@@ -63,7 +63,7 @@ fn stages(outcome: &Outcome, entry: &SearchedEntry) -> Table {
             Some(Percent::error(100.0 * p.cost.sqrt()).digits(5))
         })
     });
-    // The least squares after a step do not minimise its cost.
+    // Results do not give the cost of the last least squares of a step.
     let last = match entry.cost.as_str() {
         "curve" | "dynamic" => "–".into(),
         _ => Percent::error(outcome.result.fit.relative_error_percent).digits(5),

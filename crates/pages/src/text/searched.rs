@@ -1,4 +1,4 @@
-//! What searches found by themselves, and what least squares added, for a terminal.
+//! What searches found by themselves, and how far that is from what least squares made of it, for a terminal.
 
 use super::table::table;
 use std::fmt::Write;
@@ -32,10 +32,10 @@ fn section(entry: &SearchedEntry, result: &ResultFile) -> String {
         "by itself",
         "after its descents",
         "in the end",
-        "least squares added",
+        "off by itself",
     ];
     let [own, descended] = points.map(error);
-    // The least squares after a step do not minimise its cost.
+    // Results do not give the cost of the last least squares of a step.
     let last = match entry.cost.as_str() {
         "curve" | "dynamic" => String::new(),
         _ => Percent::error(result.fit.relative_error_percent).fine(),
@@ -55,15 +55,18 @@ fn section(entry: &SearchedEntry, result: &ResultFile) -> String {
             continue;
         }
         let shown = |x: Option<f64>| x.map_or("-".into(), short);
-        let added = own
-            .filter(|x| *x != 0.0)
-            .map(|x| 100.0 * (p.value / x - 1.0));
+        // Relative to the end: a search that did not see a parameter may leave it next to 0. At an end of its range the value
+        // is that of the range, not of the log.
+        let off = own.map(|x| match p.value == 0.0 || entry.is_at_an_end(&p.name, x) {
+            true => "not comparable".into(),
+            false => format!("{:+.2} %", 100.0 * (x / p.value - 1.0)),
+        });
         rows.push(vec![
             p.name.clone(),
             shown(own),
             shown(descended),
             short(p.value),
-            added.map_or("-".into(), |x| format!("{x:+.2} %")),
+            off.unwrap_or_else(|| "-".into()),
         ]);
     }
     let _ = write!(out, "{}", table(&rows, &[false, true, true, true, true]));

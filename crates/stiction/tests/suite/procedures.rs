@@ -2,7 +2,7 @@
 
 use crate::common::{Asked, Bench, noise, options};
 use std::path::{Path, PathBuf};
-use stiction::commands::Outcome;
+use stiction::commands::{Outcome, text};
 use stiction::result::ResultFile;
 use stiction::{Code, Error, LawKind, Method, ModelFile, Procedures, Silent, Warning};
 
@@ -618,6 +618,15 @@ fn a_box_off_the_truth_does_not_decide() {
         let warnings = &outcome.result.warnings;
         let named = warnings.iter().any(|w| w.message.contains("[search.box]"));
         assert!(named, "{warnings:?}");
+        // The end of the box is no answer to compare with one; that beside it is.
+        let said = text::outcome(&outcome);
+        let mut rows = said.lines().filter(|row| row.contains("not comparable"));
+        let (row, more) = (rows.next().expect(&said), rows.next());
+        assert!(
+            range.starts_with(row.split_whitespace().next().unwrap()),
+            "{row}"
+        );
+        assert!(more.is_none() && said.contains("off by itself"), "{said}");
     }
     // Without a search the box does not decide either, and what lies outside is named.
     let mut asked = with(&[&logs[1]], Procedures::default());

@@ -8,15 +8,12 @@ use crate::identify::options::Options;
 use crate::spread::Spread;
 use std::time::Instant;
 use stiction_files::Axis;
-use stiction_files::result::{SearchedEntry, SearchedParameter, SearchedPoint};
+use stiction_files::result::{SearchedEntry, SearchedParameter, SearchedPoint, end_of};
 use stiction_identify::Observer;
 use stiction_identify::candidates::Candidates;
 use stiction_number::four_digits;
-use stiction_search::{Best, Bounds, Counts, Finish, Finished, Limits, Plan, Run, Searcher};
+use stiction_search::{Best, Counts, Finish, Finished, Limits, Plan, Run, Searcher};
 
-/// How near an end of its range, as a part of it, an unknown counts as at the end: a search without least squares stops short
-/// of it.
-const AT_AN_END: f64 = 0.02;
 /// Most evaluations of the full record, where the command names none: enough for the genetic algorithms of the
 /// publication to end by themselves on most logs.
 const USUAL_EVALUATIONS: u64 = 20_000;
@@ -121,8 +118,6 @@ pub(super) fn run<P: Candidates + Sync>(
     };
     let middle = || bounds.at(&vec![0.5; bounds.dimensions()]);
     let ends = bounds.low().iter().zip(bounds.high());
-    let ends_at = |best: &Best| at_ends(&best.point, &bounds, &unknowns);
-    let at_ends = run.best().map(ends_at).unwrap_or_default();
     let entry = SearchedEntry {
         method: course.plan.method.name().into(),
         cost: cost.into(),
@@ -142,30 +137,28 @@ pub(super) fn run<P: Candidates + Sync>(
             })
             .collect(),
     };
+    let ends_at = |best: &Best| at_ends(&best.point, &entry);
     Ok(Searched {
+        at_ends: run.best().map(ends_at).unwrap_or_default(),
         entry,
         counts: run.counts(),
         point: run.best().map_or_else(middle, |best| best.point.clone()),
         ended,
-        at_ends,
         lost,
     })
 }
 
 /// Which unknowns lie at an end of their range, which keeps the search from going on.
-fn at_ends(point: &[f64], bounds: &Bounds, unknowns: &[String]) -> Vec<String> {
-    let ranges = bounds.low().iter().zip(bounds.high());
-    let named = unknowns.iter().zip(point).zip(ranges);
+fn at_ends(point: &[f64], entry: &SearchedEntry) -> Vec<String> {
+    let named = entry.unknowns.iter().zip(point).zip(&entry.bounds);
     named
-        .filter_map(|((name, at), (low, high))| {
-            let near = AT_AN_END * (high - low);
-            let (which, end) = match (at - low <= near, high - at <= near) {
-                (true, _) => ("lower", low),
-                (_, true) => ("upper", high),
-                _ => return None,
-            };
-            let end = four_digits(libm::exp(*end));
-            Some(format!("{name} at the {which} end, {end}"))
+        .filter_map(|((name, at), range)| {
+            let end = end_of(*range, libm::exp(*at))?;
+            let which = ["lower", "upper"][end];
+            Some(format!(
+                "{name} at the {which} end, {}",
+                four_digits(range[end])
+            ))
         })
         .collect()
 }
