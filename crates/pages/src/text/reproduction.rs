@@ -74,13 +74,12 @@ pub fn reproduction(file: &ReproduceFile) -> String {
 const EXPERIMENTS: [(&str, &str); 3] = [
     (
         "six",
-        "six: one search for all parameters over one motion does not find them here; constant velocities first (static, dynamic) is \
-         the paper's way",
+        "six: one search for all parameters over one motion does not find them here from every seed; constant velocities first \
+         (static, dynamic) is the paper's way",
     ),
     (
         "measured",
-        "measured: from counts of the encoder and with noise in the force; a finer encoder, or stiction identify, which corrects for \
-         both, gives more",
+        "measured: from counts of the encoder and with noise in the force, the search ended farther from the axis than these allow",
     ),
     (
         "load",

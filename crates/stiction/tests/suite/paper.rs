@@ -23,14 +23,14 @@ fn the_simulated_axis_is_found_and_compensated() {
         steps = counted(progress);
         Control::Continue
     });
-    assert_eq!(steps, (23, 23));
+    assert_eq!(steps, (25, 25));
     let file = &outcome.file;
     assert_eq!(file.status, "complete");
     for check in &file.checks {
         assert!(check.within, "{check:?}");
     }
-    // Four static, two dynamic, six at once, six as measured, two from the step, three masses.
-    assert_eq!(file.checks.len(), 4 + 2 + 6 + 6 + 2 + 3);
+    // Four static, without and with outliers, two dynamic, six at once, six as measured, two from the step, three masses.
+    assert_eq!(file.checks.len(), 8 + 2 + 6 + 6 + 2 + 3);
     // Static, dynamic, six with each method; as measured static, dynamic, six.
     assert_eq!(file.searches.len(), 3 * 3 + 3);
     assert!(!file.assumptions.is_empty());
@@ -302,14 +302,15 @@ fn a_stop_keeps_what_is_done() {
     let outcome = zhang_2025(
         SMALL,
         &mut |progress: &Progress| match counted(progress).0 {
-            ..5 => Control::Continue,
+            ..7 => Control::Continue,
             _ => Control::Stop,
         },
     );
     let file = &outcome.file;
     assert_eq!(file.status, "interrupted");
     let experiments: Vec<&str> = file.checks.iter().map(|c| c.experiment.as_str()).collect();
-    assert_eq!(experiments, ["static"; 4]);
+    assert_eq!(experiments[..4], ["static"; 4]);
+    assert_eq!(experiments[4..], ["outliers"; 4]);
     assert!(file.claims.is_empty());
     assert_eq!(stiction::bundle::reproduction(&outcome).files().len(), 2);
     let text = stiction::commands::text::reproduction(file);

@@ -42,7 +42,7 @@ pub use rest::{Hold, Rested};
 pub use results::{PARAMETERS, Paper, REACHED};
 pub use search::{Searched, annealing};
 pub use stage::{Control, Stage};
-pub use statics::{LeftOut, Statics};
+pub use statics::{LeftOut, Outliers, Statics};
 pub use stiffness::Stiffness;
 pub use tracking::Tracked;
 pub use units::Units;
@@ -81,8 +81,11 @@ fn run(stage: Stage, budget: Budget, observer: &mut dyn Observer) -> Reproductio
     /// Static map, record of the dynamics, what encoder and noise allow, presliding, tracking, delay, corner, rest, crawl,
     /// stiffness, load.
     const EXPERIMENTS: usize = 11;
+    /// The map with outliers by both costs.
+    const OUTLIERS: usize = 2;
     let searches = search::METHODS.len() * STEPS * budget.seeds as usize
-        + STEPS * measured::draws(budget) as usize;
+        + STEPS * measured::draws(budget) as usize
+        + OUTLIERS;
     let watch = Watch::new(EXPERIMENTS + searches, observer);
     let mut paper = Paper::of(stage);
     let stopped = experiments(&mut paper, budget, &watch).is_err();

@@ -76,6 +76,10 @@ pub(super) fn of(stage: &Stage) -> Vec<String> {
             statics::SETTLE,
         ),
         format!(
+            "Outliers: the force of two of these runs is taken as {} times what it is.",
+            statics::OUTLIER
+        ),
+        format!(
             "Dynamic test: a sine of ±{} at {} Hz, three cycles, with velocity and acceleration as the simulation has them.",
             length(stage.stroke(dynamics::AMPLITUDE)),
             dynamics::FREQUENCY,

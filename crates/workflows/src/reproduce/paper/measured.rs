@@ -148,11 +148,12 @@ impl Test<'_> {
     fn curve(&self, seed: u64) -> Result<Curve, Fault> {
         let mut noise = Noise::new(seed);
         let deviation = deviation(self.stage);
-        let points = self.exact.force.iter().zip(&self.exact.seconds);
-        let force = points
-            .map(|(f, seconds)| f + deviation / libm::sqrt(seconds * RATE) * noise.normal())
-            .collect();
-        statics::curve(self.stage, (self.exact.speed.clone(), force))
+        let mut points = self.exact.points.clone();
+        for point in &mut points {
+            let averaged = (point.time.1 - point.time.0) * RATE;
+            point.force += deviation / libm::sqrt(averaged) * noise.normal();
+        }
+        statics::curve(self.stage, &points)
     }
 
     /// The cost of all six on the record, conditioned as a log is.

@@ -126,6 +126,8 @@ impl Paper {
         let found = |searches: &[Searched]| self.worst(annealing(searches).map(|s| &s.found));
         if let Some(statics) = &self.statics {
             parameters("static", &found(&statics.searches), &steady, &exact);
+            let robust = &statics.outliers.robust;
+            parameters("outliers", robust, &steady, &exact);
         }
         if let Some(dynamics) = &self.dynamics {
             parameters("dynamic", &found(&dynamics.two), &dynamic, &exact);

@@ -8,8 +8,8 @@ use stiction_files::symbols;
 use stiction_friction::LuGre;
 use stiction_log::Motion;
 use stiction_number::Percent;
-use stiction_report::{Axis, Color, Dash, Document, Figure, Layer, Panel, number};
-use stiction_workflows::reproduce::{Paper, Presliding, Statics, Units};
+use stiction_report::{Align, Axis, Color, Dash, Document, Figure, Layer, Panel, Table, number};
+use stiction_workflows::reproduce::{Outliers, Paper, Presliding, Statics, Units};
 
 pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Paper) -> Document {
     let Some(statics) = &paper.statics else {
@@ -24,6 +24,11 @@ pub(super) fn sections(mut document: Document, file: &ReproduceFile, paper: &Pap
     }
     document = document
         .block(map(paper, statics))
+        .paragraph(
+            "Two runs that went wrong, such as one that something held up, kept in the data: the mean square of the paper follows \
+             them, the robust loss of stiction identify --method static does not.",
+        )
+        .block(outliers(paper, &statics.outliers))
         .block(stribeck(&paper.stage.truth.law, paper.stage.units()));
     let Some(dynamics) = &paper.dynamics else {
         return document;
@@ -56,6 +61,36 @@ fn left_out(statics: &Statics, units: Units) -> String {
     )
 }
 
+/// The parameters that two bad runs leave to either cost.
+fn outliers(paper: &Paper, outliers: &Outliers) -> Table {
+    let columns = [
+        ("Parameter", Align::Left),
+        ("True", Align::Right),
+        ("Mean square", Align::Right),
+        ("Robust loss", Align::Right),
+        ("Unit", Align::Left),
+    ];
+    let units = paper.stage.units();
+    outliers.plain.iter().zip(&outliers.robust).fold(
+        Table::new(columns),
+        |table, ((name, plain), (_, robust))| {
+            let name = name.to_string();
+            let truth = paper.stage.true_value(&name);
+            let cell = |x: f64| {
+                let off = Percent::error(100.0 * (x / truth - 1.0)).signed(2);
+                format!("{} ({off})", number::sig(x, 4))
+            };
+            table.row([
+                symbols::symbol(&name),
+                number::sig(truth, 4),
+                cell(*plain),
+                cell(*robust),
+                number::unit(units.of_parameter(&name)),
+            ])
+        },
+    )
+}
+
 /// Steady friction of a law over velocities, N.
 fn steady(law: &LuGre<f64>, speeds: &[f64]) -> Vec<f64> {
     speeds.iter().map(|v| law.curve().force(*v)).collect()
@@ -69,12 +104,15 @@ fn speeds(low: f64, high: f64) -> Vec<f64> {
 
 fn map(paper: &Paper, statics: &Statics) -> Figure {
     let units = paper.stage.units();
-    let top = statics.speed.iter().copied().fold(0.0, f64::max);
+    let top = statics
+        .points
+        .iter()
+        .fold(0.0_f64, |m, p| m.max(p.velocity));
     let slow = paper.stage.truth.law.curve().positive().stribeck_velocity;
     let panel = |title: &str, reach: f64| {
         let v = speeds(-reach, reach);
-        let points = statics.speed.iter().zip(&statics.force);
-        let shown: (Vec<f64>, Vec<f64>) = points.filter(|(v, _)| v.abs() <= reach).unzip();
+        let runs = statics.points.iter().map(|p| (p.velocity, p.force));
+        let shown: (Vec<f64>, Vec<f64>) = runs.filter(|(v, _)| v.abs() <= reach).unzip();
         let mut panel = Panel::new(axis("Velocity", units.speed), axis("Friction", units.force))
             .title(title)
             .layer(
