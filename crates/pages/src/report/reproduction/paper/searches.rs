@@ -186,8 +186,18 @@ fn claims(steps: &[Step]) -> String {
             let mut order =
                 METHODS.map(|(method, label, _)| (of(all, method), label.to_lowercase()));
             order.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let order = order.map(|(_, label)| label);
-            format!("{name}: {}", order.join(", "))
+            let mut words = format!("{name}: {}", order[0].1);
+            for pair in order.windows(2) {
+                // Those that share a rank began with the same population.
+                let between = if pair[0].0 == pair[1].0 {
+                    " and "
+                } else {
+                    ", "
+                };
+                words.push_str(between);
+                words.push_str(&pair[1].1);
+            }
+            words
         });
         each.collect::<Vec<String>>().join("; ")
     };
