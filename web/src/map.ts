@@ -71,7 +71,8 @@ export class PointMap {
 
   private dots(plot: uPlot): void {
     const { ctx } = plot;
-    const size = Math.max(1.5 * devicePixelRatio, 1);
+    // A few points are means, which a model drawn over them must not hide.
+    const size = Math.max((this.points.x.length < 100 ? 5 : 1.5) * devicePixelRatio, 1);
     ctx.save();
     ctx.globalAlpha = this.points.x.length > 2000 ? 0.45 : 0.8;
     ctx.fillStyle = color(this.model ? "line-2" : "line-1");

@@ -334,6 +334,39 @@ try {
   await look("plan");
   passed(`planned: ${plan}`);
 
+  // Static parameters by a search from constant velocities, then presliding from a motion with them held.
+  const logs = join(folder, "procedures");
+  execFileSync(program, ["demo", "--procedures", "--quiet", "--out", logs]);
+  // Least squares follow each search, so that it need not go to the end.
+  writeFileSync(join(logs, "motion.axis.toml"), 'kind = "linear"\n\n[search.annealing-ga]\ngenerations = 10\nrounds = 2\n');
+  const help = execFileSync(program, ["identify", "--help"], { encoding: "utf8" });
+  const taken = ["motion.axis.toml", "motion.csv", "speeds.csv"];
+  await page.locator("input[type=file]").setInputFiles(taken.map((name) => join(logs, name)));
+  for (const name of taken) copyFileSync(join(logs, name), join(twin, name));
+  for (const [log, method, out, words] of [
+    ["speeds.csv", "static", "result-speeds", "--method static --search annealing-ga"],
+    ["motion.csv", "static-then-dynamic", "result-motion", "--axis motion.axis.toml --method static-then-dynamic --search annealing-ga --static speeds.csv"],
+  ]) {
+    const line = `stiction identify ${log} ${words} --out ${out}`;
+    // The last one that was taken is chosen already.
+    if (log !== taken.at(-1)) await page.getByRole("button", { name: log }).first().click();
+    await page.waitForFunction((start) => document.querySelector(".command code")?.textContent?.startsWith(start), `stiction check ${log}`);
+    await page.getByRole("button", { name: "Identify", exact: true }).first().click();
+    await page.getByText("More", { exact: true }).click();
+    await page.getByLabel("Method").selectOption(method);
+    await page.getByLabel("Searched before least squares by").selectOption("annealing-ga");
+    const values = await page.getByLabel("Searched before least squares by").locator("option").evaluateAll((all) => all.map((one) => one.value).filter(Boolean));
+    equal(values.join(), /--search <.*?values: (.*?)\]/s.exec(help)[1].replace(/\s/g, ""), "the searches");
+    if (method !== "static") await page.getByLabel("speeds.csv", { exact: true }).check();
+    await page.waitForFunction((wanted) => document.querySelector(".command code")?.textContent === wanted, line);
+    await page.getByRole("button", { name: "Identify", exact: true }).last().click();
+    await page.getByRole("heading", { name: out }).waitFor({ timeout: 240_000 });
+    await page.locator(".residual canvas").first().waitFor();
+    typed(line);
+    passed(`${method}: ${compare(join(space, out), join(twin, out), method)} files`);
+  }
+  await look("two-steps");
+
   // Another tab has the same session; a page without it is told so.
   const tab = await context.newPage();
   await tab.goto(`${new URL(address).origin}/#view=export`);

@@ -23,6 +23,21 @@ const LAWS: [string, string][] = [
 const METHODS: [string, string][] = [
   ["separable", "From motion to force (usual)"],
   ["output-error", "Simulating the axis from its force"],
+  ["static", "Steady curve, from constant velocities"],
+  ["static-then-dynamic", "Steady curve first, then presliding"],
+];
+/** Names of the command line, with what they are. */
+const SEARCHES: [string, string][] = [
+  ["ga", "plain genetic algorithm"],
+  ["adaptive-ga", "genetic algorithm with adaptive rates"],
+  ["annealing-ga", "Zhang et al. 2025, genetic with annealing"],
+  ["niched-ga", "annealing genetic algorithm in niches"],
+  ["de", "differential evolution"],
+  ["cma-es", "covariance matrix adaptation"],
+  ["pso", "particle swarm"],
+  ["annealing", "simulated annealing"],
+  ["nelder-mead", "simplex method, restarted"],
+  ["lm", "least squares from many starts"],
 ];
 
 interface Parameter { name: string; symbol: string; value: number; unit: string; std: number | null; ci95: [number | null, number | null] | null; identifiable: boolean; origin: string; reason: string; advice: string }
@@ -33,6 +48,7 @@ interface Result extends Origin {
   trust: { trustworthy: boolean; reasons: string[]; cause?: Cause | null; constants: string[]; next: string; compensation: { friction_left_percent: number; judged_on: string } | null };
   laws?: { law: string; asymmetric: boolean; held_out_percent?: number; relative_error_percent?: number }[];
   warnings: { code: string; message: string }[];
+  static_map?: { velocity_unit: string; force_unit: string; points: { velocity: number; force: number; model: number }[] };
 }
 
 /** What the law leaves, and what takes it into the fit: a line of the axis file or another law. */
@@ -56,6 +72,9 @@ export class IdentifyView {
   private readonly stop: () => void;
   private law = "auto";
   private method = "separable";
+  private search = "";
+  /** Logs of constant velocities. */
+  private statics: string[] = [];
   private asymmetric = false;
   private validation = "";
   private out = "result";
@@ -95,10 +114,17 @@ export class IdentifyView {
     const asked: Record<string, unknown> = { kind: "identify", logs: log ? [log] : [], axis, out: this.out };
     if (this.law !== "auto") asked["law"] = this.law;
     if (this.method !== "separable") asked["method"] = this.method;
+    if (this.search && this.method.startsWith("static")) asked["search"] = this.search;
+    if (this.method === "static-then-dynamic") asked["statics"] = this.others().filter((name) => this.statics.includes(name));
     if (this.asymmetric) asked["asymmetric"] = true;
     if (this.validation === "half") asked["split"] = 0.5;
     else if (this.validation) asked["validate"] = [this.validation];
     return asked;
+  }
+
+  /** The logs beside the chosen one. */
+  private others(): string[] {
+    return files("log").map((file) => file.name).filter((name) => name !== state.chosen.log);
   }
 
   private drawForm(): void {
@@ -107,16 +133,30 @@ export class IdentifyView {
     // A folder of its own for a log where that of the usual name is of another one, which would be written over.
     const usual = entry("result");
     if (!this.named && log) this.out = !usual?.of.length || usual.of.some((own) => own.name === log) ? "result" : `result-${stem(log.replaceAll("/", "-"))}`;
-    const others = files("log").filter((file) => file.name !== log);
+    const others = this.others();
     const out = h("input", { type: "text", value: this.out, spellcheck: "false", oninput: () => { this.out = out.value.trim(); this.named = true; again(); } });
     const asymmetric = h("input", { type: "checkbox", checked: this.asymmetric, onchange: () => { this.asymmetric = asymmetric.checked; again(); } });
+    const part = (name: string) => {
+      const own = h("input", { type: "checkbox", checked: this.statics.includes(name), onchange: () => {
+        this.statics = own.checked ? [...this.statics, name] : this.statics.filter((each) => each !== name);
+        again();
+      } });
+      return h("label", { class: "check" }, own, ` ${name}`);
+    };
     put(
       this.form,
       h("dl", { class: "facts" }, h("dt", {}, "Log"), h("dd", {}, log ?? "none yet"), h("dt", {}, "Axis file"), h("dd", {}, axis ?? "none: as found")),
       field("Friction", choice(LAWS, this.law, (value) => { this.law = value; again(); })),
       h("label", { class: "check" }, asymmetric, " different in each direction"),
-      field("Held against", choice([["", "stretches marked on the log, if any"], ["half", "the second half of the log"], ...others.map((file): [string, string] => [file.name, file.name])], this.validation, (value) => { this.validation = value; again(); }), "What is held out shows whether the law predicts what it has not seen."),
-      h("details", {}, h("summary", {}, "More"), field("Method", choice(METHODS, this.method, (value) => { this.method = value; again(); }))),
+      field("Held against", choice([["", "stretches marked on the log, if any"], ["half", "the second half of the log"], ...others.map((name): [string, string] => [name, name])], this.validation, (value) => { this.validation = value; again(); }), "What is held out shows whether the law predicts what it has not seen."),
+      h(
+        "details",
+        { open: this.method !== "separable" },
+        h("summary", {}, "More"),
+        field("Method", choice(METHODS, this.method, (value) => { this.method = value; this.drawForm(); })),
+        this.method.startsWith("static") ? field("Searched before least squares by", choice([["", "nothing"], ...SEARCHES.map(([name, what]): [string, string] => [name, `${name}: ${what}`])], this.search, (value) => { this.search = value; again(); })) : null,
+        this.method === "static-then-dynamic" ? h("fieldset", {}, h("legend", {}, "Logs of constant velocities; none: the log itself"), ...others.map(part)) : null,
+      ),
       field("Folder for the result", out),
       h("button", { class: "primary wide", disabled: !log, onclick: () => void this.run() }, "Identify"),
     );
@@ -203,6 +243,17 @@ export class IdentifyView {
 
   /** Measured, model and what is left over the time, and what is left in a stretch that is brushed. */
   private async residual(place: Element, result: string, own: Result, several: boolean): Promise<void> {
+    const title = (text: string) => h("h3", {}, several ? `${text}: ${result}` : text);
+    const steady = own.static_map;
+    if (steady && own.method === "static") {
+      // Means over stretches, which no trace goes through.
+      const map = new PointMap("Friction over velocity", [`velocity [${unit(steady.velocity_unit)}]`, `friction [${unit(steady.force_unit)}]`], 220);
+      const over = (name: "force" | "model"): Points => ({ x: Float64Array.from(steady.points, (one) => one.velocity), y: Float64Array.from(steady.points, (one) => one[name]) });
+      this.drawn.push(map);
+      put(place, title("Measured and model"), map.element);
+      map.draw(over("force"), undefined, over("model"));
+      return;
+    }
     const shown = this.shown;
     const fit = await get<Drawable>("/api/fit", { result });
     if (this.shown !== shown || fit.from === null || fit.to === null) return;
@@ -251,7 +302,7 @@ export class IdentifyView {
       },
     });
     this.drawn.push(trace, ...maps.map(([map]) => map));
-    put(place, h("h3", {}, several ? `Measured, model and what is left: ${result}` : "Measured, model and what is left"), trace.element, said, h("div", { class: "maps" }, ...maps.map(([map]) => map.element)));
+    put(place, title("Measured, model and what is left"), trace.element, said, h("div", { class: "maps" }, ...maps.map(([map]) => map.element)));
     await brushed(null);
   }
 }

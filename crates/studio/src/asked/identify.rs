@@ -19,6 +19,11 @@ pub struct Identify {
     #[serde(default)]
     asymmetric: bool,
     method: Option<String>,
+    /// What finds the parameters of each step before least squares; `None` takes least squares alone.
+    search: Option<String>,
+    /// Logs of constant velocities; empty takes the logs themselves.
+    #[serde(default)]
+    statics: Vec<String>,
     #[serde(default)]
     validate: Vec<String>,
     split: Option<f64>,
@@ -43,8 +48,11 @@ impl Work for Identify {
         words.option("--law", self.law.as_deref());
         words.flag("--asymmetric", self.asymmetric);
         words.option("--method", self.method.as_deref());
-        words.flag("--validate", !self.validate.is_empty());
-        self.validate.iter().for_each(|log| words.word(log));
+        words.option("--search", self.search.as_deref());
+        for (name, logs) in [("--static", &self.statics), ("--validate", &self.validate)] {
+            words.flag(name, !logs.is_empty());
+            logs.iter().for_each(|log| words.word(log));
+        }
         words.number("--split", self.split);
     }
 
@@ -52,8 +60,9 @@ impl Work for Identify {
         let dir = run.workspace.place(&self.out)?;
         let schema = result::SCHEMA;
         check_folder_of(&dir, schema, false)?;
-        let files = self.files(run.workspace, &dir)?;
-        let outcome = stiction::commands::identify(&files, &self.options()?, run.observer)?;
+        let (files, statics) = self.files(run.workspace, &dir)?;
+        let options = self.options(statics)?;
+        let outcome = stiction::commands::identify(&files, &options, run.observer)?;
         let found = Found {
             workspace: run.workspace,
             bundle: &bundle::identification_in(&outcome, &dir),
@@ -67,8 +76,8 @@ impl Work for Identify {
 }
 
 impl Identify {
-    /// Logs and axis file, all of the workspace and none of them in the folder for the result.
-    fn files(&self, workspace: &Workspace, dir: &Path) -> Result<Files, Refused> {
+    /// Logs, axis file and logs of constant velocities, all of the workspace and none of them in the folder for the result.
+    fn files(&self, workspace: &Workspace, dir: &Path) -> Result<(Files, Vec<PathBuf>), Refused> {
         let all = |names: &[String]| -> Result<Vec<PathBuf>, Refused> {
             names.iter().map(|name| workspace.file(name)).collect()
         };
@@ -78,18 +87,18 @@ impl Identify {
             validate: all(&self.validate)?,
             axis: axis.transpose()?,
         };
+        let statics = all(&self.statics)?;
+        let logs = || files.logs.iter().chain(&files.validate).chain(&statics);
         if let Some(axis) = &self.axis {
-            let logs = files.logs.iter().chain(&files.validate);
-            let logs: Vec<&Path> = logs.map(PathBuf::as_path).collect();
+            let logs: Vec<&Path> = logs().map(PathBuf::as_path).collect();
             let read = read_axis(workspace, axis, &logs)?;
             check_inputs(dir, read.logs.iter().map(|log| &log.file))?;
         }
-        let inputs = files.logs.iter().chain(&files.validate).chain(&files.axis);
-        check_inputs(dir, inputs)?;
-        Ok(files)
+        check_inputs(dir, logs().chain(&files.axis))?;
+        Ok((files, statics))
     }
 
-    fn options(&self) -> Result<Options, Refused> {
+    fn options(&self, statics: Vec<PathBuf>) -> Result<Options, Refused> {
         let unknown = |what: &str, name: &str| Refused::bad(format!("{name}: no such {what}"));
         let mut options = Options::default();
         options.law = match self.law.as_deref() {
@@ -103,7 +112,15 @@ impl Identify {
                 None => Procedures::default().method,
                 Some(name) => Method::from_name(name).ok_or_else(|| unknown("method", name))?,
             },
+            statics,
             ..Procedures::default()
+        };
+        options.searching.search = match self.search.as_deref() {
+            None => None,
+            Some(name) => match Method::from_name(name) {
+                Some(Method::Searched(name)) => Some(name),
+                _ => return Err(unknown("search", name)),
+            },
         };
         Ok(options)
     }

@@ -504,14 +504,20 @@ fn what_a_file_names_outside_of_the_folder_is_not_read() {
     std::fs::write(served.path().join("axis.toml"), axis).unwrap();
     let answer = served.ask("GET", "/api/log?name=run.csv&axis=axis.toml", "");
     assert_eq!(answer.status, 403, "{}", answer.text());
-    let asked = "{\"kind\":\"identify\",\"logs\":[],\"axis\":\"axis.toml\",\"out\":\"result\"}";
-    let id = served
-        .ask("POST", "/api/jobs", asked)
-        .json()
-        .as_u64()
-        .unwrap();
-    assert_eq!(ended(&served, id)["state"], "failed");
-    assert!(!served.path().join("result").exists());
+    for asked in [
+        serde_json::json!({ "kind": "identify", "logs": [], "axis": "axis.toml", "out": "result" }),
+        serde_json::json!({ "kind": "identify", "logs": ["run.csv"], "method": "static-then-dynamic",
+                            "statics": [secret], "out": "result" }),
+    ] {
+        let begun = served.ask("POST", "/api/jobs", &asked.to_string());
+        let job = ended(&served, begun.json().as_u64().unwrap());
+        assert_eq!(job["state"], "failed", "{job}");
+        assert!(
+            job["text"].as_str().unwrap().contains("the folder"),
+            "{job}"
+        );
+        assert!(!served.path().join("result").exists());
+    }
     // Neither is a model that a study names.
     let model = outside.path().join("model.toml");
     std::fs::write(&model, "secret = 777000777\n").unwrap();
