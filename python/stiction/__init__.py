@@ -14,7 +14,7 @@ from ._export import Exported, export
 from ._fit import Covariance, Fit, Prediction
 from ._identify import identify
 from ._law import Law
-from ._log import Check, Finding, Log, allow_memory, check, read_log, write_demo_log
+from ._log import Check, Finding, Log, allow_memory, check, read_log, write_demo_log, write_procedure_logs
 from ._native import __version__
 from ._parameters import Parameter, Parameters
 from ._plan import Plan, plan
@@ -53,4 +53,5 @@ __all__ = [
     "read_log",
     "simulate",
     "write_demo_log",
+    "write_procedure_logs",
 ]

@@ -274,6 +274,12 @@ def write_demo_log(path: PathLike, seed: int = 0) -> Path:
     return Path(path)
 
 
+def write_procedure_logs(folder: PathLike, seed: int = 0) -> list[Path]:
+    """Writes logs of the same axis for docs/procedures.md, as `stiction demo --procedures`: constant velocities, motion, force
+    steps and ramps. Returns what was written."""
+    return _native.write_procedure_logs(path_of(folder, "folder"), whole(seed, "seed"))
+
+
 def allow_memory(size: int) -> None:
     """Memory that reading a log may take, bytes; a quarter of the machine's if it is not set."""
     _native.allow_memory(whole(size, "size", 1_000_000))

@@ -28,7 +28,7 @@ def run_blocks(page: str, least: int) -> None:
 
 def test_every_block_of_the_guide_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
-    run_blocks("python.md", 8)
+    run_blocks("python.md", 10)
     assert (tmp_path / "result" / "model.toml").is_file()
     assert (tmp_path / "study" / "study.json").is_file()
     assert any(path.suffix == ".c" for path in (tmp_path / "controller").iterdir())

@@ -39,7 +39,7 @@ mod _native {
     #[pymodule_export]
     use crate::law::Law;
     #[pymodule_export]
-    use crate::log::{Log, allow_memory, check, check_files, write_demo_log};
+    use crate::log::{Log, allow_memory, check, check_files, write_demo_log, write_procedure_logs};
     #[pymodule_export]
     use crate::motion::{Plan, plan};
     #[pymodule_export]

@@ -183,6 +183,15 @@ pub fn write_demo_log(py: Python<'_>, path: PathBuf, seed: u64) -> PyResult<()> 
     written.map_err(|e| raised(py, &e))
 }
 
+/// Writes the logs of the same axis for the procedures into a folder, and returns their paths.
+#[pyfunction]
+pub fn write_procedure_logs(py: Python<'_>, folder: PathBuf, seed: u64) -> PyResult<Vec<PathBuf>> {
+    let (written, _) = run(py, &How::quiet(), |_| {
+        stiction::demo::procedures(folder, seed)
+    })?;
+    written.map(|(logs, _)| logs).map_err(|e| raised(py, &e))
+}
+
 /// Limits the memory that reading a log may take, bytes.
 #[pyfunction]
 pub fn allow_memory(bytes: u64) {
