@@ -126,7 +126,7 @@ pub(super) fn of(stage: &Stage) -> Vec<String> {
             stage.steps
         ));
     }
-    let limits = corner::limits(stage);
+    let limits = stage.limits(corner::LIMITS);
     all.push(format!(
         "Corner: {side} by {side} at {}, once with a stop and once with the start of one axis in the stop of the other, 0.2 s to \
          either side of which count; the second axis is {}, whose parameters are known to its compensation.",

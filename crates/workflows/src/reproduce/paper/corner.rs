@@ -87,7 +87,7 @@ fn one(
         compensation.compensate(stage.settings(control)?, law)?,
         compensation.compensate(second, &other)?,
     ];
-    let limits = limits(stage);
+    let limits = stage.limits(LIMITS);
     let coupling = coupled.then(|| {
         let coupling = CrossCoupling::tuned(stage.bandwidths()[1], limits.velocity)?;
         let [x, y] = &axes;
@@ -121,13 +121,4 @@ fn one(
         feed: Feed::along(&samples[from..to]),
         samples: samples[from..to].to_vec(),
     })
-}
-
-/// Limits along the corner of an axis.
-pub(super) fn limits(stage: &Stage) -> Limits {
-    Limits {
-        velocity: stage.speed(LIMITS.velocity),
-        acceleration: stage.speed(LIMITS.acceleration),
-        jerk: stage.speed(LIMITS.jerk),
-    }
 }

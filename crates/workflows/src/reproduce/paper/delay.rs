@@ -7,11 +7,10 @@ use super::tracking::{counts_from, sine};
 use crate::reproduce::watch::Watch;
 use rayon::prelude::*;
 use stiction_friction::{LuGre, ParamError};
-use stiction_servo::axis::AxisSettings;
 use stiction_servo::metrics::Tracking;
 
 /// Delays from the controller to the amplifier, in control periods.
-pub(super) const PERIODS: [u32; 4] = [0, 1, 2, 4];
+const PERIODS: [u32; 4] = [0, 1, 2, 4];
 
 /// What one delay makes of the sine.
 #[derive(Clone, Debug)]
@@ -31,7 +30,7 @@ pub(super) fn run(stage: &Stage, law: &LuGre<f64>, watch: &Watch) -> Result<Vec<
 }
 
 fn one(stage: &Stage, periods: u32, law: &LuGre<f64>) -> Result<Delayed, ParamError> {
-    let mut settings: AxisSettings = stage.settings(Control::Fuzzy)?;
+    let mut settings = stage.settings(Control::Fuzzy)?;
     settings.drive.delay = f64::from(periods) / RATE;
     let track = |of: Compensation| {
         let settings = of.compensate(settings.clone(), law)?;

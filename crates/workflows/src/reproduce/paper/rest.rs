@@ -81,17 +81,12 @@ fn one(
     (hold, settings, compensation): &(Hold, AxisSettings, Compensation),
     law: &LuGre<f64>,
 ) -> Result<Rested, ParamError> {
-    let limits = Limits {
-        velocity: stage.speed(LIMITS.velocity),
-        acceleration: stage.speed(LIMITS.acceleration),
-        jerk: stage.speed(LIMITS.jerk),
-    };
     let there = Move {
         distance: DEFLECTIONS * stage.truth.law.bound(),
         dwell: DWELL,
     };
     let settings = compensation.compensate(settings.clone(), law)?;
-    let samples = stage.along(&settings, &Moves::new(&[there], limits)?)?;
+    let samples = stage.along(&settings, &Moves::new(&[there], stage.limits(LIMITS))?)?;
     let end = samples.last().map_or(0.0, |s| s.time);
     let from = samples.partition_point(|s| s.time < end - DWELL);
     let half = &samples[samples.partition_point(|s| s.time < end - 0.5 * DWELL)..];

@@ -14,6 +14,7 @@ use stiction_servo::feedforward::Feedforward;
 use stiction_servo::fuzzy::FuzzyPid;
 use stiction_servo::integrator::Ode4;
 use stiction_servo::known::{self, KnownAxis};
+use stiction_servo::motion::Limits;
 use stiction_servo::pid::Pid;
 use stiction_servo::plant::Plant;
 use stiction_servo::run::run_with;
@@ -191,6 +192,15 @@ impl Stage {
     /// A speed on our stage, m/s, as the same part of the Stribeck velocity of this axis, m/s (rad/s).
     pub(super) fn speed(&self, ours: f64) -> f64 {
         ours * self.truth.law.curve().positive().stribeck_velocity / STRIBECK_VELOCITY
+    }
+
+    /// Limits of a motion on our stage, m and s, on this axis, as many times faster.
+    pub(super) fn limits(&self, ours: Limits) -> Limits {
+        Limits {
+            velocity: self.speed(ours.velocity),
+            acceleration: self.speed(ours.acceleration),
+            jerk: self.speed(ours.jerk),
+        }
     }
 
     /// A stroke on our stage, m, on this axis, m (rad): longer by as much as speeds are higher, and long enough to leave

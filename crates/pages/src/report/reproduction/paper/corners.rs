@@ -67,7 +67,7 @@ fn feed_error(sample: &PlaneSample) -> f64 {
     (x.velocity * wanted_x + y.velocity * wanted_y) / feed - feed
 }
 
-/// The place of the corner: where x ends and y has not begun.
+/// Both axes about the corner, which is where x ends and y has not begun.
 fn corner(runs: &[&Cornered], unit: &str) -> Panel {
     let last = runs.first().and_then(|r| r.samples.last());
     let at = last.map_or(0.0, |s| s.axes[0].reference.position);
