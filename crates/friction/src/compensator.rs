@@ -209,6 +209,7 @@ impl<T: Real> Compensator<T> {
                 .settings
                 .outside_dead_zone(self.source.velocity(&input));
             self.friction.step(&mut self.state.law, h, at);
+            self.state.viscous = self.friction.viscous()[usize::from(at < T::ZERO)] * at;
             if let Source::Observer(gain) = self.source {
                 let pull = gain * input.tracking_error;
                 let correction = &mut self.state.correction;
@@ -241,6 +242,8 @@ impl<T: Real> Compensator<T> {
         }
         if let Some(adaptation) = &self.settings.adaptation {
             let learnt = &mut self.state.learnt;
+            let viscous = self.state.viscous + self.state.beside.viscous;
+            let parts = [(force - self.friction.offset()) - viscous, viscous];
             if good {
                 let limited = self.state.output.abs() >= self.settings.limit;
                 let frozen = limited || self.state.watch.tripped() || !input.learn;
@@ -250,12 +253,12 @@ impl<T: Real> Compensator<T> {
                     input.drive_force = beside.without_known(input.drive_force);
                     terms.keep(beside);
                 }
-                adaptation.step(learnt, &self.friction, h, &input, force, frozen);
+                adaptation.step(learnt, &self.friction, h, &input, parts, frozen);
             }
-            let offset = self.friction.offset();
             let level = learnt.level(self.friction.side(&self.state.law));
-            force = level * (force - offset) + offset;
-            // A level may take the force of a velocity that no machine has beyond the number type.
+            let [dry, viscous] = parts;
+            force = (level * dry + learnt.viscous * viscous) + self.friction.offset();
+            // A factor may take the force of a velocity that no machine has beyond the number type.
             sound = force.is_finite();
         }
         if !sound {

@@ -113,10 +113,15 @@ fn outputs(model: &Model, terms: &Terms<f64>) -> Vec<Port> {
         port("valid", "the parameters are in range", flag("ready")),
     ];
     if model.settings.adaptation.is_some() {
-        let level = "factor on the law's force without its offset";
+        let level = "factor on the dry part of the law's force";
         all.extend([
             port("level_forward", level, state("levels[0]")),
             port("level_back", level, state("levels[1]")),
+            port(
+                "level_viscous",
+                "factor on its viscous part",
+                state("viscous_level"),
+            ),
             port(
                 "mass_found",
                 format!("beside them, {f} per {}", model.acceleration_unit()),

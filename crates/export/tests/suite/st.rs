@@ -419,7 +419,9 @@ fn what_is_retained_comes_back() {
     let mut model = model(laws().remove(0).1);
     model.settings = adapting(model.settings);
     let library = library(&model);
-    let kept = ["key", "forward", "back", "square", "peak", "reason"];
+    let kept = [
+        "key", "forward", "back", "viscous", "square", "peak", "reason",
+    ];
     let kept = kept.map(|name| [format!("kept_{name}"), format!("copy_{name}")]);
     let kept: Vec<&String> = kept.iter().flatten().collect();
     let mut evening = library.instance("FB_x_axis_Friction");
@@ -435,7 +437,7 @@ fn what_is_retained_comes_back() {
     for k in 0..4000 {
         let sign = if k / 100 % 2 == 0 { 1.0 } else { -1.0 };
         evening.set(velocity, sign * 0.05);
-        evening.set(force, sign * 1.2 * 13.5);
+        evening.set(force, sign * (1.2 * 12.0 + 1.5));
         evening.set(learn, f64::from(u8::from(k % 100 > 5)));
         evening.call();
     }
@@ -448,16 +450,22 @@ fn what_is_retained_comes_back() {
         }
         morning.set(morning.slot("reset"), f64::from(u8::from(reset)));
         morning.call();
-        ["recalled", "learned", "level_forward", "level_back"]
-            .map(|name| morning.get(morning.slot(name)))
+        [
+            "recalled",
+            "learned",
+            "level_forward",
+            "level_back",
+            "level_viscous",
+        ]
+        .map(|name| morning.get(morning.slot(name)))
     };
-    let [recalled, learned, forward, back] = morning(&|_, value| value, false);
+    let [recalled, learned, forward, back, _] = morning(&|_, value| value, false);
     assert_eq!([recalled, learned], [1.0, 1.0]);
     assert!(
         (forward - 1.2).abs() < 0.02 && (back - 1.2).abs() < 0.02,
         "{forward} {back}"
     );
-    let nothing = [0.0, 0.0, 1.0, 1.0];
+    let nothing = [0.0, 0.0, 1.0, 1.0, 1.0];
     assert_eq!(morning(&|_, value| value, true), nothing);
     for damaged in &kept {
         let change = |name: &str, value: f64| if name == *damaged { value + 1.0 } else { value };

@@ -14,6 +14,8 @@ pub struct Beside<T> {
     pub seen: [T; 4],
     /// What these add to the force of the law, N (N m).
     pub changed: T,
+    /// The viscous part of that, N (N m).
+    pub viscous: T,
     /// Share of mass and cogging that is passed on: 0 when off, else 1.
     pub rest: T,
     /// Share of the weight that is passed on: 0 when not enabled, else 1. No watchdog switches it off.
@@ -141,9 +143,10 @@ impl<T: Real> Terms<T> {
             let factor = levels.factor(usize::from(dry <= T::ZERO), &away, place);
             let side = usize::from(v < T::ZERO);
             let viscous = levels.thicker(side, &away, friction.viscous(), v.abs());
-            let changed = (factor - T::ONE) * dry + viscous * v;
+            let viscous = viscous * v;
+            let changed = (factor - T::ONE) * dry + viscous;
             if changed.is_finite() {
-                beside.changed = changed;
+                (beside.changed, beside.viscous) = (changed, viscous);
             }
         }
         let inertia = self.mass * acceleration;

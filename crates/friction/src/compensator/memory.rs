@@ -9,9 +9,9 @@ use core::fmt;
 /// How many numbers a memory has.
 pub const MEMORY: usize = 2 * KEPT;
 /// Those that it keeps; the other half are the same with the opposite sign.
-const KEPT: usize = 6;
+const KEPT: usize = 7;
 /// Form of a memory: the next one counts on.
-const VERSION: u64 = 1;
+const VERSION: u64 = 2;
 /// Keys are whole numbers below this: single precision holds each of them exactly, and so do tools that write six digits.
 const KEYS: u64 = 1_000_000;
 
@@ -34,7 +34,7 @@ impl fmt::Display for ForeignMemory {
 impl core::error::Error for ForeignMemory {}
 
 impl<T: Real> Compensator<T> {
-    /// What it has learnt, to be kept while it is off: a key of law, mass and version; the level of each direction; mean square
+    /// What it has learnt, to be kept while it is off: a key of law, mass and version; the level of each direction and the factor on viscous friction; mean square
     /// and largest error without compensation, the former negative where they are not known; why the watchdog has switched
     /// off, 0 if it has not. Each a second time with the opposite sign.
     pub fn memory(&self) -> [T; MEMORY] {
@@ -49,6 +49,7 @@ impl<T: Real> Compensator<T> {
             T::from_f64(f64::from(self.key())),
             forward,
             back,
+            learnt.viscous,
             watch.without,
             watch.peak_without,
             T::from_f64(reason),
@@ -56,11 +57,11 @@ impl<T: Real> Compensator<T> {
         core::array::from_fn(|k| if k < KEPT { kept[k] } else { -kept[k - KEPT] })
     }
 
-    /// Takes what [`memory`](Self::memory) gave before: levels, and what the watchdog had learnt, so that compensation may come in
+    /// Takes what [`memory`](Self::memory) gave before: factors, and what the watchdog had learnt, so that compensation may come in
     /// at once. A watchdog that had switched off still has. To be called before the first step.
     ///
     /// # Errors
-    /// Where the memory is of another law, mass or version, damaged, has a level beyond the range of the adaptation or a mean square
+    /// Where the memory is of another law, mass or version, damaged, has a factor beyond the range of the adaptation or a mean square
     /// beyond the square of the peak, or where force is let out already; nothing is taken then.
     ///
     /// ```
@@ -78,7 +79,7 @@ impl<T: Real> Compensator<T> {
     pub fn recall(&mut self, memory: &[T; MEMORY]) -> Result<(), ForeignMemory> {
         let (kept, copies) = memory.split_at(KEPT);
         let whole = kept.iter().zip(copies).all(|(a, b)| *a + *b == T::ZERO);
-        let &[key, forward, back, without, peak, reason] = kept else {
+        let &[key, forward, back, viscous, without, peak, reason] = kept else {
             return Err(ForeignMemory);
         };
         let known = without >= T::ZERO;
@@ -92,12 +93,12 @@ impl<T: Real> Compensator<T> {
         let running = self.state.share > T::ZERO;
         let rms = without.max(T::ZERO).sqrt();
         let possible = peak >= T::ZERO && T::from_f64(LEAST_PEAK) * rms <= peak;
-        let credible = !running && possible && self.takes([forward, back]);
+        let credible = !running && possible && self.takes([forward, back, viscous]);
         if !(whole && own && credible && (known || without == -T::ONE)) {
             return Err(ForeignMemory);
         }
         if self.settings.adaptation.is_some() {
-            self.state.learnt.recall([forward, back]);
+            self.state.learnt.recall([forward, back, viscous]);
         }
         // One that has switched off since is not armed again.
         let trip = self.state.watch.trip.or(trip);
@@ -111,13 +112,13 @@ impl<T: Real> Compensator<T> {
         Ok(())
     }
 
-    /// Whether levels are within the range of the adaptation; without one they count for nothing, and are above 0.
-    fn takes(&self, levels: [T; 2]) -> bool {
-        let within = |level: T| match self.settings.adaptation {
-            Some(Adaptation { range, .. }) => level >= T::ONE - range && level <= T::ONE + range,
-            None => level > T::ZERO,
+    /// Whether factors are within the range of the adaptation; without one they count for nothing, and are above 0.
+    fn takes(&self, factors: [T; 3]) -> bool {
+        let within = |factor: T| match self.settings.adaptation {
+            Some(Adaptation { range, .. }) => factor >= T::ONE - range && factor <= T::ONE + range,
+            None => factor > T::ZERO,
         };
-        levels.into_iter().all(within)
+        factors.into_iter().all(within)
     }
 
     /// A whole number below 10^6 that another law or mass hardly shares; the code that is exported has it as a constant.

@@ -15,6 +15,8 @@ pub struct State<T> {
     pub correction: T,
     /// The force of that correction, N (N m).
     pub corrected: T,
+    /// The viscous part of the law's force, N (N m).
+    pub viscous: T,
     /// Share of the friction force that is passed on: 0 when off, at most the gain.
     pub share: T,
     /// Factor on the law's force, 1 unless set from outside.
@@ -46,6 +48,7 @@ impl<T: Real> State<T> {
             law: friction.rest(),
             correction: T::ZERO,
             corrected: T::ZERO,
+            viscous: T::ZERO,
             share: T::ZERO,
             level: T::ONE,
             learnt: Learnt::nothing(),

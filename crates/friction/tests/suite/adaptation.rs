@@ -1,4 +1,4 @@
-//! Levels of friction that are found while the axis runs: against an axis whose force is known in closed form.
+//! Factors on friction that are found while the axis runs: against an axis whose force is known in closed form.
 
 use crate::common::lopsided;
 use stiction_friction::compensator::{
@@ -9,11 +9,12 @@ use stiction_friction::{Damping, LuGre, Shape};
 const H: f64 = 1e-3;
 const MASS: f64 = 4.0;
 
-/// An axis that follows its reference exactly, with levels and a mass other than those that were identified.
+/// An axis that follows its reference exactly, with levels, viscous friction and a mass other than those that were identified.
 struct Sliding {
     law: LuGre<f64>,
     state: stiction_friction::State<f64>,
     levels: [f64; 2],
+    viscous: f64,
     mass: f64,
     /// Velocities of the two samples before.
     velocity: [f64; 2],
@@ -22,12 +23,13 @@ struct Sliding {
 }
 
 impl Sliding {
-    fn new(levels: [f64; 2], mass: f64) -> Self {
+    fn new(levels: [f64; 2], viscous: f64, mass: f64) -> Self {
         let law = lopsided(Shape::Gaussian, Damping::Capped(600.0));
         Sliding {
             state: law.rest(),
             law,
             levels,
+            viscous,
             mass,
             velocity: [0.0; 2],
             friction: 0.0,
@@ -39,9 +41,10 @@ impl Sliding {
         let offset = self.law.curve().offset();
         let a = (v - self.velocity[1]) / (2.0 * H);
         let command = self.friction + self.mass * a;
-        let dry = self.law.step(&mut self.state, H, v) - offset;
+        let viscous = self.law.curve().direction(v).viscous * v;
+        let dry = self.law.step(&mut self.state, H, v) - offset - viscous;
         let level = self.levels[usize::from(self.state.z < 0.0)];
-        self.friction = offset + level * dry;
+        self.friction = offset + level * dry + self.viscous * viscous;
         self.velocity = [v, self.velocity[0]];
         command
     }
@@ -78,36 +81,38 @@ fn error(found: [f64; 2], truth: [f64; 2]) -> f64 {
     off(0).max(off(1))
 }
 
-/// Levels of each direction are within 1 %, the mass within 5 %, after twenty reversals, and the levels within .5 % for good: the
-/// mass is held a little.
+/// The mean of both levels, on which a reversal depends, is within 2.5 % after twenty reversals; for good each level is within 1 %,
+/// viscous friction within 3 % and the mass within 10 %: both are held a little, and change slowly here.
 #[test]
-fn levels_and_mass_are_found() {
-    for (levels, mass) in [
-        ([0.6, 0.6], MASS),
-        ([1.4, 1.4], MASS),
-        ([0.8, 1.3], 7.0),
-        ([1.0, 1.0], 2.0),
+fn factors_and_mass_are_found() {
+    for (levels, viscous, mass) in [
+        ([0.6, 0.6], 0.6, MASS),
+        ([1.4, 1.4], 0.7, MASS),
+        ([0.8, 1.3], 1.4, 7.0),
+        ([1.0, 1.0], 1.0, 2.0),
     ] {
-        let mut axis = Sliding::new(levels, mass);
+        let mut axis = Sliding::new(levels, viscous, mass);
         let mut compensator = axis.compensator();
         for k in 0..80_000 {
             let v = velocity(k);
             compensator.step(input(v, axis.force(v)));
             let learnt = &compensator.state().learnt;
             if k == 8000 {
-                assert!(error(learnt.levels, levels) < 0.01, "{learnt:?}");
-                assert!((learnt.mass / mass - 1.0).abs() < 0.05, "{learnt:?}");
+                let means = [learnt.levels, levels].map(|[a, b]| [0.5 * (a + b); 2]);
+                assert!(error(means[0], means[1]) < 0.025, "{learnt:?}");
             }
         }
         let learnt = &compensator.state().learnt;
-        assert!(error(learnt.levels, levels) < 5e-3, "{learnt:?}");
+        assert!(error(learnt.levels, levels) < 0.01, "{learnt:?}");
+        assert!((learnt.viscous / viscous - 1.0).abs() < 0.03, "{learnt:?}");
+        assert!((learnt.mass / mass - 1.0).abs() < 0.1, "{learnt:?}");
     }
 }
 
 /// The force is that of the axis, while it slides either way.
 #[test]
 fn the_force_has_the_levels() {
-    let mut axis = Sliding::new([0.8, 1.3], MASS);
+    let mut axis = Sliding::new([0.8, 1.3], 1.2, MASS);
     let mut compensator = axis.compensator();
     for k in 0..40_000 {
         let v = velocity(k);
@@ -115,12 +120,15 @@ fn the_force_has_the_levels() {
         let force = compensator.step(input(v, command));
         if k > 20_000 && v.abs() > 0.05 {
             let friction = axis.friction;
-            assert!((force - friction).abs() < 1e-3 * friction.abs(), "{k}");
+            assert!(
+                (force - friction).abs() < 0.01 * friction.abs(),
+                "{k} {force} {friction}"
+            );
         }
     }
 }
 
-/// Exactly those samples are learnt from that the axis slides in: what stands in the way keeps the levels bit for bit.
+/// Exactly those samples are learnt from that the axis slides in: what stands in the way keeps the factors bit for bit.
 #[test]
 fn nothing_is_learnt_where_the_force_says_nothing() {
     type Change = fn(&mut Input<f64>, usize);
@@ -134,7 +142,7 @@ fn nothing_is_learnt_where_the_force_says_nothing() {
         }),
     ];
     for (name, change) in changes {
-        let mut axis = Sliding::new([0.6, 0.6], MASS);
+        let mut axis = Sliding::new([0.6, 0.6], 0.6, MASS);
         let mut compensator = axis.compensator();
         for k in 0..3000 {
             let v = velocity(k);
@@ -142,10 +150,11 @@ fn nothing_is_learnt_where_the_force_says_nothing() {
             change(&mut input, k);
             compensator.step(input);
         }
-        assert_eq!(compensator.state().learnt.levels, [1.0, 1.0], "{name}");
+        let learnt = &compensator.state().learnt;
+        assert_eq!((learnt.levels, learnt.viscous), ([1.0; 2], 1.0), "{name}");
     }
     // At the limit of the force.
-    let mut axis = Sliding::new([0.6, 0.6], MASS);
+    let mut axis = Sliding::new([0.6, 0.6], 0.6, MASS);
     let mut compensator = axis.compensator();
     compensator.set_limit(1e-3).unwrap();
     for k in 0..3000 {
@@ -183,16 +192,18 @@ fn nothing_is_learnt_where_the_force_says_nothing() {
 #[test]
 fn levels_keep_their_range() {
     for factor in [-1.0, 1e3, 1e-3, 0.0, -1e300] {
-        let mut axis = Sliding::new([1.0, 1.0], MASS);
+        let mut axis = Sliding::new([1.0, 1.0], 1.0, MASS);
         let mut compensator = axis.compensator();
         for k in 0..20_000 {
             let v = velocity(k);
             compensator.step(input(v, factor * axis.force(v)));
-            let levels = compensator.state().learnt.levels;
-            assert!(levels.iter().all(|level| (0.5..=1.5).contains(level)));
+            let learnt = &compensator.state().learnt;
+            let [forward, back] = learnt.levels;
+            let found = [forward, back, learnt.viscous];
+            assert!(found.iter().all(|factor| (0.5..=1.5).contains(factor)));
         }
     }
-    let mut axis = Sliding::new([1.0, 1.0], MASS);
+    let mut axis = Sliding::new([1.0, 1.0], 1.0, MASS);
     let mut compensator = axis.compensator();
     let mut most = 0.0_f64;
     for k in 0..20_000 {

@@ -743,7 +743,7 @@ fn no_energy_is_gained_over_closed_cycles() {
     runner.run(&case, cycles).unwrap();
 }
 
-/// A level that takes the force of a velocity that no machine has beyond the number type makes none, least of all while it is
+/// A factor that takes the force of a velocity that no machine has beyond the number type makes none, least of all while it is
 /// not enabled.
 #[test]
 fn a_force_beyond_the_number_type_is_none() {
@@ -755,7 +755,7 @@ fn a_force_beyond_the_number_type_is_none() {
     let mut compensator =
         Compensator::new(Friction::LuGre(law), Source::Reference, settings).unwrap();
     let mut kept = compensator.memory();
-    for (k, level) in [(1, 1.5), (2, 1.5), (7, -1.5), (8, -1.5)] {
+    for (k, level) in [(1, 1.5), (3, 1.5), (8, -1.5), (10, -1.5)] {
         kept[k] = level;
     }
     compensator.recall(&kept).unwrap();

@@ -427,11 +427,14 @@ fn levels_that_follow_are_times_those_that_are_known() {
         let friction = 1.25 * truth.step(input);
         command = friction + 4.0 * a + weight(x) + cogging(x);
     }
-    let found = follows.state().learnt.levels;
+    let learnt = &follows.state().learnt;
+    let found = learnt.levels;
     assert!(
         found.iter().all(|level| (level - 1.25).abs() < 5e-3),
         "{found:?}"
     );
+    // It is held a little.
+    assert!((learnt.viscous - 1.25).abs() < 0.04, "{learnt:?}");
     assert!((force / command - 1.0).abs() < 0.01, "{force} {command}");
 }
 
