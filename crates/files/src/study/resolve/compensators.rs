@@ -191,9 +191,8 @@ fn adaptation(table: &Table<'_>) -> Result<Option<Adaptation<f64>>, Error> {
     };
     let Some(table) = given.as_table() else {
         let Ok(asked) = given.flag() else {
-            return Err(
-                given.refused("true, false, or a table such as { memory = \"1 s\", range = 0.5 }")
-            );
+            return Err(given
+                .refused("true, false, or a table such as { memory = \"0.25 s\", range = 0.5 }"));
         };
         return Ok(asked.then_some(usual));
     };
