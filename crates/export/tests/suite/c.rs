@@ -454,10 +454,10 @@ int main(void)
     params.watchdog_window = 0.1;
     (void)x_axis_init(&params, &state);
     for (int k = 0; k < 16000; k++) {
-        /* to and fro in 0.2 s, with a force of the drive of 1.2 times 12 N and 30 N s/m */
+        /* to and fro in 0.2 s, with a force of the drive of 1.2 times 12 N, and 30 N s/m as identified */
         const bool onward = (k / 100) % 2 == 0;
         const double v = onward ? 0.05 : -0.05;
-        const x_axis_input_t input = { v, 1e-6, false, (onward ? 1.2 : -1.2) * (12.0 + 1.5), k % 100 > 5 };
+        const x_axis_input_t input = { v, 1e-6, false, (onward ? 1.0 : -1.0) * (1.2 * 12.0 + 1.5), k % 100 > 5 };
         (void)x_axis_step(&params, &state, &input);
     }
     x_axis_memory_t memory = x_axis_memory(&state);

@@ -19,16 +19,17 @@ struct Done {
     harmful: bool,
 }
 
-/// The bars, each with the least share of axes, in thousandths, that has to keep it.
+/// The bars, each with the least share of axes, in thousandths, that has to keep it: what was measured (decision 0115), less some for
+/// the scatter of a hundred axes.
 const BARS: [(&str, usize); 4] = [
     (
         "1.3 times exact parameters at most, or 2 % more of the error without compensation",
-        900,
+        930,
     ),
-    ("1.02 times the identified parameters at most", 930),
+    ("1.02 times the identified parameters at most", 900),
     (
         "the same, or 1 % more of the error without compensation, or than exact parameters",
-        970,
+        920,
     ),
     (
         "no more error than without compensation, or switched off by the watchdog",
