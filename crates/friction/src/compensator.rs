@@ -245,15 +245,17 @@ impl<T: Real> Compensator<T> {
             let viscous = self.state.viscous + self.state.beside.viscous;
             let parts = [(force - self.friction.offset()) - viscous, viscous];
             if good {
-                let limited = self.state.output.abs() >= self.settings.limit;
+                let limit = self.settings.limit;
+                let limited = self.state.output.abs() >= limit;
                 let frozen = limited || self.state.watch.tripped() || !input.learn;
+                let most = if frozen { T::ZERO } else { limit };
                 let mut input = input;
                 if let Some(terms) = &self.terms {
                     let beside = &mut self.state.beside;
                     input.drive_force = beside.without_known(input.drive_force);
                     terms.keep(beside);
                 }
-                adaptation.step(learnt, &self.friction, h, &input, parts, frozen);
+                adaptation.step(learnt, &self.friction, h, &input, parts, most);
             }
             let level = learnt.level(self.friction.side(&self.state.law));
             let [dry, viscous] = parts;

@@ -41,8 +41,9 @@ const LEAST_WEIGHT: f64 = 1e-15;
 /// estimate (James, Stein 1961): with the doubt c times what is left over what is explained taken off.
 ///
 /// Nothing is learnt until the axis itself has moved on by more than its presliding after the reference has turned, at
-/// standstill, while the force is at its limit, while the watchdog has switched off, or where [`Input::learn`] is false. One
-/// sample counts for no more than if the whole friction were missing.
+/// standstill, while the force or that of the law is at its limit, while the watchdog has switched off, or where
+/// [`Input::learn`] is false. One sample counts for no more than if the whole friction were missing, and for no longer than the
+/// memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Adaptation<T> {
     /// Time constant of the forgetting, counted in time in which the force is new, > 0, s: some 0.06 s after each reversal.
@@ -165,8 +166,8 @@ impl<T: Real> Adaptation<T> {
         learnt.mass = self.mass;
     }
 
-    /// Takes a sample: dry and viscous part of the law's own force at the reference velocity, over `h` seconds. `frozen` learns
-    /// nothing.
+    /// Takes a sample: dry and viscous part of the law's own force at the reference velocity, over `h` seconds. Learns while that
+    /// force is below `most`.
     pub(super) fn step(
         &self,
         learnt: &mut Learnt<T>,
@@ -174,7 +175,7 @@ impl<T: Real> Adaptation<T> {
         h: T,
         input: &Input<T>,
         parts: [T; 2],
-        frozen: bool,
+        most: T,
     ) {
         let v = input.reference_velocity;
         let error = input.tracking_error;
@@ -205,7 +206,7 @@ impl<T: Real> Adaptation<T> {
         let pushes = if forward { law } else { -law };
         let least = T::from_f64(LEAST) * friction.scale();
         let slides = along > friction.sliding() && pushes > least;
-        if frozen || !slides {
+        if !slides || pushes >= most {
             return;
         }
         let a = match self.mass > T::ZERO {
@@ -223,13 +224,14 @@ impl<T: Real> Adaptation<T> {
         let beyond = (input.drive_force - friction.offset() - law) - self.mass * a;
         sample[4] = due + (beyond - due).max(-pushes).min(pushes);
         let largest = T::from_f64(LARGEST);
-        if sample.iter().all(|x| x.abs() <= largest) && pushes <= largest {
+        if sample.iter().all(|x| x.abs() <= largest) {
             self.learn(learnt, friction, h, sample, law);
         }
     }
 
     /// Adds a sample, over `h` seconds, at which the law has this force.
     fn learn(&self, learnt: &mut Learnt<T>, friction: &Friction<T>, h: T, sample: [T; 5], law: T) {
+        let h = h.min(self.memory);
         let taken = T::ONE - T::from_f64(CONSTANT);
         let mut fresh = sample;
         for (fresh, slow) in fresh.iter_mut().zip(learnt.slow) {
@@ -237,14 +239,14 @@ impl<T: Real> Adaptation<T> {
         }
         let share = (fresh[0] + fresh[1] + fresh[2]) / law;
         let new = (share * share).min(T::ONE);
-        let fade = T::ONE - (h / self.memory).min(T::ONE) * new;
+        let fade = T::ONE - h / self.memory * new;
         let mut sums = learnt.sums;
         for (row, x) in sums.iter_mut().zip(fresh) {
             for (sum, y) in row.iter_mut().zip(fresh) {
                 *sum = *sum * fade + h * (x * y);
             }
         }
-        // A time that overflows changes nothing.
+        // Sums that overflow change nothing.
         if !sums.iter().flatten().all(|sum| sum.is_finite()) {
             return;
         }
