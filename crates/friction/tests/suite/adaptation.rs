@@ -82,7 +82,8 @@ fn error(found: [f64; 2], truth: [f64; 2]) -> f64 {
 }
 
 /// The mean of both levels, on which a reversal depends, is within 2.5 % after twenty reversals; for good each level is within 1 %,
-/// viscous friction within 3 % and the mass within 10 %: both are held a little, and change slowly here.
+/// viscous friction within 3 % and the mass within 10 %. No closer: viscous friction and mass are held a little, and what passes
+/// the high-pass hardly tells the directions apart.
 #[test]
 fn factors_and_mass_are_found() {
     for (levels, viscous, mass) in [
@@ -109,7 +110,7 @@ fn factors_and_mass_are_found() {
     }
 }
 
-/// The force is that of the axis, while it slides either way.
+/// The force is that of the axis, while it slides either way, but for what holds viscous friction and mass.
 #[test]
 fn the_force_has_the_levels() {
     let mut axis = Sliding::new([0.8, 1.3], 1.2, MASS);
@@ -121,7 +122,7 @@ fn the_force_has_the_levels() {
         if k > 20_000 && v.abs() > 0.05 {
             let friction = axis.friction;
             assert!(
-                (force - friction).abs() < 0.01 * friction.abs(),
+                (force - friction).abs() < 2e-3 * friction.abs(),
                 "{k} {force} {friction}"
             );
         }
