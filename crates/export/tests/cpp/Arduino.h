@@ -30,6 +30,11 @@ struct Port {
         char text[12];
         print(utoa(number, text, 10));
     }
+    void print(unsigned long number)
+    {
+        char text[12];
+        print(ultoa(number, text, 10));
+    }
     void print(double number)
     {
         char text[24];
