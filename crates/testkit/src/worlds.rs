@@ -28,7 +28,7 @@ pub use machine::Machine;
 pub use motion::Motion;
 pub use running::Running;
 pub use set::{Case, Set};
-pub use setup::{Cogging, Compliance, Controller, Setup};
+pub use setup::{Cogging, Compliance, Controller, Level, Setup};
 
 /// What differs from the world that an identification of LuGre assumes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -247,7 +247,7 @@ impl Fine {
             World::PositionWave => 1.0 + 0.15 * (0.5 * TAU * WAVES * x / self.reach).sin(),
             World::Position => 1.0 + 0.15 * x / self.reach,
             World::WarmUp => 1.0 - 0.2 * (self.time / self.duration).min(1.0),
-            _ => 1.0,
+            _ => (self.setup.level).map_or(1.0, |level| level.at(x / self.reach)),
         };
         let bristle = |z: f64, v: f64| {
             let rate = v - m.sigma0 * v.abs() * z / (changed * m.level(v.abs(), exponent));

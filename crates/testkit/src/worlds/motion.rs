@@ -27,6 +27,9 @@ pub enum Motion {
     Moves(u64),
     /// Two to five of them only.
     Strokes(u64),
+    /// From one end of a long stroke to the other and back, each time more slowly: as far as the top speed goes in a second, and a
+    /// slow velocity sine before them.
+    Crossings(u64),
 }
 
 /// Set point at a sample.
@@ -68,6 +71,7 @@ impl Motion {
             Motion::Sines(_) => "sines",
             Motion::Moves(_) => "moves",
             Motion::Strokes(_) => "strokes",
+            Motion::Crossings(_) => "crossings",
         }
     }
 
@@ -96,7 +100,8 @@ impl Motion {
             | Motion::Speeds(seed)
             | Motion::Sines(seed)
             | Motion::Moves(seed)
-            | Motion::Strokes(seed) => self.drawn(machine, &mut Random::new(seed ^ 0x6d6f_7665)),
+            | Motion::Strokes(seed)
+            | Motion::Crossings(seed) => self.drawn(machine, &mut Random::new(seed ^ 0x6d6f_7665)),
         };
         integrated(&velocity, 1.0 / machine.rate)
     }
@@ -144,6 +149,21 @@ impl Motion {
                     dwell,
                 });
                 moves(machine, SMOOTHED, speeds)
+            }
+            Motion::Crossings(_) => {
+                let ratio = random.between(1.6, 2.2);
+                let crossings = (0..8).map(|i| {
+                    let speed = 0.9 * top / ratio.powi(i as i32 / 2);
+                    Move {
+                        speed: alternate(i) * speed,
+                        cruising: top / speed - speed / machine.acceleration,
+                        dwell: random.between(0.1, 0.4),
+                    }
+                });
+                let crossings: Vec<Move> = crossings.collect();
+                let mut velocity = sine(machine, random.between(0.01, 0.03), 1.0, 3.0);
+                velocity.extend(moves(machine, SMOOTHED, crossings.into_iter()));
+                velocity
             }
             Motion::Places(_) => {
                 let smoothed = random.between(0.01, 0.05);

@@ -16,6 +16,8 @@ pub struct Setup {
     pub cogging: Option<Cogging>,
     /// A spring between motor and load.
     pub compliance: Option<Compliance>,
+    /// A level of friction that changes along the stroke.
+    pub level: Option<Level>,
 }
 
 /// Loops of a servo drive; all of them read the counts of the encoder.
@@ -36,6 +38,29 @@ pub struct Cogging {
     pub amplitude: f64,
     /// Distance after which it repeats, m.
     pub pitch: f64,
+}
+
+/// How the level of friction goes along the stroke, by how large a part of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Level {
+    /// One wave over the stroke, from the middle of its rise.
+    Wave(f64),
+    /// A straight line, from below at its beginning to above at its end.
+    Ramp(f64),
+    /// A Gaussian whose deviation is a tenth of the stroke, at six tenths of it.
+    Bump(f64),
+}
+
+impl Level {
+    /// The factor on the level at this part of the stroke, 0 to 1.
+    pub fn at(self, part: f64) -> f64 {
+        let part = part.clamp(0.0, 1.0);
+        match self {
+            Level::Wave(size) => 1.0 + size * (TAU * part).sin(),
+            Level::Ramp(size) => 1.0 + size * (2.0 * part - 1.0),
+            Level::Bump(size) => 1.0 + size * (-0.5 * ((part - 0.6) / 0.1).powi(2)).exp(),
+        }
+    }
 }
 
 /// A load on a spring.
@@ -61,6 +86,7 @@ impl From<World> for Setup {
             current_loop: 0.0,
             cogging: None,
             compliance: None,
+            level: None,
         }
     }
 }
