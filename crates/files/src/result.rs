@@ -15,7 +15,7 @@ pub use procedure::{
     StaticPointEntry, TwoStepEntry, TwoStepParameter,
 };
 pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint, end_of};
-pub use seen::{PitchEntry, RangeEntry};
+pub use seen::{LevelAlongEntry, PitchEntry, RangeEntry};
 use serde::{Deserialize, Serialize};
 use stiction_codes::Code;
 pub use trust::{BetterLaw, CauseEntry, Compensation, Cure, Next, Trust};
@@ -99,6 +99,9 @@ pub struct ResultFile {
     /// What the logs show of the plan that they were recorded by, where it was given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planned: Option<PlannedEntry>,
+    /// The Coulomb level along the stroke; absent where it is one level.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub level_along: Vec<LevelAlongEntry>,
     /// How the search went.
     pub search: Search,
     /// What a search found before the least squares that end it; absent for other methods.

@@ -18,9 +18,12 @@ pub(crate) mod searched;
 pub(crate) mod series;
 pub(crate) mod sliding;
 pub(crate) mod stated;
+mod stroke;
 pub(crate) mod uncertainty;
 mod unseen;
 mod windows;
+
+pub use stroke::LevelAlong;
 
 use crate::conditioning::record::Record;
 use crate::estimate::fitted::FittedLaw;
@@ -256,7 +259,7 @@ pub fn estimate(
             .unwrap_or(parameters.len());
         parameters.insert(at, delay);
     }
-    for (name, value) in terms.dependences.iter().filter_map(Dependence::reference) {
+    for (name, value) in terms.dependences.iter().flat_map(Dependence::references) {
         if parameters.iter().all(|p| p.name != name) {
             parameters.push(Parameter::given(name, value));
         }

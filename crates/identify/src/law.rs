@@ -1,6 +1,7 @@
 //! Which law is fitted, and which linear terms beside it.
 
 pub(crate) mod dependence;
+pub(crate) mod map;
 pub(crate) mod physical;
 pub(crate) mod terms;
 pub(crate) mod transmitted;

@@ -106,7 +106,7 @@ pub use estimate::intervals::intervals;
 pub use estimate::least::LEAST as LEAST_HALF_WIDTH;
 pub use estimate::searched::NO_INTERVAL;
 pub use estimate::series::Series;
-pub use estimate::{Estimate, estimate, predict};
+pub use estimate::{Estimate, LevelAlong, estimate, predict};
 pub use fit::{Fit, low_speed_bound};
 pub use force_filter::{ForceFilter, Smoothing, force_filter};
 pub use gms::score::ElementsScore;
@@ -117,6 +117,7 @@ pub use identify::{delay_of_another, fit_law, fit_law_from, identify};
 pub use lateness::lateness;
 pub use law::Law;
 pub use law::dependence::Dependence;
+pub use law::map::Map;
 pub use law::terms::{Delay, DelayFrom, FirstDelay, Lag, Mass, Terms};
 pub use law::transmitted::Transmitted;
 pub use misfit::{

@@ -87,6 +87,8 @@ pub struct Misfit {
     pub is_long: bool,
     /// The wave over the position that explains a ripple, or a level along the stroke much better than a line does.
     pub ripple: Option<Ripple>,
+    /// Whether a straight line over the position explains at least half of a level that changes along the stroke.
+    pub straight: bool,
     /// A force that grows with the position that explains it.
     pub spring_force: Option<SpringForce>,
     /// A spring or a gap between motor and load that explains it.
@@ -236,6 +238,7 @@ impl Divisions {
             levels: (0.0, 0.0),
             is_long: self.measures.is_long(),
             ripple: None,
+            straight: false,
             spring_force: None,
             coupling: None,
             dynamics: None,
@@ -470,6 +473,7 @@ impl Divisions {
             levels: (0.0, 0.0),
             is_long: self.measures.is_long(),
             ripple: None,
+            straight: false,
             spring_force: None,
             coupling: None,
             dynamics: None,

@@ -127,12 +127,16 @@ impl Parameter {
         };
         let left = if corrected { 0.0 } else { shift };
         let reach = std.map(|s| s * quantile(left, s));
+        // A difference of two dampings is mostly nothing, and there is no size to compare it with; of a map what counts is the sum of
+        // its parts.
+        let has_size = !matches!(
+            p.name.quantity,
+            Quantity::Sigma1Log(_) | Quantity::CoulombMap(_)
+        );
         if let Some(std) = std {
             // Relative to the value that is stated, so that a table of both is consistent.
             let (size, of) = sized(value);
             let relative = std / size;
-            // A difference of two dampings is mostly nothing, and there is no size to compare it with.
-            let has_size = !matches!(p.name.quantity, Quantity::Sigma1Log(_));
             if has_size && (relative > IDENTIFIABLE || relative.is_nan()) {
                 reason = too_uncertain(relative, of);
             } else if !corrected {
@@ -163,7 +167,7 @@ impl Parameter {
             && !p.is_positive()
             && !p.is_share()
             && !matches!(p.name.dimension(), Dimension::Time)
-            && !matches!(p.name.quantity, Quantity::Sigma1Log(_))
+            && has_size
             && low < 0.0
             && high > 0.0
             && high - low > IDENTIFIABLE * level

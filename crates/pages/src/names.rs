@@ -2,6 +2,7 @@
 
 use stiction_files::result::{LawEntry, ParameterEntry, ResultFile, SimulationEntry};
 use stiction_number::four_digits;
+use stiction_parameters::{Name, Quantity};
 
 /// Ratio of two errors from which the larger one is called worse, dimensionless: tables show three digits.
 const WORSE: f64 = 1.001;
@@ -108,6 +109,13 @@ pub(crate) fn force_noise(entry: &SimulationEntry) -> Option<&'static str> {
 pub fn is_of_the_counts(result: &ResultFile) -> bool {
     let of_counts = |p: &ParameterEntry| p.interval.as_deref() == Some("state-space");
     result.parameters.iter().any(of_counts)
+}
+
+/// The parameters that tables show: the parts of a map of the level are shown as the level along the stroke.
+pub(crate) fn parameters_shown(result: &ResultFile) -> impl Iterator<Item = &ParameterEntry> {
+    let quantity = |p: &ParameterEntry| p.name.parse::<Name>().map(|name| name.quantity);
+    let shown = move |p: &&ParameterEntry| !matches!(quantity(p), Ok(Quantity::CoulombMap(_)));
+    result.parameters.iter().filter(shown)
 }
 
 #[cfg(test)]

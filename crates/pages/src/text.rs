@@ -16,7 +16,8 @@ mod table;
 use crate::deviation::Deviation;
 use crate::inputs;
 use crate::names::{
-    chosen_by, force_noise, is_of_the_counts, law_beside, law_of, simulated_runs, without_offset,
+    chosen_by, force_noise, is_of_the_counts, law_beside, law_of, parameters_shown, simulated_runs,
+    without_offset,
 };
 use crate::next;
 pub use crate::next::{axis_file, why};
@@ -31,7 +32,8 @@ pub use procedure::{planned_log, procedure_commands};
 pub use reproduction::reproduction;
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::result::{LawEntry, Next, ResultFile, SimulationEntry};
+use stiction_files::result::{LawEntry, LevelAlongEntry, Next, ResultFile, SimulationEntry};
+use stiction_files::symbols;
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::identify::Outcome;
 pub use study::{announced, started_study, study};
@@ -71,7 +73,7 @@ pub fn outcome(outcome: &Outcome) -> String {
             .map(String::from)
             .to_vec(),
     ];
-    for p in &result.parameters {
+    for p in parameters_shown(result) {
         let deviation = Deviation::of(p, result);
         let std = match deviation {
             Deviation::Given => "given".to_string(),
@@ -118,6 +120,9 @@ pub fn outcome(outcome: &Outcome) -> String {
         unit(&fit.unit),
         fit.r2.map_or("-".into(), r_squared)
     );
+    for along in &result.level_along {
+        let _ = writeln!(out, "stroke      {}", level_along(along, outcome));
+    }
     if let Some(simulation) = &result.simulation {
         let _ = writeln!(out, "simulation  {}", simulated(simulation));
     }
@@ -266,6 +271,24 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
 }
 
 /// What was simulated, and how far off its force and the encoder's steps are.
+/// The level at both ends of the stroke, in its middle and halfway between.
+fn level_along(along: &LevelAlongEntry, outcome: &Outcome) -> String {
+    let last = along.position.len().saturating_sub(1);
+    let at = |quarter: usize| {
+        let i = quarter * last / 4;
+        let half = 0.5 * (along.high[i] - along.low[i]);
+        let (level, place) = (short(along.level[i]), short(along.position[i]));
+        format!("{level} ± {} at {place}", short(half))
+    };
+    let places: Vec<String> = (0..=4).map(at).collect();
+    let (force, length) = (&outcome.force_unit, symbols::length_unit(outcome.motion));
+    format!(
+        "{} in {force}, places in {length}: {}",
+        along.name,
+        places.join(", ")
+    )
+}
+
 fn simulated(entry: &SimulationEntry) -> String {
     let mut out = format!("{} loop, {}", entry.kind, simulated_runs(entry));
     if let Some(whole) = &entry.whole {

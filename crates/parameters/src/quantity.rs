@@ -59,6 +59,9 @@ pub enum Quantity {
     CoulombPosition,
     /// Wave of the Coulomb level of the first, second, ... pitch.
     CoulombPitch(u32, Wave),
+    /// Part of a map of the Coulomb level over the stroke: the first a straight line from -1 to 1, the others cosines of half a
+    /// wave, a whole one, ...
+    CoulombMap(u32),
     /// Coulomb level per transmitted force or torque.
     CoulombTransmitted,
     /// What is added to that while the load drives the axis.
@@ -77,6 +80,8 @@ pub enum Quantity {
     TemperatureReference,
     /// Position at which the parameters hold.
     PositionReference,
+    /// Length of the stroke over which the Coulomb level has a map.
+    PositionStroke,
     /// Transmitted force or torque at which the parameters hold.
     TransmittedReference,
 }
@@ -128,6 +133,7 @@ const PLAIN: &[Plain] = rows! {
     LoadReference        "load_reference"        "N₀"      "mean normal load"                            Load                  Any
     TemperatureReference "temperature_reference" "T₀"      "mean temperature"                            Temperature           Any
     PositionReference    "position_reference"    "x₀"      "middle of the stroke"                        Length                Any
+    PositionStroke       "position_stroke"       "ℓ"       "length of the stroke"                        Length                Positive
     TransmittedReference "transmitted_reference" "τ₀"      "mean transmitted force"                      Force                 Any
 };
 
@@ -155,6 +161,7 @@ impl Quantity {
             Quantity::Gravity(wave) => format!("gravity_{}", part(wave)).into(),
             Quantity::Cogging(k, wave) => format!("cogging{k}_{}", part(wave)).into(),
             Quantity::CoulombPitch(k, wave) => format!("coulomb_pitch{k}_{}", part(wave)).into(),
+            Quantity::CoulombMap(k) => format!("coulomb_map{k}").into(),
             Quantity::CoulombLog(k) => format!("coulomb_log{k}").into(),
             Quantity::Sigma1Log(k) => format!("sigma1_log{k}").into(),
             Quantity::Sigma2Log(k) => format!("sigma2_log{k}").into(),
@@ -189,6 +196,7 @@ impl Quantity {
                 .map(Quantity::ElementStiffness)
                 .or_else(|| element("yield_").map(Quantity::ElementYield))
                 .or_else(|| element("element_").map(Quantity::ElementForce))
+                .or_else(|| element("coulomb_map").map(Quantity::CoulombMap))
                 .or_else(|| element("coulomb_log").map(Quantity::CoulombLog))
                 .or_else(|| element("sigma1_log").map(Quantity::Sigma1Log))
                 .or_else(|| element("sigma2_log").map(Quantity::Sigma2Log))
@@ -228,6 +236,7 @@ impl Quantity {
             Quantity::Gravity(Wave::Cosine) => "gravity, cos q",
             Quantity::Cogging(..) => "cogging",
             Quantity::CoulombPitch(..) => "Coulomb friction, wave along the stroke",
+            Quantity::CoulombMap(_) => "Coulomb friction, part of its map over the stroke",
             Quantity::CoulombLog(_) => "Coulomb friction of a log, less that of the first",
             Quantity::Sigma1Log(_) => "micro-damping of a log, less that of the first",
             Quantity::Sigma2Log(_) => "viscous friction of a log, less that of the first",
@@ -269,6 +278,7 @@ impl Quantity {
                     | Quantity::CoulombTemperature
                     | Quantity::CoulombPosition
                     | Quantity::CoulombPitch(..)
+                    | Quantity::CoulombMap(_)
                     | Quantity::CoulombTransmitted
                     | Quantity::CoulombDriven
                     | Quantity::Sigma2Temperature
@@ -301,6 +311,18 @@ impl Quantity {
         matches!(
             self,
             Quantity::CoulombLog(_) | Quantity::Sigma1Log(_) | Quantity::Sigma2Log(_)
+        )
+    }
+
+    /// Whether it says where other parameters hold, and is given.
+    pub fn is_a_reference(self) -> bool {
+        matches!(
+            self,
+            Quantity::LoadReference
+                | Quantity::TemperatureReference
+                | Quantity::PositionReference
+                | Quantity::PositionStroke
+                | Quantity::TransmittedReference
         )
     }
 

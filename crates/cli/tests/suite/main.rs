@@ -9,6 +9,7 @@ mod faults;
 #[cfg(target_os = "linux")]
 mod killed;
 mod leads;
+mod level_map;
 #[cfg(unix)]
 mod linuxcnc;
 mod nameplate;

@@ -1,7 +1,7 @@
 //! What friction depends on beside the velocity: from a model to what a compensator and a simulated axis take.
 
 use super::ModelFile;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 use stiction_friction::compensator::{Channel, Channels, Levels, WAVES, Wave};
 use stiction_parameters::{Name, Quantity, Side, Wave as Part};
 
@@ -51,6 +51,8 @@ impl ModelFile {
         let load = self.channel(self.range.load, "load_reference");
         let temperature = self.channel(self.range.temperature, "temperature_reference");
         let transmitted = self.channel(self.range.transmitted, "transmitted_reference");
+        let stroke = self.value("position_stroke").filter(|stroke| *stroke > 0.0);
+        let length = stroke.unwrap_or(1.0);
         let mut any = false;
         for p in &self.parameter {
             let Ok(name) = p.name.parse::<Name>() else {
@@ -83,7 +85,12 @@ impl ModelFile {
                 Quantity::CoulombPitch(k, _) if pitch(&self.pitch.coulomb, k).is_none() => {
                     (None, "[pitch] coulomb = [PITCH]")
                 }
-                Quantity::CoulombPitch(..) => (place, "[range] position = [LEAST, LARGEST]"),
+                Quantity::CoulombMap(_) if stroke.is_none() => {
+                    (None, "a [[parameter]] position_stroke")
+                }
+                Quantity::CoulombPitch(..) | Quantity::CoulombMap(_) => {
+                    (place, "[range] position = [LEAST, LARGEST]")
+                }
                 _ => continue,
             };
             if self.leaves_open(name) {
@@ -100,12 +107,20 @@ impl ModelFile {
             if !viscous && sides.iter().any(|&side| coulomb[side] <= 0.0) {
                 continue;
             }
+            // The cosines stand behind the waves of the pitches.
+            let slot = |k: u32| self.pitch.coulomb.len() + k as usize - 2;
+            if let Quantity::CoulombMap(k) = name.quantity
+                && k > 1
+                && slot(k) >= WAVES
+            {
+                continue;
+            }
             for &side in sides {
                 let part = p.value / coulomb[side];
                 match name.quantity {
                     Quantity::CoulombLoad => levels.load[side] = part,
                     Quantity::CoulombTemperature => levels.temperature[side] = part,
-                    Quantity::CoulombPosition => levels.position[side] = part,
+                    Quantity::CoulombPosition => levels.position[side] += part,
                     Quantity::CoulombTransmitted => levels.transmitted[side] = part,
                     Quantity::CoulombDriven => levels.driven[side] = part,
                     Quantity::Sigma2Temperature => levels.viscous[side] = p.value,
@@ -116,6 +131,11 @@ impl ModelFile {
                             *at = wave(pitch, channel.range);
                         }
                         put(at, wave_part, part);
+                    }
+                    Quantity::CoulombMap(1) => levels.position[side] += 2.0 * part / length,
+                    Quantity::CoulombMap(k) => {
+                        let start = channel.reference - 0.5 * length;
+                        levels.waves[side][slot(k)] = over_the_stroke(k - 1, start, length, part);
                     }
                     _ => {}
                 }
@@ -156,12 +176,17 @@ impl ModelFile {
         })
     }
 
+    /// A parameter by its name as files have it, SI.
+    fn value(&self, name: &str) -> Option<f64> {
+        let found = self.parameter.iter().find(|p| p.name == name);
+        found.map(|p| p.value)
+    }
+
     /// A channel with the reference of the model, within the range that the log saw.
     fn channel(&self, range: Option<[f64; 2]>, reference: &str) -> Option<Channel<f64>> {
         let [low, high] = range?;
-        let given = self.parameter.iter().find(|p| p.name == reference);
         let middle = low + 0.5 * (high - low);
-        let reference = given.map_or(middle, |p| p.value);
+        let reference = self.value(reference).unwrap_or(middle);
         (low <= reference && reference <= high).then_some(Channel {
             reference,
             range: [low, high],
@@ -188,6 +213,17 @@ pub fn wave(pitch: f64, range: [f64; 2]) -> Wave<f64> {
         rate: TAU / pitch,
         whole: range[1] - range[0] >= pitch,
         ..Wave::default()
+    }
+}
+
+/// So many half waves of a map of the level, which ends where the stroke does.
+fn over_the_stroke(halves: u32, start: f64, stroke: f64, amplitude: f64) -> Wave<f64> {
+    let rate = f64::from(halves) * PI / stroke;
+    Wave {
+        rate,
+        whole: false,
+        sine: amplitude * libm::sin(rate * start),
+        cosine: amplitude * libm::cos(rate * start),
     }
 }
 

@@ -39,6 +39,21 @@ pub struct PitchEntry {
     pub coulomb: Vec<f64>,
 }
 
+/// The Coulomb level along the stroke, in the unit of the force.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct LevelAlongEntry {
+    /// The parameter whose mean along the stroke it has: `coulomb`, or that of a direction.
+    pub name: String,
+    /// Places from one end of the stroke to the other, m or rad.
+    pub position: Vec<f64>,
+    /// The level there.
+    pub level: Vec<f64>,
+    /// Lower end of its 95 % interval.
+    pub low: Vec<f64>,
+    /// Upper end.
+    pub high: Vec<f64>,
+}
+
 impl RangeEntry {
     /// Whether nothing is known.
     pub fn is_empty(&self) -> bool {

@@ -118,15 +118,9 @@ fn levels(curve: &Stribeck<f64>) -> [f64; 2] {
 /// What is said of the parameters of a model that a study leaves out.
 fn left_out(model: &ModelFile, curve: &Stribeck<f64>) -> Option<Warning> {
     let depends = model.dependences(levels(curve)).without_transmitted();
-    let references = [
-        Quantity::LoadReference,
-        Quantity::TemperatureReference,
-        Quantity::PositionReference,
-        Quantity::TransmittedReference,
-    ];
     let out = |p: &&ModelParameter| {
         let name = p.name.parse::<Name>().map(|name| name.quantity);
-        let stands = |q| is_simulated(q) || references.contains(&q);
+        let stands = |q| is_simulated(q) || q.is_a_reference();
         !name.is_ok_and(stands) && !depends.taken.contains(&p.name)
     };
     let names: Vec<&str> = model

@@ -4,8 +4,8 @@ use super::friction::Friction;
 use crate::error::require;
 use crate::{ParamError, Real};
 
-/// Most waves of a kind.
-pub const WAVES: usize = 4;
+/// Most waves of a kind: room for the cosines of a map of the level over the stroke (decision 0116).
+pub const WAVES: usize = 8;
 
 /// A quantity that comes in with each sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -331,7 +331,7 @@ fn flag_what_the_residual_doubts(fitted: &mut FittedLaw) {
     let along_the_stroke = |p: &Parameter| {
         matches!(
             p.name.quantity,
-            Quantity::CoulombPosition | Quantity::CoulombPitch(..)
+            Quantity::CoulombPosition | Quantity::CoulombPitch(..) | Quantity::CoulombMap(_)
         )
     };
     let undescribed =

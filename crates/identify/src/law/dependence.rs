@@ -7,7 +7,8 @@
 //! the level: `Fs/Fc` and the presliding length `Fc/s0` are those of the whole log.
 
 use crate::conditioning::channels::Channels;
-use crate::conditioning::record::{Record, Segment};
+use crate::conditioning::record::{Record, Segment, extent};
+use crate::law::map::Map;
 use crate::law::terms::Side;
 use crate::law::transmitted::Transmitted;
 use std::f64::consts::TAU;
@@ -30,6 +31,8 @@ pub enum Dependence {
     CoulombPosition(f64),
     /// Coulomb level with `sin` and `cos` of `2 pi x / pitch`, m or rad.
     CoulombPitch(f64),
+    /// Coulomb level with a map over the stroke.
+    CoulombMap(Map),
     /// Coulomb level, linear in the size of what the transmission passes on to the load. Its coefficient is a part of that.
     CoulombTransmitted(Transmitted),
     /// The same for what is added while the load drives the axis.
@@ -52,6 +55,8 @@ pub(crate) enum Factor {
     /// `sin` of a rate times position, 1/m or 1/rad.
     Sine(f64),
     Cosine(f64),
+    /// A part of a map, counted from 1.
+    Map(Map, usize),
     /// Size of what is transmitted minus its reference.
     Transmitted(Transmitted),
     /// That size where it points against friction, so that the load drives the axis; else 0.
@@ -68,6 +73,7 @@ impl Dependence {
             Dependence::CoulombTemperature(_) => "coulomb_temperature",
             Dependence::CoulombPosition(_) => "coulomb_position",
             Dependence::CoulombPitch(_) => "coulomb_pitch",
+            Dependence::CoulombMap(_) => "coulomb_position",
             Dependence::CoulombTransmitted(_) => "coulomb_transmitted",
             Dependence::CoulombDriven(_) => "coulomb_driven",
             Dependence::ViscousTemperature(_) => "sigma2_temperature",
@@ -83,7 +89,9 @@ impl Dependence {
             Dependence::CoulombTemperature(_) | Dependence::ViscousTemperature(_) => {
                 Some("temperature")
             }
-            Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => Some("position"),
+            Dependence::CoulombPosition(_)
+            | Dependence::CoulombPitch(_)
+            | Dependence::CoulombMap(_) => Some("position"),
             Dependence::CoulombTransmitted(_) | Dependence::CoulombDriven(_) => Some("external"),
             Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => None,
         }
@@ -97,21 +105,26 @@ impl Dependence {
         }
     }
 
-    /// The reference as a given parameter, with its value; none for a pitch.
-    pub(crate) fn reference(&self) -> Option<(Quantity, f64)> {
+    /// The references as given parameters, with their values: none for a pitch, the middle of the stroke and its length for a map.
+    pub(crate) fn references(&self) -> Vec<(Quantity, f64)> {
         match *self {
-            Dependence::CoulombLoad(x) => Some((Quantity::LoadReference, x)),
+            Dependence::CoulombLoad(x) => vec![(Quantity::LoadReference, x)],
             Dependence::CoulombTemperature(x) | Dependence::ViscousTemperature(x) => {
-                Some((Quantity::TemperatureReference, x))
+                vec![(Quantity::TemperatureReference, x)]
             }
-            Dependence::CoulombPosition(x) => Some((Quantity::PositionReference, x)),
+            Dependence::CoulombPosition(x) => vec![(Quantity::PositionReference, x)],
+            Dependence::CoulombMap(map) if map.terms > 0 => vec![
+                (Quantity::PositionReference, map.middle()),
+                (Quantity::PositionStroke, map.stroke),
+            ],
             Dependence::CoulombTransmitted(of) => {
-                Some((Quantity::TransmittedReference, of.reference))
+                vec![(Quantity::TransmittedReference, of.reference)]
             }
             Dependence::CoulombDriven(_)
             | Dependence::CoulombPitch(_)
+            | Dependence::CoulombMap(_)
             | Dependence::CoulombLog(_)
-            | Dependence::ViscousLog(_) => None,
+            | Dependence::ViscousLog(_) => Vec::new(),
         }
     }
 
@@ -147,6 +160,11 @@ impl Dependence {
                     (wave(Wave::Cosine), Factor::Cosine(TAU / pitch)),
                 ]
             }
+            Dependence::CoulombMap(map) => {
+                let each = 1..=map.terms;
+                each.map(|k| (Quantity::CoulombMap(k as u32), Factor::Map(map, k)))
+                    .collect()
+            }
             Dependence::CoulombLog(logs) => {
                 let mut out = beyond_the_first(logs, Quantity::CoulombLog);
                 out.extend(beyond_the_first(logs, Quantity::Sigma1Log));
@@ -174,15 +192,14 @@ impl Dependence {
                 Dependence::ViscousTemperature(mean(&|c| &c.temperature))
             }
             Dependence::CoulombPosition(_) => {
-                let x = record.pick(|s| &s.channels.position);
-                let low = x.iter().copied().fold(f64::INFINITY, f64::min);
-                let high = x.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+                let (low, high) = extent(&record.pick(|s| &s.channels.position));
                 Dependence::CoulombPosition(if low <= high {
                     low + 0.5 * (high - low)
                 } else {
                     0.0
                 })
             }
+            Dependence::CoulombMap(map) => Dependence::CoulombMap(map.about(record)),
             // What is transmitted follows from all terms.
             Dependence::CoulombTransmitted(_)
             | Dependence::CoulombDriven(_)
@@ -211,7 +228,9 @@ impl Factor {
         match self {
             Factor::Load(_) => &channels.load,
             Factor::Temperature(_) => &channels.temperature,
-            Factor::Position(_) | Factor::Sine(_) | Factor::Cosine(_) => &channels.position,
+            Factor::Position(_) | Factor::Sine(_) | Factor::Cosine(_) | Factor::Map(..) => {
+                &channels.position
+            }
             Factor::Log(_) | Factor::Transmitted(_) | Factor::Driven(_) => &[],
         }
     }
@@ -242,6 +261,7 @@ impl Factor {
             | Factor::Position(reference) => x - reference,
             Factor::Sine(rate) => libm::sin(rate * x),
             Factor::Cosine(rate) => libm::cos(rate * x),
+            Factor::Map(map, k) => map.part(k, x),
             Factor::Log(_) | Factor::Transmitted(_) | Factor::Driven(_) => 0.0,
         };
         values.iter().map(|&x| at(x)).collect()
@@ -275,7 +295,7 @@ impl Factor {
             Factor::Temperature(_) => largest.max(USUAL_SPAN),
             Factor::Position(_) | Factor::Driven(_) => largest,
             Factor::Transmitted(of) => largest.max(of.reference),
-            Factor::Sine(_) | Factor::Cosine(_) | Factor::Log(_) => 1.0,
+            Factor::Sine(_) | Factor::Cosine(_) | Factor::Map(..) | Factor::Log(_) => 1.0,
         }
     }
 }

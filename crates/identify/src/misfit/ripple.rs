@@ -50,12 +50,17 @@ pub struct Ripple {
 }
 
 impl Ripple {
+    /// Whether the residual says what its pitch is: a bump looks like a wave of many.
+    pub(super) fn has_known_pitch(&self) -> bool {
+        self.deviation <= SHARP_PITCH * self.pitch
+    }
+
     /// Whether it is told from friction of another shape, which comes back at the same places too: such a residual has no one
     /// pitch. Of simulated axes with friction of other shapes a wave explained up to a quarter, with a pitch known to 18 %; of
     /// axes with cogging beside it a third to two thirds, known to 2 to 7 %.
     pub(super) fn is_sharp(&self) -> bool {
         self.share >= SHARP_SHARE
-            && self.deviation <= SHARP_PITCH * self.pitch
+            && self.has_known_pitch()
             && self.stroke >= FEWEST_WAVES * self.pitch
     }
 }

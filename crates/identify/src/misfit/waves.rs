@@ -18,6 +18,8 @@ pub(crate) const STRAIGHT: f64 = 4.0;
 const OF_A_WAVE: f64 = 0.5;
 /// What a wave leaves of a residual, over what a line over the position leaves, up to which the level has the wave.
 const OF_A_LINE: f64 = 0.5;
+/// Part of a level along the stroke that a line over the position has to explain for the level to go as one.
+const LINE_SHARE: f64 = 0.5;
 
 impl Divisions {
     /// The misfit with the wave over the position that explains it, where one does.
@@ -79,21 +81,17 @@ impl Divisions {
                 None => misfit,
             });
         }
-        misfit.ripple = match cause {
-            Some(Cause::Position) => {
-                let own = along(Repeats::Level);
-                let line: Vec<f64> = own
-                    .position
-                    .iter()
-                    .zip(&level)
-                    .map(|(x, w)| x * w)
-                    .collect();
-                let of_a_line = beside.explained(&line).share;
-                let wave = own.best(residual, &beside);
-                wave.filter(|wave| 1.0 - wave.share <= OF_A_LINE * (1.0 - of_a_line))
-            }
-            _ => None,
-        };
+        if cause == Some(Cause::Position) {
+            let own = along(Repeats::Level);
+            let both = own.position.iter().zip(&level);
+            let line: Vec<f64> = both.map(|(x, w)| x * w).collect();
+            let of_a_line = beside.explained(&line).share;
+            misfit.straight = of_a_line >= LINE_SHARE * misfit.share;
+            let wave = own.best(residual, &beside);
+            misfit.ripple = wave.filter(|wave| {
+                wave.has_known_pitch() && 1.0 - wave.share <= OF_A_LINE * (1.0 - of_a_line)
+            });
+        }
         Some(misfit)
     }
 

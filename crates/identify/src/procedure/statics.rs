@@ -150,6 +150,7 @@ impl Statics {
                 | Quantity::CoulombTemperature
                 | Quantity::CoulombPosition
                 | Quantity::CoulombPitch(..)
+                | Quantity::CoulombMap(_)
                 | Quantity::CoulombTransmitted
                 | Quantity::CoulombDriven
                 | Quantity::Sigma2

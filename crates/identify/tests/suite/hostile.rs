@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use stiction_identify::{
     Conditioning, Control, Cutoff, Delay, DelayFrom, Dependence, FirstDelay, Lag, Law, LawKind,
-    Mass, Observer, Progress, Samples, Settings, Source, Terms, Transmitted, condition,
+    Map, Mass, Observer, Progress, Samples, Settings, Source, Terms, Transmitted, condition,
     cross_validate, estimate, intervals, low_speed_bound, predict, separable,
 };
 
@@ -288,6 +288,7 @@ fn terms() -> impl Strategy<Value = Terms> {
         Just(Dependence::CoulombDriven(Transmitted::default())),
         Just(Dependence::CoulombTemperature(0.0)),
         Just(Dependence::CoulombPosition(0.0)),
+        Just(Dependence::CoulombMap(Map::default())),
         (-9.0..9.0).prop_map(|e: f64| Dependence::CoulombPitch(10f64.powf(e))),
         Just(Dependence::ViscousTemperature(0.0)),
     ];

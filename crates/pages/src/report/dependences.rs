@@ -45,6 +45,12 @@ pub(super) fn lines(outcome: &Outcome, side: &str) -> Vec<Math> {
             }
             continue;
         }
+        if let Dependence::CoulombMap(map) = dependence {
+            if map.terms > 0 {
+                level.extend([op("+"), sub(id("m"), mark(id("x")))]);
+            }
+            continue;
+        }
         if let Dependence::CoulombLog(logs) | Dependence::ViscousLog(logs) = dependence {
             let others = 2..=*logs;
             of_logs.extend(others.filter_map(|k| {
@@ -93,8 +99,10 @@ pub(super) fn lines(outcome: &Outcome, side: &str) -> Vec<Math> {
                 level.push(distance("x", *about));
             }
             Dependence::ViscousTemperature(about) => viscous.push((p, *about)),
-            Dependence::CoulombPitch(_) | Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => {
-            }
+            Dependence::CoulombPitch(_)
+            | Dependence::CoulombMap(_)
+            | Dependence::CoulombLog(_)
+            | Dependence::ViscousLog(_) => {}
         }
     }
     let mut out = Vec::new();

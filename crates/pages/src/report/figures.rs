@@ -131,6 +131,31 @@ pub(super) fn steady_layers(outcome: &Outcome, velocity: &[f64]) -> [Layer; 2] {
     ]
 }
 
+/// The level of friction along the stroke with its band, where it has a line or a map.
+pub(super) fn level_along(outcome: &Outcome) -> Option<Figure> {
+    let entries = &outcome.result.level_along;
+    let length = symbols::length_unit(outcome.motion);
+    let colors = [Color::Blue, Color::Vermilion];
+    let mut panel = Panel::new(
+        Axis::new("Position", length),
+        Axis::new("Coulomb friction", outcome.force_unit.as_str()),
+    );
+    for (entry, color) in entries.iter().zip(colors) {
+        let x = || entry.position.clone();
+        let meaning = symbols::meaning(&entry.name, outcome.motion);
+        panel = panel
+            .layer(Layer::band(x(), entry.low.clone(), entry.high.clone()).color(color))
+            .layer(
+                Layer::line(x(), entry.level.clone())
+                    .color(color)
+                    .label(meaning),
+            );
+    }
+    let figure = Figure::new("Coulomb friction along the stroke").panel(panel);
+    let caption = "With its 95 % band, at each place by itself. Beyond the stroke a compensator holds the level of its end.";
+    (!entries.is_empty()).then(|| figure.caption(caption))
+}
+
 /// Points dense near zero speed, none at it.
 pub(super) fn grid(top: f64) -> Vec<f64> {
     let half: Vec<f64> = (0..160)

@@ -2,7 +2,7 @@
 
 use crate::deviation::Deviation;
 use crate::inputs;
-use crate::names::{is_of_the_counts, law_beside};
+use crate::names::{is_of_the_counts, law_beside, parameters_shown};
 use stiction_files::result::{Input, LawEntry, SimulationEntry};
 use stiction_files::symbols;
 use stiction_number::Percent;
@@ -25,7 +25,7 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
         ("", Align::Left),
     ])
     .caption(caption);
-    for p in &outcome.result.parameters {
+    for p in parameters_shown(&outcome.result) {
         let deviation = Deviation::of(p, &outcome.result);
         let value = match p.std {
             _ if deviation == Deviation::Unbounded => "–".into(),

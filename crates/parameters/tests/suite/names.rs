@@ -27,12 +27,14 @@ fn all() -> Vec<Quantity> {
         Quantity::CoulombLoad,
         Quantity::CoulombTemperature,
         Quantity::CoulombPosition,
+        Quantity::CoulombMap(8),
         Quantity::CoulombTransmitted,
         Quantity::CoulombDriven,
         Quantity::Sigma2Temperature,
         Quantity::LoadReference,
         Quantity::TemperatureReference,
         Quantity::PositionReference,
+        Quantity::PositionStroke,
         Quantity::TransmittedReference,
     ];
     for wave in [Wave::Sine, Wave::Cosine] {

@@ -138,6 +138,7 @@ fn at_reference(file: &ModelFile, taken: &[String], lacking: &[&str]) -> Option<
                 format!("at the position {}", at("position_reference"))
             }
             Quantity::CoulombPitch(..) => "in its mean over the pitch".into(),
+            Quantity::CoulombMap(_) => "in its mean over the stroke".into(),
             Quantity::CoulombLog(_) | Quantity::Sigma1Log(_) | Quantity::Sigma2Log(_) => {
                 "of the first log".into()
             }

@@ -23,7 +23,7 @@ pub(super) fn doubt(file: &ModelFile, beside: &Beside) -> Option<Warning> {
     let waves_told = levels.waves.iter().flatten().all(told);
     let lost = |name: &String| match name.parse::<Name>().ok()?.quantity {
         Quantity::CoulombPosition => Some(name.clone()),
-        Quantity::CoulombPitch(..) => (!waves_told).then(|| name.clone()),
+        Quantity::CoulombPitch(..) | Quantity::CoulombMap(_) => (!waves_told).then(|| name.clone()),
         Quantity::Cogging(..) => (!beside.terms.cogging.iter().all(told)).then(|| name.clone()),
         Quantity::Gravity(_) => (!told(&weight.wave)).then(|| name.clone()),
         _ => None,

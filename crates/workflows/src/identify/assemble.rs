@@ -160,6 +160,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         top_speed: top_speed(estimate),
         range: seen::range(sources, &estimate.series, &estimate.terms),
         pitch: seen::pitch(&estimate.terms),
+        level_along: seen::level_along(estimate),
         search: Search {
             status: estimate.status.name().into(),
             evaluations: estimate.counts.total(),
@@ -315,11 +316,7 @@ fn term_names(estimate: &FittedLaw, motion: Motion) -> Vec<String> {
                 | Quantity::StribeckExponent
                 | Quantity::BreakawayRatio
                 | Quantity::Attraction
-                | Quantity::LoadReference
-                | Quantity::TemperatureReference
-                | Quantity::PositionReference
-                | Quantity::TransmittedReference
-        )
+        ) && !quantity.is_a_reference()
     };
     estimate
         .parameters

@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use stiction_codes::Code;
 use stiction_files::{Axis, symbols};
 use stiction_identify as engine;
-use stiction_identify::{Conditioning, LawKind, Observer, Record, Settings, Terms};
+use stiction_identify::{Conditioning, Law, LawKind, Observer, Record, Settings, Terms};
 use stiction_log::Motion;
 use stiction_number::counted;
 
@@ -92,14 +92,22 @@ pub(super) fn condition(
             (names.collect(), records?)
         }
     };
-    let asymmetric = asymmetric.about(&record);
+    let settings = Settings {
+        near: chosen.near,
+        ..settings
+    };
+    let symmetric = mapped(&symmetric, &record, &settings, observer);
+    let asymmetric = Terms {
+        dependences: symmetric.dependences.clone(),
+        ..asymmetric.about(&record)
+    };
     let with_offset = Terms {
         offset: true,
         ..asymmetric.clone()
     };
     Ok(Conditioned {
         terms: LinearTerms {
-            symmetric: symmetric.about(&record),
+            symmetric,
             asymmetric_with_offset: axis.leaves_offset_open().then_some(with_offset),
             asymmetric,
         },
@@ -108,13 +116,21 @@ pub(super) fn condition(
         unseen_names,
         low_speed,
         conditioning: chosen.conditioning,
-        settings: Settings {
-            near: chosen.near,
-            ..settings
-        },
+        settings,
         note: chosen.note,
         repeatable: !chosen.interrupted,
     })
+}
+
+/// Terms about a record, with as much of a map of the level as it carries beside the law that the cut-offs are chosen with.
+fn mapped(
+    terms: &Terms,
+    record: &Record,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Terms {
+    let law = Law::new(LawKind::LuGre);
+    terms.about(record).mapped(record, law, settings, observer)
 }
 
 /// Settings of the engine with a seed.
@@ -145,7 +161,7 @@ pub(crate) fn record_of(
     let terms = Terms {
         lag: chosen.lag,
         first_delay: chosen.first_delay,
-        ..terms.about(&record)
+        ..mapped(&terms, &record, &Settings::default(), observer)
     };
     Ok((sources, record, terms))
 }

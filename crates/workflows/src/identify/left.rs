@@ -186,7 +186,7 @@ fn cure(misfit: &Misfit, cause: Cause, law: &FittedLaw, sources: &[Source]) -> O
     };
     match cause {
         Cause::Position if misfit.ripple.is_some() && !law.law.kind.has_elements() => wave(),
-        Cause::Position => first_of(&[Dependence::CoulombPosition(0.0)]),
+        Cause::Position => along_the_stroke(misfit, law).map(of_terms),
         Cause::Load => first_of(&[Dependence::CoulombLoad(0.0)]),
         Cause::Temperature => first_of(&[
             Dependence::CoulombTemperature(0.0),
@@ -261,8 +261,13 @@ fn message(
     let cured = cure.is_some();
     let crops = matches!(&cure, Some(Cure::Line { table, .. }) if table == "log");
     let to_do = cure.map_or(
-        "No straight line over it describes that: record within the range that the axis works in"
-            .into(),
+        match law.terms.map() {
+            Some(_) if cause == Cause::Position => {
+                "No map over the stroke describes that: record within the range that the axis works in"
+            }
+            _ => "No straight line over it describes that: record within the range that the axis works in",
+        }
+        .into(),
         |cure| match cure {
             Cure::Line {
                 table,
@@ -408,6 +413,20 @@ fn message(
             }
         ),
     }
+}
+
+/// The line that takes a level along the stroke into the fit, and whether it takes the place of one: a straight line where that
+/// explains it, else a map.
+fn along_the_stroke(misfit: &Misfit, law: &FittedLaw) -> Option<(String, bool)> {
+    if law.law.kind.has_elements() || law.terms.map().is_some() {
+        return None;
+    }
+    let has_line = has(law, &Dependence::CoulombPosition(0.0));
+    let value = match misfit.straight && !has_line {
+        true => "true",
+        false => "\"map\"",
+    };
+    Some((format!("coulomb_position = {value}"), has_line))
 }
 
 /// Whether a fit has a term like this one.

@@ -1,9 +1,10 @@
-//! The ranges of what friction and the forces beside it depend on, and the pitches of their waves.
+//! The ranges of what friction and the forces beside it depend on, the pitches of their waves, the level along the stroke.
 
 use crate::source::Source;
-use stiction_files::result::{PitchEntry, RangeEntry};
-use stiction_identify::{Series, Terms};
+use stiction_files::result::{LevelAlongEntry, PitchEntry, RangeEntry};
+use stiction_identify::{FittedLaw, LevelAlong, Series, Terms};
 use stiction_log::Log;
+use stiction_parameters::{Name, Quantity};
 
 /// Time steps from sample to sample, in steps of the first, up to which a log goes on.
 const GOES_ON: f64 = 1.5;
@@ -76,6 +77,18 @@ pub(super) fn pitch(terms: &Terms) -> PitchEntry {
         cogging: terms.cogging.clone(),
         coulomb: terms.level_pitches(),
     }
+}
+
+/// The level along the stroke, where it has a line or a map.
+pub(super) fn level_along(law: &FittedLaw) -> Vec<LevelAlongEntry> {
+    let entry = |along: LevelAlong| LevelAlongEntry {
+        name: Name::new(Quantity::Coulomb, along.side).to_string(),
+        position: along.position,
+        level: along.level,
+        low: along.low,
+        high: along.high,
+    };
+    law.level_along().into_iter().map(entry).collect()
 }
 
 #[cfg(test)]

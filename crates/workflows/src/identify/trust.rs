@@ -110,8 +110,11 @@ impl Judged {
             // What one log has more than another may be open, but is none of the machine's.
             // With one level for both directions, what they differ by passes for half of a constant force.
             let mixed = |p: &Parameter| p.name == Quantity::Offset && !law.law.asymmetric;
-            let is_listed =
-                |p: &Parameter| !determined || !(p.name.quantity.is_of_a_log() || mixed(p));
+            // A part of a map is no constant, whether it is known or not.
+            let of_map = |p: &Parameter| matches!(p.name.quantity, Quantity::CoulombMap(_));
+            let is_listed = |p: &Parameter| {
+                !of_map(p) && (!determined || !(p.name.quantity.is_of_a_log() || mixed(p)))
+            };
             identified
                 .filter(|p| known(p) == determined && is_listed(p))
                 .map(|p| p.name.to_string())
@@ -793,12 +796,13 @@ fn another_wins(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
 fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     let far = |p: &&stiction_identify::Parameter| {
         let part = p.bias.map_or(0.0, |bias| (bias / p.value).abs());
-        // A part of what may be zero says nothing.
+        // A part of what may be zero says nothing, and of one part of a map as little.
         let from_zero = p.ci95.is_none_or(|(low, high)| low > 0.0 || high < 0.0);
         p.identifiable
             && from_zero
             && p.name != Quantity::Offset
             && p.name != Quantity::Delay
+            && !matches!(p.name.quantity, Quantity::CoulombMap(_))
             && part > NAMED_SHIFT
     };
     let names: Vec<String> = estimate

@@ -50,7 +50,9 @@ pub(super) fn asked(
     let levels = terms.dependences.iter().filter(|_| law.elements.is_none());
     for dependence in levels {
         match dependence {
-            Dependence::CoulombPosition(_) => own.push(Subject::level(limits)),
+            Dependence::CoulombPosition(_) | Dependence::CoulombMap(_) => {
+                own.push(Subject::level(limits));
+            }
             Dependence::CoulombPitch(pitch) => {
                 pitches += 1;
                 own.extend(Subject::level_wave(pitches, *pitch, start));
@@ -108,6 +110,13 @@ fn not_planned<'a>(
             }
             Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => {
                 "It differs from log to log: record this motion in each of the states that are to be told apart, twice at least in all"
+            }
+            Dependence::CoulombMap(_) => {
+                return Some(warning(
+                    "terms.coulomb_position = \"map\"",
+                    "planned as a straight line, and no interval is expected of the rest",
+                    "Constant speeds over the whole stroke, there and back, show it",
+                ));
             }
             Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => match law.elements {
                 Some(_) => "Maxwell-slip elements have no level that depends on the position: plan and identify with --law lugre for it",

@@ -230,14 +230,9 @@ impl Told {
         let counts = |name: &Name| {
             !matches!(
                 name.quantity,
-                Quantity::Offset
-                    | Quantity::Delay
-                    | Quantity::LoadReference
-                    | Quantity::TemperatureReference
-                    | Quantity::PositionReference
-                    | Quantity::TransmittedReference
-                    | Quantity::StribeckExponent
-            ) && !is_sum(name.quantity)
+                Quantity::Offset | Quantity::Delay | Quantity::StribeckExponent
+            ) && !name.quantity.is_a_reference()
+                && !is_sum(name.quantity)
                 && !names.contains(&name.to_string())
         };
         let parsed = self.model.parameter.iter();

@@ -4,7 +4,7 @@ use super::resolver::{LENGTHS, Resolver};
 use crate::axis::values::Axis;
 use crate::config::{Given, Table};
 use crate::error::Error;
-use stiction_identify::{Delay, Dependence, GMS_FEWEST, GMS_MOST, Mass, Transmitted};
+use stiction_identify::{Delay, Dependence, GMS_FEWEST, GMS_MOST, Map, Mass, Transmitted};
 use stiction_log::Dimension;
 use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
@@ -61,6 +61,7 @@ impl Resolver {
     /// The quantities that friction depends on; their reference values and the number of logs come from the logs.
     fn dependences(&self, table: &Table<'_>) -> Result<Vec<Dependence>, Error> {
         let mut out = Vec::new();
+        let pitches = self.pitches(table.get("coulomb_pitch"))?;
         for (key, dependence) in [
             ("coulomb_load", Dependence::CoulombLoad(0.0)),
             ("coulomb_temperature", Dependence::CoulombTemperature(0.0)),
@@ -77,11 +78,16 @@ impl Resolver {
             ("coulomb_log", Dependence::CoulombLog(0)),
             ("sigma2_log", Dependence::ViscousLog(0)),
         ] {
-            if table.flag(key)? == Some(true) {
-                out.push(dependence);
+            let Some(given) = table.get(key) else {
+                continue;
+            };
+            match dependence {
+                Dependence::CoulombPosition(_) => {
+                    out.extend(along_the_stroke(given, pitches.len())?);
+                }
+                other => out.extend(given.flag()?.then_some(other)),
             }
         }
-        let pitches = self.pitches(table.get("coulomb_pitch"))?;
         out.extend(pitches.into_iter().map(Dependence::CoulombPitch));
         Ok(out)
     }
@@ -111,6 +117,19 @@ impl Resolver {
             pitches.push(length);
         }
         Ok(pitches)
+    }
+}
+
+/// A straight line, or a map; a compensator has room for so many waves and no more.
+fn along_the_stroke(given: Given<'_>, pitches: usize) -> Result<Option<Dependence>, Error> {
+    let line = Dependence::CoulombPosition(0.0);
+    let map = Map {
+        terms: Map::MOST - pitches,
+        ..Map::default()
+    };
+    match given.or_word(&["map"]) {
+        (_, Some(_)) => Ok(Some(Dependence::CoulombMap(map))),
+        (given, None) => Ok(given.flag()?.then_some(line)),
     }
 }
 

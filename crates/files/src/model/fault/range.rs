@@ -66,7 +66,10 @@ fn missing(model: &ModelFile, what: &str, reference: Quantity) -> Option<Fault> 
             quantity,
             Quantity::CoulombTemperature | Quantity::Sigma2Temperature
         ),
-        _ => quantity == Quantity::CoulombPosition,
+        _ => matches!(
+            quantity,
+            Quantity::CoulombPosition | Quantity::CoulombMap(_)
+        ),
     };
     let is_it = |name: Name| depends(name.quantity);
     let i = (model.parameter.iter()).position(|p| p.name.parse().is_ok_and(is_it))?;

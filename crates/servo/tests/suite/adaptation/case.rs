@@ -314,7 +314,9 @@ impl Case {
         match self.change {
             Change::Wave([size, periods, phase]) => {
                 let wave = wave(TAU * periods / length, size, phase);
-                levels.waves = [[wave, Wave::default(), Wave::default(), Wave::default()]; 2];
+                for waves in &mut levels.waves {
+                    waves[0] = wave;
+                }
             }
             Change::Ramp([from, to]) => {
                 levels.position = [(to - from) / length; 2];
@@ -326,12 +328,14 @@ impl Case {
             }
             Change::Bump([height, place]) => {
                 let size = height / (1.0 + height * BUMP[0]);
-                let each = [1, 2, 3, 4].map(|k| {
+                for (k, part) in BUMP.iter().enumerate().skip(1) {
                     let rate = TAU * k as f64 / length;
                     let at = rate * (start + place * length);
-                    wave(rate, size * BUMP[k], TAU / 4.0 - at)
-                });
-                levels.waves = [each; 2];
+                    let wave = wave(rate, size * part, TAU / 4.0 - at);
+                    for waves in &mut levels.waves {
+                        waves[k - 1] = wave;
+                    }
+                }
             }
             _ => {}
         }

@@ -385,6 +385,7 @@ impl TwoSteps {
                         | Quantity::CoulombTemperature
                         | Quantity::CoulombPosition
                         | Quantity::CoulombPitch(..)
+                        | Quantity::CoulombMap(_)
                         | Quantity::CoulombTransmitted
                         | Quantity::CoulombDriven
                         | Quantity::Sigma2Temperature
