@@ -72,7 +72,7 @@ def main(arguments):
         if hal.component_exists("x_axis_friction"):
             pins = {pin: hal.get_value(FRICTION + pin) for pin in ["gain", "learned", "baseline", "tripped", "valid", "recalled"]}
             with open("kept.hal", "w") as file:
-                for number in [f"{FRICTION}kept-{k:02}" for k in range(14)]:
+                for number in [f"{FRICTION}kept-{k:02}" for k in range(12)]:
                     file.write(f"setp {number} {hal.get_value(number)!r}\n")
             print("compensator:", ", ".join(f"{pin} {value:.3g}" for pin, value in pins.items()))
 

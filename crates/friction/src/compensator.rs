@@ -257,9 +257,8 @@ impl<T: Real> Compensator<T> {
                 }
                 adaptation.step(learnt, &self.friction, h, &input, parts, most);
             }
-            let level = learnt.level(self.friction.side(&self.state.law));
             let [dry, viscous] = parts;
-            force = (level * dry + learnt.viscous * viscous) + self.friction.offset();
+            force = (learnt.level * dry + learnt.viscous * viscous) + self.friction.offset();
             // A factor may take the force of a velocity that no machine has beyond the number type.
             sound = force.is_finite();
         }

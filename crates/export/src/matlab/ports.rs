@@ -113,14 +113,16 @@ fn outputs(model: &Model, terms: &Terms<f64>) -> Vec<Port> {
         port("valid", "the parameters are in range", flag("ready")),
     ];
     if model.settings.adaptation.is_some() {
-        let level = "factor on the dry part of the law's force";
         all.extend([
-            port("level_forward", level, state("levels[0]")),
-            port("level_back", level, state("levels[1]")),
+            port(
+                "level_dry",
+                "factor on the dry part of the law's force",
+                state("level_dry"),
+            ),
             port(
                 "level_viscous",
                 "factor on its viscous part",
-                state("viscous_level"),
+                state("level_viscous"),
             ),
             port(
                 "mass_found",

@@ -419,9 +419,7 @@ fn what_is_retained_comes_back() {
     let mut model = model(laws().remove(0).1);
     model.settings = adapting(model.settings);
     let library = library(&model);
-    let kept = [
-        "key", "forward", "back", "viscous", "square", "peak", "reason",
-    ];
+    let kept = ["key", "dry", "viscous", "square", "peak", "reason"];
     let kept = kept.map(|name| [format!("kept_{name}"), format!("copy_{name}")]);
     let kept: Vec<&String> = kept.iter().flatten().collect();
     let mut evening = library.instance("FB_x_axis_Friction");
@@ -450,22 +448,13 @@ fn what_is_retained_comes_back() {
         }
         morning.set(morning.slot("reset"), f64::from(u8::from(reset)));
         morning.call();
-        [
-            "recalled",
-            "learned",
-            "level_forward",
-            "level_back",
-            "level_viscous",
-        ]
-        .map(|name| morning.get(morning.slot(name)))
+        ["recalled", "learned", "level_dry", "level_viscous"]
+            .map(|name| morning.get(morning.slot(name)))
     };
-    let [recalled, learned, forward, back, _] = morning(&|_, value| value, false);
+    let [recalled, learned, dry, _] = morning(&|_, value| value, false);
     assert_eq!([recalled, learned], [1.0, 1.0]);
-    assert!(
-        (forward - 1.2).abs() < 0.02 && (back - 1.2).abs() < 0.02,
-        "{forward} {back}"
-    );
-    let nothing = [0.0, 0.0, 1.0, 1.0, 1.0];
+    assert!((dry - 1.2).abs() < 0.02, "{dry}");
+    let nothing = [0.0, 0.0, 1.0, 1.0];
     assert_eq!(morning(&|_, value| value, true), nothing);
     for damaged in &kept {
         let change = |name: &str, value: f64| if name == *damaged { value + 1.0 } else { value };

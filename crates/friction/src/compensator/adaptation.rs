@@ -8,7 +8,7 @@ use crate::{ParamError, Real};
 /// Time in which the integrator of a controller takes up a force, s: that of the slowest loop that is simulated (0.2 of a
 /// bandwidth of 20 Hz, 40 ms), and some more.
 const TAKEN_UP: f64 = 0.05;
-/// Share of what is taken up that is learnt from: enough to tell the directions apart.
+/// Share of what is taken up that is learnt from, so that a level is also found where reversals say little.
 const CONSTANT: f64 = 0.1;
 /// Force over friction at standstill below which viscous friction and inertia are held at their given values.
 const HELD: f64 = 0.02;
@@ -16,8 +16,9 @@ const HELD: f64 = 0.02;
 const MOST_MASSES: f64 = 5.0;
 /// Weight of what was identified before anything is learnt, in memories.
 const INITIAL_WEIGHT: f64 = 0.4;
-/// Weight of what the factors leave against what they explain, chosen on simulated axes (decision 0115).
-const DOUBT: f64 = 0.05;
+/// What the factors explain of the squared changes of force, over what they leave, from which on they act: chosen on simulated
+/// axes (decision 0115).
+const DOUBT: f64 = 0.2;
 /// Largest forces and accelerations that are learnt from, in their units: no product of them overflows in single precision.
 const LARGEST: f64 = 1e8;
 /// Least force of the law that is learnt from, relative to its scale.
@@ -25,8 +26,8 @@ const LEAST: f64 = 0.1;
 /// Least weight that a mass is found with, m^2/s^3 (rad^2/s^3).
 const LEAST_WEIGHT: f64 = 1e-15;
 
-/// Factors on the dry part of the law's force, one for each direction of motion, and on its viscous part, found from the force of
-/// the drive.
+/// Factors on the dry part of the law's force and on its viscous part, found from the force of the drive. What changes friction
+/// changes it in both directions alike, so one level stands for both.
 ///
 /// While the axis slides the drive gives `u = offset + level D + factor V + M a`, with the dry part D and the viscous part V of the
 /// law's force, and the acceleration a of the reference. The unknowns follow by recursive least squares with exponential forgetting
@@ -37,8 +38,8 @@ const LEAST_WEIGHT: f64 = 1e-15;
 /// What makes an error is not a force that the law lacks but a change of it: the integrator of the controller takes up what is
 /// slow. So all signals pass a high-pass of its time, as do signals of a fit that is meant for control (Ljung 1999, System
 /// Identification, section 14.4), and forgetting is counted in what is new: a long stroke does not push out the reversals before.
-/// What is learnt acts only as far as it explains the force of the drive better than the identified law does, as a shrunken
-/// estimate (James, Stein 1961): with the doubt c times what is left over what is explained taken off.
+/// What is learnt acts only as far as it explains the force of the drive better than the identified law does: by the share
+/// `1 - (c R/E)^2`, not below 0, with what is explained E and what is left R.
 ///
 /// Nothing is learnt until the axis itself has moved on by more than its presliding after the reference has turned, at
 /// standstill, while the force or that of the law is at its limit, while the watchdog has switched off, or where
@@ -57,18 +58,18 @@ pub struct Adaptation<T> {
 /// What an adaptation has learnt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Learnt<T> {
-    /// Factors on the dry part of the law's force, for motion forward and back.
-    pub levels: [T; 2],
+    /// Factor on the dry part of the law's force.
+    pub level: T,
     /// Factor on its viscous part.
     pub viscous: T,
     /// Mass, kg (kg m^2).
     pub mass: T,
-    /// What least squares find of levels, viscous factor and mass beyond 1 and the given mass.
-    found: [T; 4],
-    /// Sums over what is remembered: products of D forward, D back, V, a and what the force is beyond the law and the given mass.
-    sums: [[T; 5]; 5],
+    /// What least squares find of level, viscous factor and mass beyond 1 and the given mass.
+    found: [T; 3],
+    /// Sums over what is remembered: products of D, V, a and what the force is beyond the law and the given mass.
+    sums: [[T; 4]; 4],
     /// What an integrator has taken up of these.
-    slow: [T; 5],
+    slow: [T; 4],
     /// The sample before, once there is one.
     before: Option<Before<T>>,
     /// The reference moves forward.
@@ -103,37 +104,29 @@ impl<T: Real> Default for Adaptation<T> {
 impl<T: Real> Learnt<T> {
     pub(super) fn nothing() -> Self {
         Learnt {
-            levels: [T::ONE; 2],
+            level: T::ONE,
             viscous: T::ONE,
             mass: T::ZERO,
-            found: [T::ZERO; 4],
-            sums: [[T::ZERO; 5]; 5],
-            slow: [T::ZERO; 5],
+            found: [T::ZERO; 3],
+            sums: [[T::ZERO; 4]; 4],
+            slow: [T::ZERO; 4],
             before: None,
             forward: true,
             moved: T::ZERO,
         }
     }
 
-    /// Begins anew, with these factors: levels and viscous.
-    pub(super) fn recall(&mut self, [forward, back, viscous]: [T; 3]) {
+    /// Begins anew, with these factors.
+    pub(super) fn recall(&mut self, level: T, viscous: T) {
         *self = Learnt {
-            levels: [forward, back],
+            level,
             viscous,
             ..Learnt::nothing()
         };
     }
 
-    /// The level between the two directions: `side` is 1 where friction opposes motion forward, -1 for motion back.
-    #[inline]
-    pub(super) fn level(&self, side: T) -> T {
-        let half = T::from_f64(0.5);
-        let [forward, back] = self.levels;
-        half * (forward + back) + half * (forward - back) * side
-    }
-
-    /// The force of what was found, from the four parts of a sample.
-    fn force(&self, sample: &[T; 5]) -> T {
+    /// The force of what was found, from the parts of a sample.
+    fn force(&self, sample: &[T; 4]) -> T {
         let parts = self.found.iter().zip(sample);
         parts.fold(T::ZERO, |sum, (x, part)| sum + *x * *part)
     }
@@ -155,13 +148,12 @@ impl<T: Real> Adaptation<T> {
     fn begin(&self, learnt: &mut Learnt<T>, friction: &Friction<T>) {
         let size = friction.scale();
         let weight = T::from_f64(INITIAL_WEIGHT) * self.memory * size * size;
-        let [forward, back] = learnt.levels;
-        for (k, factor) in [forward, back, learnt.viscous].into_iter().enumerate() {
+        for (k, factor) in [learnt.level, learnt.viscous].into_iter().enumerate() {
             let beyond = factor - T::ONE;
             learnt.found[k] = beyond;
             learnt.sums[k][k] = weight;
-            learnt.sums[k][4] = weight * beyond;
-            learnt.sums[4][4] = learnt.sums[4][4] + weight * beyond * beyond;
+            learnt.sums[k][3] = weight * beyond;
+            learnt.sums[3][3] = learnt.sums[3][3] + weight * beyond * beyond;
         }
         learnt.mass = self.mass;
     }
@@ -213,16 +205,11 @@ impl<T: Real> Adaptation<T> {
             true => T::from_f64(0.5) * (before.change + now.change),
             false => T::ZERO,
         };
-        let [ahead, back] = if forward {
-            [dry, T::ZERO]
-        } else {
-            [T::ZERO, dry]
-        };
-        let mut sample = [ahead, back, viscous, a, T::ZERO];
+        let mut sample = [dry, viscous, a, T::ZERO];
         // Beside what was left before.
-        let due = learnt.force(&sample) + (learnt.slow[4] - learnt.force(&learnt.slow));
+        let due = learnt.force(&sample) + (learnt.slow[3] - learnt.force(&learnt.slow));
         let beyond = (input.drive_force - friction.offset() - law) - self.mass * a;
-        sample[4] = due + (beyond - due).max(-pushes).min(pushes);
+        sample[3] = due + (beyond - due).max(-pushes).min(pushes);
         let largest = T::from_f64(LARGEST);
         if sample.iter().all(|x| x.abs() <= largest) {
             self.learn(learnt, friction, h, sample, law);
@@ -230,14 +217,14 @@ impl<T: Real> Adaptation<T> {
     }
 
     /// Adds a sample, over `h` seconds, at which the law has this force.
-    fn learn(&self, learnt: &mut Learnt<T>, friction: &Friction<T>, h: T, sample: [T; 5], law: T) {
+    fn learn(&self, learnt: &mut Learnt<T>, friction: &Friction<T>, h: T, sample: [T; 4], law: T) {
         let h = h.min(self.memory);
         let taken = T::ONE - T::from_f64(CONSTANT);
         let mut fresh = sample;
         for (fresh, slow) in fresh.iter_mut().zip(learnt.slow) {
             *fresh = *fresh - taken * slow;
         }
-        let share = (fresh[0] + fresh[1] + fresh[2]) / law;
+        let share = (fresh[0] + fresh[1]) / law;
         let new = (share * share).min(T::ONE);
         let fade = T::ONE - h / self.memory * new;
         let mut sums = learnt.sums;
@@ -263,10 +250,10 @@ impl<T: Real> Adaptation<T> {
         let (sums, found) = (&learnt.sums, &mut learnt.found);
         let held = T::from_f64(HELD) * friction.scale();
         let given = T::from_f64(MOST_MASSES - 1.0) * self.mass;
-        for k in 0..4 {
+        for k in 0..3 {
             let (held, least, low, high) = match k {
-                0 | 1 => (T::ZERO, T::ZERO, -self.range, self.range),
-                2 => (held, T::ZERO, -self.range, self.range),
+                0 => (T::ZERO, T::ZERO, -self.range, self.range),
+                1 => (held, T::ZERO, -self.range, self.range),
                 _ if self.mass > T::ZERO => (
                     held / self.mass,
                     T::from_f64(LEAST_WEIGHT),
@@ -278,29 +265,30 @@ impl<T: Real> Adaptation<T> {
             let weight = sums[k][k] + held * held * self.memory;
             // A law without force at low speed knows nothing at the start.
             if weight > least {
-                let others = (0..4).filter(|j| *j != k);
-                let left = others.fold(sums[k][4], |left, j| left - sums[k][j] * found[j]);
+                let others = (0..3).filter(|j| *j != k);
+                let left = others.fold(sums[k][3], |left, j| left - sums[k][j] * found[j]);
                 found[k] = (left / weight).max(low).min(high);
             }
         }
-        let [forward, back, viscous, mass] = *found;
+        let [level, viscous, mass] = *found;
         learnt.mass = self.mass + mass;
         let two = T::from_f64(2.0);
         let mut explained = T::ZERO;
-        for k in 0..3 {
-            let mut own = two * (sums[k][4] - sums[k][3] * mass);
-            for j in 0..3 {
+        for k in 0..2 {
+            let mut own = two * (sums[k][3] - sums[k][2] * mass);
+            for j in 0..2 {
                 own = own - sums[k][j] * found[j];
             }
             explained = explained + found[k] * own;
         }
-        let inertia = mass * (two * sums[3][4] - sums[3][3] * mass);
-        let left = (sums[4][4] - inertia - explained).max(T::ZERO);
-        let mut share = T::ZERO;
+        let inertia = mass * (two * sums[2][3] - sums[2][2] * mass);
+        let left = (sums[3][3] - inertia - explained).max(T::ZERO);
+        let mut doubt = T::ONE;
         if explained > T::ZERO {
-            share = (T::ONE - T::from_f64(DOUBT) * (left / explained)).max(T::ZERO);
+            doubt = (T::from_f64(DOUBT) * (left / explained)).min(T::ONE);
         }
-        learnt.levels = [T::ONE + share * forward, T::ONE + share * back];
+        let share = T::ONE - doubt * doubt;
+        learnt.level = T::ONE + share * level;
         learnt.viscous = T::ONE + share * viscous;
     }
 }

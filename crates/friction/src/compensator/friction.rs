@@ -228,30 +228,6 @@ impl<T: Real> Friction<T> {
         }
     }
 
-    /// Which direction of motion friction opposes: 1 forward, -1 back, and between them while bristles turn round.
-    pub(super) fn side(&self, state: &LawState<T>) -> T {
-        let [forward, back] = self.coulomb();
-        let of = |bend: T, stiffness: T| {
-            let slides = if bend > T::ZERO { forward } else { back };
-            (stiffness * (bend / slides)).max(-T::ONE).min(T::ONE)
-        };
-        match self {
-            Friction::LuGre(law) => of(state.z, law.stiffness()),
-            Friction::ElastoPlastic(law) => of(state.z, law.bristle().stiffness()),
-            Friction::Gms(law) => of(law.total(&state.elements), T::ONE),
-            Friction::Coulomb(_) | Friction::Stribeck(_) => {
-                let dry = state.force - self.offset();
-                if dry > T::ZERO {
-                    T::ONE
-                } else if dry < T::ZERO {
-                    -T::ONE
-                } else {
-                    T::ZERO
-                }
-            }
-        }
-    }
-
     /// Twice the largest force at standstill, N (N m).
     pub(super) fn usual_limit(&self) -> T {
         T::from_f64(2.0) * (self.scale() + self.offset().abs())

@@ -9,7 +9,7 @@ use core::fmt;
 /// How many numbers a memory has.
 pub const MEMORY: usize = 2 * KEPT;
 /// Those that it keeps; the other half are the same with the opposite sign.
-const KEPT: usize = 7;
+const KEPT: usize = 6;
 /// Form of a memory: the next one counts on.
 const VERSION: u64 = 2;
 /// Keys are whole numbers below this: single precision holds each of them exactly, and so do tools that write six digits.
@@ -34,9 +34,9 @@ impl fmt::Display for ForeignMemory {
 impl core::error::Error for ForeignMemory {}
 
 impl<T: Real> Compensator<T> {
-    /// What it has learnt, to be kept while it is off: a key of law, mass and version; the level of each direction and the factor on viscous friction; mean square
-    /// and largest error without compensation, the former negative where they are not known; why the watchdog has switched
-    /// off, 0 if it has not. Each a second time with the opposite sign.
+    /// What it has learnt, to be kept while it is off: a key of law, mass and version; the factors on the dry part of friction and
+    /// on the viscous one; mean square and largest error without compensation, the former negative where they are not known; why
+    /// the watchdog has switched off, 0 if it has not. Each a second time with the opposite sign.
     pub fn memory(&self) -> [T; MEMORY] {
         let (learnt, watch) = (&self.state.learnt, &self.state.watch);
         let reason = match watch.trip {
@@ -44,11 +44,9 @@ impl<T: Real> Compensator<T> {
             Some(Trip::Mean) => 1.0,
             Some(Trip::Peak) => 2.0,
         };
-        let [forward, back] = learnt.levels;
         let kept = [
             T::from_f64(f64::from(self.key())),
-            forward,
-            back,
+            learnt.level,
             learnt.viscous,
             watch.without,
             watch.peak_without,
@@ -79,7 +77,7 @@ impl<T: Real> Compensator<T> {
     pub fn recall(&mut self, memory: &[T; MEMORY]) -> Result<(), ForeignMemory> {
         let (kept, copies) = memory.split_at(KEPT);
         let whole = kept.iter().zip(copies).all(|(a, b)| *a + *b == T::ZERO);
-        let &[key, forward, back, viscous, without, peak, reason] = kept else {
+        let &[key, level, viscous, without, peak, reason] = kept else {
             return Err(ForeignMemory);
         };
         let known = without >= T::ZERO;
@@ -93,12 +91,12 @@ impl<T: Real> Compensator<T> {
         let running = self.state.share > T::ZERO;
         let rms = without.max(T::ZERO).sqrt();
         let possible = peak >= T::ZERO && T::from_f64(LEAST_PEAK) * rms <= peak;
-        let credible = !running && possible && self.takes([forward, back, viscous]);
+        let credible = !running && possible && self.takes([level, viscous]);
         if !(whole && own && credible && (known || without == -T::ONE)) {
             return Err(ForeignMemory);
         }
         if self.settings.adaptation.is_some() {
-            self.state.learnt.recall([forward, back, viscous]);
+            self.state.learnt.recall(level, viscous);
         }
         // One that has switched off since is not armed again.
         let trip = self.state.watch.trip.or(trip);
@@ -113,7 +111,7 @@ impl<T: Real> Compensator<T> {
     }
 
     /// Whether factors are within the range of the adaptation; without one they count for nothing, and are above 0.
-    fn takes(&self, factors: [T; 3]) -> bool {
+    fn takes(&self, factors: [T; 2]) -> bool {
         let within = |factor: T| match self.settings.adaptation {
             Some(Adaptation { range, .. }) => factor >= T::ONE - range && factor <= T::ONE + range,
             None => factor > T::ZERO,

@@ -755,7 +755,7 @@ fn a_force_beyond_the_number_type_is_none() {
     let mut compensator =
         Compensator::new(Friction::LuGre(law), Source::Reference, settings).unwrap();
     let mut kept = compensator.memory();
-    for (k, level) in [(1, 1.5), (3, 1.5), (8, -1.5), (10, -1.5)] {
+    for (k, level) in [(1, 1.5), (2, 1.5), (7, -1.5), (8, -1.5)] {
         kept[k] = level;
     }
     compensator.recall(&kept).unwrap();

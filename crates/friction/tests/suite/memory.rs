@@ -56,8 +56,8 @@ fn what_was_learnt_comes_back() {
     let before = learnt(false);
     let mut after = Compensator::new(*before.friction(), Source::Reference, settings(0.0)).unwrap();
     after.recall(&before.memory()).unwrap();
-    assert_eq!(after.state().learnt.levels, before.state().learnt.levels);
-    assert!((after.state().learnt.levels[0] - 1.2).abs() < 0.05);
+    assert_eq!(after.state().learnt.level, before.state().learnt.level);
+    assert!((after.state().learnt.level - 1.2).abs() < 0.05);
     assert_eq!(
         after.state().watch.baseline(),
         before.state().watch.baseline()
@@ -75,7 +75,7 @@ fn what_was_learnt_comes_back() {
     let mut fresh = Compensator::new(*before.friction(), Source::Reference, settings(0.0)).unwrap();
     assert_eq!(fresh.step(input), 0.0);
     assert!(after.step(input) > 0.8 * 20.0);
-    assert_eq!(after.state().learnt.levels, before.state().learnt.levels);
+    assert_eq!(after.state().learnt.level, before.state().learnt.level);
 }
 
 /// Being off for a night does not arm a watchdog again.
@@ -130,7 +130,7 @@ fn what_cannot_be_is_refused() {
     let law = bristles(Shape::Gaussian);
     let mut held = Compensator::new(law, Source::Reference, narrow).unwrap();
     assert!(held.recall(&memory).is_err());
-    assert_eq!(held.state().learnt.levels, [1.0, 1.0]);
+    assert_eq!(held.state().learnt.level, 1.0);
     let mut own = Compensator::new(law, Source::Reference, settings(0.0)).unwrap();
     for (at, value) in [(1, 5.0), (2, -5.0), (2, 0.0), (3, 1e9)] {
         let mut foreign = memory;
@@ -155,7 +155,7 @@ fn what_cannot_be_is_refused() {
     };
     let mut without = Compensator::new(law, Source::Reference, without).unwrap();
     without.recall(&memory).unwrap();
-    assert_eq!(without.state().learnt.levels, [1.0, 1.0]);
+    assert_eq!(without.state().learnt.level, 1.0);
 }
 
 proptest! {

@@ -428,7 +428,7 @@ fn levels_that_follow_are_times_those_that_are_known() {
         command = friction + 4.0 * a + weight(x) + cogging(x);
     }
     let learnt = &follows.state().learnt;
-    let found = learnt.levels;
+    let found = [learnt.level];
     assert!(
         found.iter().all(|level| (level - 1.25).abs() < 5e-3),
         "{found:?}"

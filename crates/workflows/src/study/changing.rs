@@ -151,8 +151,7 @@ impl<'a> Changing<'a> {
                 && let Some(compensator) = axis.feedforward().compensator()
             {
                 let learnt = &compensator.state().learnt;
-                let [forward, back] = learnt.levels;
-                course.found_level.push(0.5 * (forward + back));
+                course.found_level.push(learnt.level);
                 course.found_mass.push(learnt.mass);
             }
         }

@@ -13,9 +13,8 @@ pub(super) fn insert(list: &mut Vec<Variable>, adaptation: Adaptation<f64>) {
     let variables = variables! {
         Input   number "drive_force"   (0.0, Unit::Force)    "drive_force"   "that the drive was given in the cycle before, this compensation included"
         Input   flag   "learn"         false                 "learn"         "not at the limits of the drive, nor while something else than friction and inertia pushes"
-        Output  number "level_forward" (1.0, Unit::One)      "law.levels[0]" "factor on the dry part of the law's force, found for motion forward"
-        Output  number "level_back"    (1.0, Unit::One)      "law.levels[1]" "the same for motion back"
-        Output  number "level_viscous" (1.0, Unit::One)      "law.viscous_level" "factor on the viscous part"
+        Output  number "level_dry"     (1.0, Unit::One)      "law.level_dry" "factor on the dry part of the law's force"
+        Output  number "level_viscous" (1.0, Unit::One)      "law.level_viscous" "factor on the viscous part"
         Output  number "mass_found"    (0.0, Unit::Inertia)  "law.mass_found" "beside them"
         Tunable number "memory"        (memory, Unit::Time)  "params.memory" "time constant of what the factors forget, in time in which the force is new"
         Tunable number "range"         (range, Unit::One)    "params.range"  "how far the factors may go from 1, above 0 and below 1"

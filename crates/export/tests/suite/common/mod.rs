@@ -300,8 +300,8 @@ pub fn guarded(
     out
 }
 
-/// Samples of an axis whose friction is not that of the law: it goes to and fro with a force of the drive that changes by
-/// direction, with its mass, and has faults of the measurement; the levels follow.
+/// Samples of an axis whose friction is not that of the law: it goes to and fro with a force of the drive that is
+/// larger, with its mass, and has faults of the measurement; the factors follow.
 pub fn following(
     friction: Friction<f64>,
     settings: Settings<f64>,
@@ -318,7 +318,6 @@ pub fn following(
     let mut out = Vec::new();
     for k in 0..20_000_usize {
         let phase = 2.0 * std::f64::consts::PI * k as f64 * h;
-        let level = if phase.sin() > 0.0 { 0.8 } else { 1.3 };
         let inertia = 5.5 * 0.02 * 2.0 * std::f64::consts::PI * phase.cos();
         let noise = random.random_range(-1.0..1.0);
         let fault = if k % 3_111 == 0 { 1e6 } else { 0.0 };
@@ -327,7 +326,7 @@ pub fn following(
             measured_velocity: 0.0,
             tracking_error: 1e-7 * noise,
             enable: true,
-            drive_force: level * axis.state().law.force + inertia + noise + fault,
+            drive_force: 1.3 * axis.state().law.force + inertia + noise + fault,
             learn: k % 5_000 > 500,
             ..Input::default()
         };
@@ -335,8 +334,8 @@ pub fn following(
         after.step(input);
         out.push((h, input));
     }
-    let [forward, back] = after.state().learnt.levels;
-    assert!(forward < 0.9 && back > 1.2, "{forward} {back}");
+    let level = after.state().learnt.level;
+    assert!(level > 1.2, "{level}");
     out
 }
 

@@ -271,8 +271,8 @@ fn ready(compensator: &Compensator<f64>, watch: &Watch<f64>) -> Compensator<f64>
     let mut compensator = *compensator;
     if watch.without >= 0.0 {
         let mut memory = compensator.memory();
-        (memory[4], memory[5]) = (watch.without, watch.peak_without);
-        (memory[11], memory[12]) = (-watch.without, -watch.peak_without);
+        (memory[3], memory[4]) = (watch.without, watch.peak_without);
+        (memory[9], memory[10]) = (-watch.without, -watch.peak_without);
         // It is its own memory.
         let _ = compensator.recall(&memory);
     }
