@@ -5,7 +5,7 @@ use crate::error::require;
 use crate::{ParamError, Real};
 
 /// Most waves of a kind: room for the cosines of a map of the level over the stroke (decision 0116).
-pub const WAVES: usize = 8;
+pub const WAVES: usize = 12;
 
 /// A quantity that comes in with each sample.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
