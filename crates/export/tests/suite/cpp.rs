@@ -247,16 +247,21 @@ fn the_self_test_passes_on_a_simulated_avr() {
     let core = format!("-I{}", core.display());
     for (name, model) in models() {
         let dir = library(&model);
+        // Factors that follow beside all that friction depends on do not fit into 32 KiB together with the rows of the self-test.
+        let chip = match model.settings.adaptation.is_some() && model.terms.mass > 0.0 {
+            true => "atmega2560",
+            false => "atmega328p",
+        };
         for sketch in ["SelfTest", "Axis"] {
             let flags = format!(
-                "{} {AVR} -mmcu=atmega328p -DF_CPU=16000000UL {core} -Isrc",
+                "{} {AVR} -mmcu={chip} -DF_CPU=16000000UL {core} -Isrc",
                 STRICT.replace("-Wdouble-promotion", "")
             );
             let source = format!("examples/{sketch}/{sketch}.ino");
             let rest = ["-include", "Arduino.h", "-o", sketch, "-x", "c++", &source];
             build("avr-g++", &flags, &rest, dir.path());
         }
-        let arguments = ["-m", "atmega328p", "-f", "16000000", "SelfTest"];
+        let arguments = ["-m", chip, "-f", "16000000", "SelfTest"];
         is_passed(&run("simavr", &arguments, dir.path()), name);
     }
 }
