@@ -69,7 +69,7 @@ fn inputs(model: &Model, terms: &Terms<f64>) -> Vec<Port> {
     for extra in Extra::of(terms) {
         let what = match extra {
             Extra::Acceleration => format!("of the reference, {}", model.acceleration_unit()),
-            Extra::Position => format!("of the reference, {x}"),
+            Extra::Position => format!("of the reference, zero where the log has it, {x}"),
             Extra::Load => model.load_unit(),
             Extra::Temperature => "K".into(),
             Extra::Transmitted => format!("what the load asks of the motor, {f}"),

@@ -8,6 +8,9 @@ use crate::{ParamError, Real};
 /// Time in which the integrator of a controller takes up a force, s: that of the slowest loop that is simulated (0.2 of a
 /// bandwidth of 20 Hz, 40 ms), and some more.
 const TAKEN_UP: f64 = 0.05;
+/// Time over which all that is learnt from is smoothed, s: a tenth of that. An acceleration is a difference of two velocities,
+/// which may be differences of counts.
+const SMOOTHED: f64 = 0.005;
 /// Share of what is taken up that is learnt from, so that a level is also found where reversals say little.
 const CONSTANT: f64 = 0.1;
 /// Force over friction at standstill below which viscous friction and inertia are held at their given values.
@@ -16,9 +19,6 @@ const HELD: f64 = 0.02;
 const MOST_MASSES: f64 = 5.0;
 /// Weight of what was identified before anything is learnt, in memories.
 const INITIAL_WEIGHT: f64 = 0.4;
-/// What the factors explain of the squared changes of force, over what they leave, from which on they act: chosen on simulated
-/// axes (decision 0115).
-const DOUBT: f64 = 0.2;
 /// Largest forces and accelerations that are learnt from, in their units: no product of them overflows in single precision.
 const LARGEST: f64 = 1e8;
 /// Least force of the law that is learnt from, relative to its scale.
@@ -36,10 +36,10 @@ const LEAST_WEIGHT: f64 = 1e-15;
 /// beside the factors so that a load does not pass for friction; the compensator does not feed it forward.
 ///
 /// What makes an error is not a force that the law lacks but a change of it: the integrator of the controller takes up what is
-/// slow. So all signals pass a high-pass of its time, as do signals of a fit that is meant for control (Ljung 1999, System
+/// slow. So all signals pass a high-pass of its time, and a low-pass of a tenth of it, as do signals of a fit that is meant for control (Ljung 1999, System
 /// Identification, section 14.4), and forgetting is counted in what is new: a long stroke does not push out the reversals before.
 /// What is learnt acts only as far as it explains the force of the drive better than the identified law does: by the share
-/// `1 - (c R/E)^2`, not below 0, with what is explained E and what is left R.
+/// `1 - (R/E)^2`, not below 0, with what is explained E and what is left R (decision 0115).
 ///
 /// Nothing is learnt until the axis itself has moved on by more than its presliding after the reference has turned, at
 /// standstill, while the force or that of the law is at its limit, while the watchdog has switched off, or where
@@ -68,7 +68,8 @@ pub struct Learnt<T> {
     found: [T; 3],
     /// Sums over what is remembered: products of D, V, a and what the force is beyond the law and the given mass.
     sums: [[T; 4]; 4],
-    /// What an integrator has taken up of these.
+    /// These smoothed, and what an integrator has taken up of them.
+    smooth: [T; 4],
     slow: [T; 4],
     /// The sample before, once there is one.
     before: Option<Before<T>>,
@@ -109,6 +110,7 @@ impl<T: Real> Learnt<T> {
             mass: T::ZERO,
             found: [T::ZERO; 3],
             sums: [[T::ZERO; 4]; 4],
+            smooth: [T::ZERO; 4],
             slow: [T::ZERO; 4],
             before: None,
             forward: true,
@@ -219,9 +221,17 @@ impl<T: Real> Adaptation<T> {
     /// Adds a sample, over `h` seconds, at which the law has this force.
     fn learn(&self, learnt: &mut Learnt<T>, friction: &Friction<T>, h: T, sample: [T; 4], law: T) {
         let h = h.min(self.memory);
+        let follow = |states: &mut [T; 4], of: &[T; 4], time: f64| {
+            let part = (h / T::from_f64(time)).min(T::ONE);
+            for (state, x) in states.iter_mut().zip(of) {
+                *state = *state + part * (*x - *state);
+            }
+        };
+        let (mut smooth, mut slow) = (learnt.smooth, learnt.slow);
+        follow(&mut smooth, &sample, SMOOTHED);
         let taken = T::ONE - T::from_f64(CONSTANT);
-        let mut fresh = sample;
-        for (fresh, slow) in fresh.iter_mut().zip(learnt.slow) {
+        let mut fresh = smooth;
+        for (fresh, slow) in fresh.iter_mut().zip(slow) {
             *fresh = *fresh - taken * slow;
         }
         let share = (fresh[0] + fresh[1]) / law;
@@ -238,10 +248,8 @@ impl<T: Real> Adaptation<T> {
             return;
         }
         learnt.sums = sums;
-        let part = (h / T::from_f64(TAKEN_UP)).min(T::ONE);
-        for (slow, sample) in learnt.slow.iter_mut().zip(sample) {
-            *slow = *slow + part * (sample - *slow);
-        }
+        follow(&mut slow, &smooth, TAKEN_UP);
+        (learnt.smooth, learnt.slow) = (smooth, slow);
         self.solve(learnt, friction);
     }
 
@@ -285,7 +293,7 @@ impl<T: Real> Adaptation<T> {
         let left = (sums[3][3] - inertia - explained).max(T::ZERO);
         let mut doubt = T::ONE;
         if explained > T::ZERO {
-            doubt = (T::from_f64(DOUBT) * (left / explained)).min(T::ONE);
+            doubt = (left / explained).min(T::ONE);
         }
         let share = T::ONE - doubt * doubt;
         learnt.level = T::ONE + share * level;

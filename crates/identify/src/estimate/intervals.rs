@@ -336,16 +336,22 @@ fn flag_what_the_residual_doubts(fitted: &mut FittedLaw) {
     };
     let undescribed =
         cause == Some(Cause::Position) && fitted.parameters.iter().any(along_the_stroke);
+    let truncated = fitted.terms.map().is_some_and(|map| map.is_truncated());
     let differing = &fitted.disagreements;
     let claimed = |p: &&mut Parameter| p.identified && p.identifiable;
     for p in fitted.parameters.iter_mut().filter(claimed) {
         let shape = cause.and_then(|cause| cause.against(p.name.quantity));
         // On strokes the speed goes with the place.
-        let instead =
-            [Quantity::Coulomb, Quantity::Sigma2].contains(&p.name.quantity) && undescribed;
-        let place = instead.then_some(
-            "takes up part of how friction changes along the stroke, which its terms do not describe",
-        );
+        let goes_along = [Quantity::Coulomb, Quantity::Static, Quantity::Sigma2];
+        let place = goes_along
+            .contains(&p.name.quantity)
+            .then_some(match truncated {
+                true => "the level changes along the stroke faster than its map can follow",
+                false => {
+                    "takes up part of how friction changes along the stroke, which its terms do not describe"
+                }
+            })
+            .filter(|_| truncated || (undescribed && p.name.quantity != Quantity::Static));
         let level = || differing.iter().find_map(|found| found.against(p.name));
         if let Some(reason) = shape.or(place).map(String::from).or_else(level) {
             p.identifiable = false;

@@ -26,7 +26,7 @@ pub struct LevelAlong {
 
 impl FittedLaw {
     /// The level along the stroke of the fitted samples, where it has a line or a map over it; the mean over the pitch of a wave
-    /// beside it. Empty for other laws, and while there is no covariance.
+    /// beside it. Empty for other laws, while there is no covariance, and for a map that is cut off.
     pub fn level_along(&self) -> Vec<LevelAlong> {
         let line = self.terms.dependences.iter().find_map(|own| match own {
             Dependence::CoulombPosition(about) => Some(*about),
@@ -35,7 +35,8 @@ impl FittedLaw {
         let map = self.terms.map().filter(|map| map.terms > 0);
         let (start, end) = extent(&self.series.position);
         let changes = line.is_some() || map.is_some();
-        if !changes || start >= end || self.covariance.names.is_empty() {
+        let truncated = map.is_some_and(|map| map.is_truncated());
+        if !changes || truncated || start >= end || self.covariance.names.is_empty() {
             return Vec::new();
         }
         let slope = |name: Name, side: Side, x: f64| match name.quantity {

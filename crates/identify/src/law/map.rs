@@ -29,8 +29,10 @@ pub struct Map {
     pub start: f64,
     /// How long it is, m or rad.
     pub stroke: f64,
-    /// How many parts there are, 0 to [`MOST`](Self::MOST): the line, then the cosines.
+    /// How many parts there are, 0 to `most`: the line, then the cosines.
     pub terms: usize,
+    /// How many there may be, at most [`MOST`](Self::MOST).
+    pub most: usize,
 }
 
 impl Default for Map {
@@ -39,6 +41,7 @@ impl Default for Map {
             start: 0.0,
             stroke: 0.0,
             terms: Self::MOST,
+            most: Self::MOST,
         }
     }
 }
@@ -46,6 +49,11 @@ impl Default for Map {
 impl Map {
     /// Most parts: a line, and as many cosines as a compensator has room for waves along the position.
     pub const MOST: usize = 1 + WAVES;
+
+    /// Whether the data would carry more parts than there may be: then nothing bounds what is left out.
+    pub fn is_truncated(&self) -> bool {
+        self.terms == self.most
+    }
 
     /// The same over the stroke of a record; without parts where it has none.
     pub(crate) fn about(self, record: &Record) -> Self {

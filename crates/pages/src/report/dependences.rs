@@ -46,8 +46,22 @@ pub(super) fn lines(outcome: &Outcome, side: &str) -> Vec<Math> {
             continue;
         }
         if let Dependence::CoulombMap(map) = dependence {
+            let place = || paren(row([num("π"), id("s")]));
+            for k in 1..=map.terms {
+                let Some(p) = find(format!("coulomb_map{k}{side}")) else {
+                    continue;
+                };
+                level.extend(signed(p.value / coulomb));
+                match k {
+                    1 => level.push(paren(row([num("2"), id("s"), op("−"), num("1")]))),
+                    2 => level.extend([id("cos"), place()]),
+                    _ => level.extend([id("cos"), num((k - 1).to_string()), place()]),
+                }
+            }
             if map.terms > 0 {
-                level.extend([op("+"), sub(id("m"), mark(id("x")))]);
+                let along = paren(row([id("x"), op("−"), num(number::sig(map.start, 4))]));
+                let stroke = num(number::sig(map.stroke, 4));
+                of_logs.push(row([id("s"), op("="), frac(along, stroke)]));
             }
             continue;
         }

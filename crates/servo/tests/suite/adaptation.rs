@@ -26,7 +26,7 @@ const BARS: [(&str, usize); 4] = [
         "1.3 times exact parameters at most, or 2 % more of the error without compensation",
         930,
     ),
-    ("1.02 times the identified parameters at most", 970),
+    ("1.02 times the identified parameters at most", 900),
     (
         "the same, or 1 % more of the error without compensation, or than exact parameters",
         980,

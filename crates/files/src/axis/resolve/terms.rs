@@ -123,8 +123,10 @@ impl Resolver {
 /// A straight line, or a map; a compensator has room for so many waves and no more.
 fn along_the_stroke(given: Given<'_>, pitches: usize) -> Result<Option<Dependence>, Error> {
     let line = Dependence::CoulombPosition(0.0);
+    let most = Map::MOST - pitches;
     let map = Map {
-        terms: Map::MOST - pitches,
+        terms: most,
+        most,
         ..Map::default()
     };
     match given.or_word(&["map"]) {

@@ -59,7 +59,7 @@ pub enum Change {
 }
 
 /// The kinds of changes, in the order in which [`Case::random`] numbers them.
-pub const KINDS: [&str; 10] = [
+pub const KINDS: [&str; 11] = [
     "nothing",
     "level and viscous friction",
     "drift of both",
@@ -70,6 +70,7 @@ pub const KINDS: [&str; 10] = [
     "Stribeck velocity",
     "stiffness",
     "mass",
+    "viscous friction",
 ];
 
 #[derive(Clone, Debug)]
@@ -83,6 +84,8 @@ pub struct Case {
     noise: f64,
     seed: u64,
     motion: Motion,
+    /// The compensator is told differences of the reference in counts instead of its velocity.
+    counted: bool,
     /// Cycles in which the error is judged.
     judged: usize,
 }
@@ -197,6 +200,7 @@ impl Case {
             noise: 1e-8,
             seed,
             motion,
+            counted: false,
             judged: JUDGED_CYCLES,
         };
         let mut within = |size: f64| random.random_range(-size..size);
@@ -214,8 +218,10 @@ impl Case {
             7 => Change::Velocity(1.0 + 0.3 * a),
             8 => Change::Stiffness(1.0 + 0.3 * a),
             9 => Change::Load(1.0 + 0.3 * a),
+            10 => Change::Apart([1.0, 1.0 + 0.4 * b]),
             _ => unreachable!(),
         };
+        case.counted = random.random_bool(0.5);
         case
     }
 
@@ -482,8 +488,15 @@ impl Running {
         let now = self.cycle.at(time);
         let ahead = self.cycle.at(time + self.preview * period).velocity;
         self.reference = (now, ahead);
+        let count = |time: f64| {
+            let position = self.cycle.at(time + (self.preview - 0.5) * period).position;
+            (position / self.case.count).round() * self.case.count
+        };
         Some(Input {
-            reference_velocity: ahead,
+            reference_velocity: match self.case.counted {
+                true => (count(time + period) - count(time)) / period,
+                false => ahead,
+            },
             tracking_error: now.position - self.axis.measure(),
             enable: true,
             drive_force: self.command,
