@@ -342,16 +342,15 @@ fn flag_what_the_residual_doubts(fitted: &mut FittedLaw) {
     for p in fitted.parameters.iter_mut().filter(claimed) {
         let shape = cause.and_then(|cause| cause.against(p.name.quantity));
         // On strokes the speed goes with the place.
-        let goes_along = [Quantity::Coulomb, Quantity::Static, Quantity::Sigma2];
-        let place = goes_along
-            .contains(&p.name.quantity)
-            .then_some(match truncated {
-                true => "the level changes along the stroke faster than its map can follow",
-                false => {
-                    "takes up part of how friction changes along the stroke, which its terms do not describe"
-                }
-            })
-            .filter(|_| truncated || (undescribed && p.name.quantity != Quantity::Static));
+        let place = match p.name.quantity {
+            Quantity::Coulomb | Quantity::Static | Quantity::Sigma2 if truncated => {
+                Some("the level changes along the stroke faster than its map can follow")
+            }
+            Quantity::Coulomb | Quantity::Sigma2 if undescribed => Some(
+                "takes up part of how friction changes along the stroke, which its terms do not describe",
+            ),
+            _ => None,
+        };
         let level = || differing.iter().find_map(|found| found.against(p.name));
         if let Some(reason) = shape.or(place).map(String::from).or_else(level) {
             p.identifiable = false;
