@@ -1,5 +1,6 @@
 //! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
 
+mod friction;
 mod misfit;
 mod planned;
 mod procedure;
@@ -8,6 +9,7 @@ mod seen;
 mod trust;
 
 use crate::error::Warning;
+pub use friction::{BandEntry, FrictionAtEntry, FrictionCurveEntry};
 pub use misfit::MisfitEntry;
 pub use planned::{PieceEntry, PlannedEntry, PlannedParameter};
 pub use procedure::{
@@ -99,6 +101,9 @@ pub struct ResultFile {
     /// What the logs show of the plan that they were recorded by, where it was given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub planned: Option<PlannedEntry>,
+    /// Friction in steady sliding by speed; absent where the axis does not slide.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub friction_curve: Option<FrictionCurveEntry>,
     /// The Coulomb level along the stroke; absent where it is one level.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub level_along: Vec<LevelAlongEntry>,

@@ -171,6 +171,7 @@ fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
         .heading(2, "Friction and velocity")
         .block(figures::velocity_map(outcome));
     let close: Vec<Block> = [
+        figures::friction_curve(outcome),
         figures::level_along(outcome),
         figures::low_speed(outcome),
         figures::presliding(outcome),

@@ -32,7 +32,9 @@ pub use procedure::{planned_log, procedure_commands};
 pub use reproduction::reproduction;
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::result::{LawEntry, LevelAlongEntry, Next, ResultFile, SimulationEntry};
+use stiction_files::result::{
+    FrictionCurveEntry, LawEntry, LevelAlongEntry, Next, ResultFile, SimulationEntry,
+};
 use stiction_files::symbols;
 use stiction_number::{Percent, four_digits as short, r_squared, unit};
 use stiction_workflows::identify::Outcome;
@@ -120,6 +122,9 @@ pub fn outcome(outcome: &Outcome) -> String {
         unit(&fit.unit),
         fit.r2.map_or("-".into(), r_squared)
     );
+    if let Some(curve) = &result.friction_curve {
+        let _ = writeln!(out, "friction    {}", friction(curve));
+    }
     for along in &result.level_along {
         let _ = writeln!(out, "stroke      {}", level_along(along, outcome));
     }
@@ -270,7 +275,27 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
     out
 }
 
-/// What was simulated, and how far off its force and the encoder's steps are.
+/// Half width of a 95 % interval for another day, relative, up to which friction at a speed is stated.
+const DETERMINED: f64 = 0.2;
+
+/// Friction at three speeds.
+fn friction(curve: &FrictionCurveEntry) -> String {
+    let at = curve.at.iter().map(|at| {
+        let part = at.repeat / at.force.abs();
+        let speed = format!("at {} {}", short(at.speed), curve.speed_unit);
+        match part <= DETERMINED {
+            true => format!(
+                "{} {} ± {} {speed}",
+                short(at.force),
+                unit(&curve.unit),
+                Percent::deviation(100.0 * part).short()
+            ),
+            false => format!("not determined {speed}"),
+        }
+    });
+    at.collect::<Vec<_>>().join(", ")
+}
+
 /// The level at both ends of the stroke, in its middle and halfway between.
 fn level_along(along: &LevelAlongEntry, outcome: &Outcome) -> String {
     let last = along.position.len().saturating_sub(1);
@@ -289,6 +314,7 @@ fn level_along(along: &LevelAlongEntry, outcome: &Outcome) -> String {
     )
 }
 
+/// What was simulated, and how far off its force and the encoder's steps are.
 fn simulated(entry: &SimulationEntry) -> String {
     let mut out = format!("{} loop, {}", entry.kind, simulated_runs(entry));
     if let Some(whole) = &entry.whole {

@@ -15,6 +15,7 @@ mod coupled;
 mod disagree;
 mod dynamics;
 mod fit;
+mod friction;
 mod heard;
 mod judge;
 mod lacking;

@@ -8,6 +8,7 @@
 
 use crate::conditioning::channels::Channels;
 use crate::conditioning::record::{Record, Segment, extent};
+use crate::friction_curve::Hat;
 use crate::law::map::Map;
 use crate::law::terms::Side;
 use crate::law::transmitted::Transmitted;
@@ -63,6 +64,8 @@ pub(crate) enum Factor {
     Driven(Transmitted),
     /// 1 in this log, counted from 0, and 0 in the others.
     Log(usize),
+    /// A part of a curve by speed.
+    Hat(Hat),
 }
 
 impl Dependence {
@@ -231,7 +234,7 @@ impl Factor {
             Factor::Position(_) | Factor::Sine(_) | Factor::Cosine(_) | Factor::Map(..) => {
                 &channels.position
             }
-            Factor::Log(_) | Factor::Transmitted(_) | Factor::Driven(_) => &[],
+            Factor::Log(_) | Factor::Transmitted(_) | Factor::Driven(_) | Factor::Hat(_) => &[],
         }
     }
 
@@ -249,6 +252,10 @@ impl Factor {
                 return along.map(|tau| tau.abs() - of.reference).collect();
             }
             Factor::Driven(of) => return of.along(segment),
+            Factor::Hat(hat) => {
+                let speeds = segment.velocity.iter().map(|v| v.abs());
+                return speeds.map(|speed| hat.value(speed)).collect();
+            }
             _ => {}
         }
         let values = self.channel(&segment.channels);
@@ -262,7 +269,7 @@ impl Factor {
             Factor::Sine(rate) => libm::sin(rate * x),
             Factor::Cosine(rate) => libm::cos(rate * x),
             Factor::Map(map, k) => map.part(k, x),
-            Factor::Log(_) | Factor::Transmitted(_) | Factor::Driven(_) => 0.0,
+            Factor::Log(_) | Factor::Transmitted(_) | Factor::Driven(_) | Factor::Hat(_) => 0.0,
         };
         values.iter().map(|&x| at(x)).collect()
     }
@@ -295,7 +302,11 @@ impl Factor {
             Factor::Temperature(_) => largest.max(USUAL_SPAN),
             Factor::Position(_) | Factor::Driven(_) => largest,
             Factor::Transmitted(of) => largest.max(of.reference),
-            Factor::Sine(_) | Factor::Cosine(_) | Factor::Map(..) | Factor::Log(_) => 1.0,
+            Factor::Sine(_)
+            | Factor::Cosine(_)
+            | Factor::Map(..)
+            | Factor::Log(_)
+            | Factor::Hat(_) => 1.0,
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::conditioning::record::Record;
 use crate::error::Error;
+use crate::friction_curve::Hats;
 use crate::law::dependence::{Dependence, Factor};
 use crate::law::{Law, LawKind};
 use std::f64::consts::TAU;
@@ -24,6 +25,9 @@ pub struct Terms {
     pub quadratic_viscous: bool,
     /// Friction that changes with load, temperature or position.
     pub dependences: Vec<Dependence>,
+    /// A curve of friction by speed in place of the levels and viscous friction of a law: that of
+    /// [`friction_curve`](crate::friction_curve()), empty for a law.
+    pub curve: Hats,
     /// How much later the force was logged than the motion it belongs to. Not linear, but like the
     /// terms above no part of the law.
     pub delay: Delay,
@@ -138,6 +142,7 @@ impl Default for Terms {
             first_delay: None,
             quadratic_viscous: false,
             dependences: Vec::new(),
+            curve: Hats::default(),
         }
     }
 }
@@ -276,7 +281,16 @@ impl Terms {
         let mut out = Vec::new();
         let mut push = |name: Name, column| out.push(LinearTerm { name, column });
         let split = law.kind == LawKind::CoulombViscous && law.asymmetric;
-        if law.kind.has_elements() {
+        if !self.curve.0.is_empty() {
+            // No parameter of a law: the names only count them.
+            for (k, (hat, side)) in self.curve.0.iter().enumerate() {
+                let name = Quantity::ElementForce(k as u32 + 1);
+                push(
+                    name.into(),
+                    ColumnKind::LevelTimes(Factor::Hat(*hat), Some(*side)),
+                );
+            }
+        } else if law.kind.has_elements() {
             for k in 0..law.elements {
                 let name = Quantity::ElementForce(k as u32 + 1);
                 push(name.into(), ColumnKind::Element(k));
@@ -291,7 +305,7 @@ impl Terms {
         if law.has_micro_damping() {
             push(Quantity::Sigma1.into(), ColumnKind::Rate);
         }
-        for side in sides(law) {
+        for side in sides(law).into_iter().filter(|_| self.curve.0.is_empty()) {
             push(name(Quantity::Sigma2, side), ColumnKind::Speed(side));
         }
         if self.quadratic_viscous {

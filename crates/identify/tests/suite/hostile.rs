@@ -335,6 +335,7 @@ fn terms() -> impl Strategy<Value = Terms> {
         lag: lag.0,
         first_delay: lag.1,
         low_pass_undone: lag.2,
+        ..Terms::default()
     })
 }
 

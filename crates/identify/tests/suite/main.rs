@@ -12,6 +12,7 @@ mod dwells;
 mod dynamic;
 mod elasto_plastic;
 mod exponent;
+mod friction_curve;
 mod gms;
 mod gms_delay;
 mod hostile;

@@ -131,6 +131,48 @@ pub(super) fn steady_layers(outcome: &Outcome, velocity: &[f64]) -> [Layer; 2] {
     ]
 }
 
+/// Friction by speed with its band.
+pub(super) fn friction_curve(outcome: &Outcome) -> Option<Figure> {
+    let curve = outcome.result.friction_curve.as_ref()?;
+    let all = [
+        (
+            &curve.both,
+            Color::Green,
+            "half of the sum of both directions",
+        ),
+        (&curve.forward, Color::Blue, "forward"),
+        (&curve.back, Color::Vermilion, "back"),
+    ];
+    let mut panel = Panel::new(
+        Axis::new("Speed", curve.speed_unit.as_str()),
+        friction_axis(outcome),
+    );
+    for (band, color, label) in all {
+        let Some(band) = band else {
+            continue;
+        };
+        let end = |sign: f64| -> Vec<f64> {
+            let both = band.force.iter().zip(&band.repeat);
+            both.map(|(force, half)| force + sign * half).collect()
+        };
+        let x = || curve.speed.clone();
+        panel = panel
+            .layer(Layer::band(x(), end(-1.0), end(1.0)).color(color))
+            .layer(
+                Layer::line(x(), band.force.clone())
+                    .color(color)
+                    .label(label),
+            );
+    }
+    let caption = "In steady sliding, whatever the law. Each direction has the constant force; half of their sum has none. With the 95 % \
+                   band for the same test on another day.";
+    Some(
+        Figure::new("Friction by speed")
+            .panel(panel)
+            .caption(caption),
+    )
+}
+
 /// The level of friction along the stroke with its band, where it has a line or a map.
 pub(super) fn level_along(outcome: &Outcome) -> Option<Figure> {
     let entries = &outcome.result.level_along;

@@ -160,6 +160,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         top_speed: top_speed(estimate),
         range: seen::range(sources, &estimate.series, &estimate.terms),
         pitch: seen::pitch(&estimate.terms),
+        friction_curve: None,
         level_along: seen::level_along(estimate),
         search: Search {
             status: estimate.status.name().into(),

@@ -3,6 +3,7 @@
 use super::assemble::{self, Parts};
 use super::condition::{Conditioned, condition, enough};
 use super::fit::fit;
+use super::friction;
 use super::heard::Heard;
 use super::judge::judge;
 use super::late::{aligned, doubted, realigned, unfiltered};
@@ -267,6 +268,14 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     });
     fitted.break_away.into_result(&mut result);
     result.searched = fitted.searched;
+    if !heard.stopped {
+        let curve =
+            engine::friction_curve(&conditioned.record, &estimate, &conditioned.settings, heard);
+        // What a law could be fitted to, a curve may still have too little for.
+        let curve = curve.ok().flatten();
+        let unit = &loaded.sources[0].log.force_unit;
+        result.friction_curve = curve.map(|own| friction::entry(&own, loaded.motion(), unit));
+    }
     if let Some(both) = fitted.two_steps {
         both.into_result(&estimate, &mut result, loaded.motion());
     }

@@ -1,0 +1,56 @@
+//! Friction in steady sliding by speed.
+
+use serde::{Deserialize, Serialize};
+
+/// Friction by speed, whatever the law: in the unit of the force, with half widths of 95 % intervals.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrictionCurveEntry {
+    /// Unit of the speeds.
+    pub speed_unit: String,
+    /// Unit of the force.
+    pub unit: String,
+    /// Half of the sum of both directions at a twentieth, half and all of the top speed; of a log with one direction its own.
+    pub at: Vec<FrictionAtEntry>,
+    /// Speeds from the least to the top speed.
+    pub speed: Vec<f64>,
+    /// Half of the sum of both directions; absent for one direction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub both: Option<BandEntry>,
+    /// Half of their difference: a constant force, a weight, or friction that differs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub constant: Option<BandEntry>,
+    /// Friction of motion forward, with the constant force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub forward: Option<BandEntry>,
+    /// Friction of motion back, with the constant force.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub back: Option<BandEntry>,
+}
+
+/// Friction at one speed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrictionAtEntry {
+    /// The speed.
+    pub speed: f64,
+    /// Force against the motion.
+    pub force: f64,
+    /// Half width for the same test again, now.
+    pub at_once: f64,
+    /// Half width for the same test on another day.
+    pub repeat: f64,
+    /// Half width for another motion of the same kind.
+    pub transfer: f64,
+}
+
+/// Friction at all speeds of the curve.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct BandEntry {
+    /// Force against the motion.
+    pub force: Vec<f64>,
+    /// Half widths for the same test again, now.
+    pub at_once: Vec<f64>,
+    /// Half widths for the same test on another day.
+    pub repeat: Vec<f64>,
+    /// Half widths for another motion of the same kind.
+    pub transfer: Vec<f64>,
+}

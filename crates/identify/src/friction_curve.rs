@@ -1,0 +1,289 @@
+//! Friction in steady sliding by speed, whatever the law.
+//!
+//! The friction of each direction is a piecewise linear function of the speed times the deflection of a Dahl bristle, fitted with
+//! the mass and the forces beside friction. Half of the sum of both directions has no constant force in it, and scatters less from
+//! log to log than any parameter of a law.
+
+use crate::conditioning::record::Record;
+use crate::error::Error;
+use crate::estimate::Estimate;
+use crate::law::terms::{Delay, Side, Terms};
+use crate::law::{Law, LawKind};
+use crate::scatter::strokes::Strokes;
+use crate::scatter::{Fitted, HalfWidths, Scatter};
+use crate::separable::objective::Evaluation;
+use crate::separable::settings::Settings;
+use crate::separable::{follow, separable};
+use nalgebra::DVector;
+use stiction_search::{Observer, Status};
+
+/// Most knots of the curve.
+const KNOTS: usize = 7;
+/// First knot, in parts of the top speed: below it the curve is constant.
+const FIRST: f64 = 0.02;
+/// Fewest samples of a direction at the speeds of a knot, for each unknown of the curve.
+const SAMPLES: usize = 4;
+/// Speeds between two knots at which the curve is stated.
+const BETWEEN: usize = 4;
+/// Presliding length that a bristle may have, in parts of the length of a usual stroke.
+const LONGEST: f64 = 0.1;
+/// Presliding length where no log has a step of the encoder, in parts of the same.
+const SHORTEST: f64 = 1e-5;
+
+/// Friction by speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrictionCurve {
+    /// Top speed, m/s or rad/s: that which 3 % of the samples in motion are above.
+    pub top: f64,
+    /// Speeds from the least to the top speed, m/s or rad/s.
+    pub speed: Vec<f64>,
+    /// Friction of the directions that the log has.
+    pub directions: Vec<OfDirection>,
+    /// Half of the sum of both directions, N (N m); empty for one direction.
+    pub both: Vec<Level>,
+    /// Half of their difference: a constant force, a weight, or friction that differs.
+    pub constant: Vec<Level>,
+    /// Half of the sum at a twentieth, half and all of the top speed; of a single direction its own.
+    pub at: [Level; 3],
+}
+
+/// The curve of one direction, with the constant force.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OfDirection {
+    /// Whether it is motion forward.
+    pub forward: bool,
+    /// At the speeds of the curve; against the motion, N (N m).
+    pub level: Vec<Level>,
+}
+
+/// Friction at one speed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// Speed, m/s or rad/s.
+    pub speed: f64,
+    /// Force against the motion, N (N m).
+    pub force: f64,
+    /// Half of its 95 % interval.
+    pub half: HalfWidths,
+}
+
+/// Parts of the top speed at which friction is stated in three numbers.
+const PARTS: [f64; 3] = [0.05, 0.5, 1.0];
+
+/// A piecewise linear function of the speed that is 1 at a knot and 0 at its neighbours, constant beyond the outer ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Hat {
+    below: f64,
+    at: f64,
+    above: f64,
+}
+
+/// The parts of a curve by speed, each in one direction.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hats(pub(crate) Vec<(Hat, Side)>);
+
+impl Hat {
+    /// At a speed.
+    pub fn value(&self, speed: f64) -> f64 {
+        let rising = (speed - self.below) / (self.at - self.below);
+        let falling = (self.above - speed) / (self.above - self.at);
+        match speed < self.at {
+            _ if self.below.is_infinite() && speed <= self.at => 1.0,
+            _ if self.above.is_infinite() && speed >= self.at => 1.0,
+            true => rising.clamp(0.0, 1.0),
+            false => falling.clamp(0.0, 1.0),
+        }
+    }
+
+    /// Those of some knots.
+    fn of(knots: &[f64]) -> Vec<Self> {
+        let at =
+            |k: Option<usize>, beyond: f64| k.and_then(|k| knots.get(k)).copied().unwrap_or(beyond);
+        let hat = |k: usize| Hat {
+            below: at(k.checked_sub(1), f64::NEG_INFINITY),
+            at: knots[k],
+            above: at(Some(k + 1), f64::INFINITY),
+        };
+        (0..knots.len()).map(hat).collect()
+    }
+}
+
+/// The curve of a record beside a law that was fitted to it: with its mass, delay and the forces beside friction as unknowns, as there.
+/// `None` where the axis does not slide, where the record has less than it takes, and where the search was stopped.
+///
+/// # Errors
+/// Those of the fit of a law.
+pub fn friction_curve(
+    record: &Record,
+    fitted: &Estimate,
+    settings: &Settings,
+    observer: &mut dyn Observer,
+) -> Result<Option<FrictionCurve>, Error> {
+    let strokes = Strokes::of(record);
+    let Some((knots, sides)) = knots(&strokes) else {
+        return Ok(None);
+    };
+    if fitted.stays_in_presliding() {
+        return Ok(None);
+    }
+    let hats = Hat::of(&knots);
+    let terms = Terms {
+        curve: Hats(
+            sides
+                .iter()
+                .flat_map(|side| hats.iter().map(|hat| (*hat, *side)))
+                .collect(),
+        ),
+        offset: false,
+        quadratic_viscous: false,
+        delay: Delay::Given(fitted.delay_samples() * record.step()),
+        ..fitted.terms.clone()
+    };
+    let law = Law::new(LawKind::Dahl);
+    let kappa = fitted
+        .law
+        .layout()
+        .kappa
+        .filter(|_| !fitted.law.kind.has_elements());
+    let start = kappa.and_then(|at| fitted.unknowns().get(at)).copied();
+    let optimum = match start {
+        Some(start) => follow(&[start], record, law, &terms, settings, observer)?,
+        None => separable(record, law, &terms, settings, observer)?,
+    };
+    if optimum.status == Status::Interrupted {
+        return Ok(None);
+    }
+    Ok(stated(
+        record,
+        &strokes,
+        (&hats, &sides),
+        &optimum.evaluation,
+    ))
+}
+
+/// Knots that the speeds of every direction reach, and the directions; `None` where less than two are reached.
+fn knots(strokes: &Strokes) -> Option<(Vec<f64>, Vec<Side>)> {
+    let of = |sense: f64| {
+        let both = strokes.speed.iter().zip(&strokes.sense);
+        both.filter(move |(_, own)| **own == sense)
+            .map(|(speed, _)| *speed)
+    };
+    let sides: Vec<(Side, f64)> = [(Side::Positive, 1.0), (Side::Negative, -1.0)]
+        .into_iter()
+        .filter(|(_, sense)| {
+            of(*sense).filter(|v| *v > FIRST * strokes.top).count() > SAMPLES * KNOTS
+        })
+        .collect();
+    let last = (KNOTS - 1) as f64;
+    let root = FIRST.sqrt();
+    let all: Vec<f64> = (0..KNOTS)
+        .map(|k| strokes.top * (root + (1.0 - root) * k as f64 / last).powi(2))
+        .collect();
+    let hats = Hat::of(&all);
+    let seen = |hat: &Hat| {
+        let weight = |sense: f64| of(sense).map(|speed| hat.value(speed)).sum::<f64>();
+        sides
+            .iter()
+            .all(|(_, sense)| weight(*sense) >= SAMPLES as f64)
+    };
+    let knots: Vec<f64> = hats
+        .iter()
+        .filter(|hat| seen(hat))
+        .map(|hat| hat.at)
+        .collect();
+    let sides: Vec<Side> = sides.into_iter().map(|(side, _)| side).collect();
+    (knots.len() > 1 && !sides.is_empty() && strokes.top > 0.0).then_some((knots, sides))
+}
+
+/// The curve of a fit whose first linear unknowns are the knots of each direction.
+fn stated(
+    record: &Record,
+    strokes: &Strokes,
+    (hats, sides): (&[Hat], &[Side]),
+    at: &Evaluation,
+) -> Option<FrictionCurve> {
+    let c = &at.solution.coefficients;
+    let knots = hats.len() * sides.len();
+    // Place of each linear unknown among the parameters.
+    let nonlinear = at.slopes.len();
+    let mut place = vec![None; c.len()];
+    let active = (0..c.len()).filter(|j| at.solution.active[*j]);
+    for (k, j) in active.enumerate() {
+        place[j] = Some(nonlinear + k);
+    }
+    if place[..knots].contains(&None) {
+        return None;
+    }
+    let mut friction = vec![0.0; at.residual().len()];
+    for (column, c) in at.columns[..knots].iter().zip(c.iter()) {
+        friction
+            .iter_mut()
+            .zip(column.iter())
+            .for_each(|(f, x)| *f += c * x);
+    }
+    let jacobian = at.jacobian();
+    let mut prior = vec![0.0; jacobian.len()];
+    let shortest = record
+        .resolution
+        .map_or(SHORTEST * strokes.usual_length(), |step| 2.0 * step);
+    let range = libm::log(LONGEST * strokes.usual_length() / shortest).max(1.0);
+    prior[..nonlinear].fill(1.0 / (range / 3.0).max(1.0).powi(2));
+    let scatter = Scatter::of(
+        &Fitted {
+            jacobian,
+            residual: at.residual(),
+            friction: &friction,
+            prior,
+        },
+        strokes,
+    )?;
+    let all = at.slopes.len() + at.solution.active.iter().filter(|active| **active).count();
+    // Weights of the directions.
+    let level = |speed: f64, weights: &[f64]| {
+        let mut gradient = DVector::zeros(all);
+        let mut force = 0.0;
+        for (s, weight) in weights.iter().enumerate() {
+            for (k, hat) in hats.iter().enumerate() {
+                let j = s * hats.len() + k;
+                let weight = weight * hat.value(speed);
+                force += weight * c[j];
+                if let Some(i) = place[j] {
+                    gradient[i] += weight;
+                }
+            }
+        }
+        Level {
+            speed,
+            force,
+            half: scatter.half_widths(&gradient),
+        }
+    };
+    let speed: Vec<f64> = hats
+        .windows(2)
+        .flat_map(|pair| {
+            let step = (pair[1].at - pair[0].at) / BETWEEN as f64;
+            (0..BETWEEN).map(move |i| pair[0].at + i as f64 * step)
+        })
+        .chain(hats.last().map(|hat| hat.at))
+        .collect();
+    let along = |weights: &[f64]| speed.iter().map(|v| level(*v, weights)).collect();
+    let two = sides.len() == 2;
+    let alone = |s: usize| {
+        let mut weights = vec![0.0; sides.len()];
+        weights[s] = 1.0;
+        weights
+    };
+    let directions = sides.iter().enumerate().map(|(s, side)| OfDirection {
+        forward: *side == Side::Positive,
+        level: along(&alone(s)),
+    });
+    let half = if two { vec![0.5; 2] } else { vec![1.0] };
+    Some(FrictionCurve {
+        top: strokes.top,
+        directions: directions.collect(),
+        both: if two { along(&half) } else { Vec::new() },
+        constant: if two { along(&[0.5, -0.5]) } else { Vec::new() },
+        at: PARTS.map(|part| level(part * strokes.top, &half)),
+        speed,
+    })
+}

@@ -1,0 +1,131 @@
+//! Friction by speed, against the steady curve of the law that a log is simulated with.
+
+use crate::common::{MACHINE, Noise};
+use std::f64::consts::TAU;
+use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_identify::{
+    Conditioning, Cutoff, FrictionCurve, Law, LawKind, Level, Record, Samples, Settings, Silent,
+    Terms, condition, friction_curve, identify,
+};
+
+const STEP: f64 = 1e-3;
+const SECONDS: f64 = 16.0;
+const MASS: f64 = 5.0;
+const OFFSET: f64 = 2.0;
+const FINE: u32 = 10;
+
+fn law() -> LuGre<f64> {
+    let side = Direction {
+        coulomb: MACHINE.coulomb,
+        static_friction: MACHINE.fixed,
+        stribeck_velocity: MACHINE.velocity,
+        viscous: MACHINE.sigma2,
+    };
+    let curve = Stribeck::symmetric(Shape::Gaussian, side, OFFSET).unwrap();
+    LuGre::new(MACHINE.sigma0, Damping::Constant(MACHINE.sigma1), curve).unwrap()
+}
+
+/// A log of this axis, whose level wanders by `wave` to either side.
+fn record(motion: impl Fn(f64) -> [f64; 2], wave: f64, seed: u64) -> Record {
+    let law = law();
+    let mut noise = Noise::new(seed);
+    let h = STEP / f64::from(FINE);
+    let mut z = 0.0;
+    let mut samples = Samples::default();
+    let mut velocity = Vec::new();
+    for i in 0..(SECONDS / STEP) as usize {
+        let t = i as f64 * STEP;
+        for k in 0..FINE {
+            let s = t - STEP + f64::from(k) * h;
+            z = law.step_record(z, h, motion(s)[0], motion(s + h)[0]);
+        }
+        let [v, a] = motion(t);
+        let bristle = law.force(z, v) - OFFSET - MACHINE.sigma2 * v;
+        let level = 1.0 + wave * (TAU * 0.13 * t).sin();
+        samples.time.push(t);
+        velocity.push(v);
+        let friction = level * bristle + MACHINE.sigma2 * v + OFFSET;
+        samples
+            .force
+            .push(friction + MASS * a + 0.2 * noise.normal());
+    }
+    samples.velocity = Some(velocity);
+    let raw = Conditioning {
+        source_cutoff: Cutoff::Off,
+        common_cutoff: Cutoff::Off,
+        ..Conditioning::default()
+    };
+    condition(&[samples], &raw).unwrap()
+}
+
+/// Strokes of two lengths and speeds.
+fn strokes(t: f64) -> [f64; 2] {
+    let sine = |speed: f64, hertz: f64| {
+        let w = TAU * hertz;
+        [speed * (w * t).sin(), speed * w * (w * t).cos()]
+    };
+    let [a, b] = [sine(0.12, 0.5), sine(0.04, 0.75)];
+    [a[0] + b[0], a[1] + b[1]]
+}
+
+fn curve(record: &Record, kind: LawKind) -> Option<FrictionCurve> {
+    let law = Law::new(kind);
+    let settings = Settings::default();
+    let fitted = identify(record, law, &Terms::default(), 1e-3, &settings, &mut Silent).unwrap();
+    friction_curve(record, &fitted, &settings, &mut Silent).unwrap()
+}
+
+/// Half of the sum of both directions is the steady curve, half of their difference the constant force, whatever the law.
+#[test]
+fn the_curve_is_that_of_the_axis() {
+    let record = record(strokes, 0.0, 1);
+    let law = law();
+    for kind in [LawKind::LuGre, LawKind::CoulombViscous] {
+        let found = curve(&record, kind).unwrap();
+        assert_eq!(found.directions.len(), 2);
+        // At the speeds of the Stribeck curve the log has few samples.
+        let seen = |level: &&Level| level.speed > 0.02;
+        for level in found.both.iter().chain(&found.at).filter(seen) {
+            let truth = law.curve().force(level.speed) - OFFSET;
+            let error = (level.force / truth - 1.0).abs();
+            assert!(error < 0.01, "{kind:?} {level:?} {truth}");
+            assert!((level.force - truth).abs() < level.half.repeat);
+            assert!(
+                level.half.at_once < level.half.repeat && level.half.repeat <= level.half.transfer
+            );
+        }
+        for level in found.constant.iter().filter(seen) {
+            assert!((level.force - OFFSET).abs() < 0.2, "{level:?}");
+        }
+    }
+}
+
+/// What strokes of one kind have differently widens the band: a level that wanders.
+#[test]
+fn what_strokes_have_differently_scatters() {
+    let half = |wave: f64| {
+        let found = curve(&record(strokes, wave, 2), LawKind::LuGre).unwrap();
+        found.at[1].half.at_once / found.at[1].force
+    };
+    let (flat, waved) = (half(0.0), half(0.05));
+    assert!(waved > 10.0 * flat && waved < 0.1, "{flat} {waved}");
+}
+
+/// One direction has no sum, and an axis that stays in presliding no curve.
+#[test]
+fn there_is_no_more_than_the_log_shows() {
+    let forward = |t: f64| {
+        let w = TAU * 0.5;
+        [0.08 + 0.06 * (w * t).sin(), 0.06 * w * (w * t).cos()]
+    };
+    let found = curve(&record(forward, 0.0, 3), LawKind::CoulombViscous).unwrap();
+    assert!(found.both.is_empty() && found.constant.is_empty());
+    assert_eq!(found.directions.len(), 1);
+    let truth = law().curve().force(found.at[1].speed);
+    assert!((found.at[1].force / truth - 1.0).abs() < 0.01);
+    let tiny = |t: f64| {
+        let w = TAU * 0.5;
+        [2e-6 * (w * t).sin(), 2e-6 * w * (w * t).cos()]
+    };
+    assert_eq!(curve(&record(tiny, 0.0, 4), LawKind::LuGre), None);
+}
