@@ -119,7 +119,7 @@ codes! {
     ClocksApart = "clocks-apart": "force and motion were stamped by two clocks that run apart",
     UnmodelledDynamics = "unmodelled-dynamics": "between force and motion are dynamics that the law does not have",
     LawShape = "law-shape": "friction or inertia has another shape than the law",
-    CorrelatedResidual = "correlated-residual": "the residual is not noise: a systematic effect is left",
+    CorrelatedResidual = "correlated-residual": "the residual of a simulated open loop has too few independent samples",
     ForceLate = "force-late": "the force was logged much later than the motion it belongs to",
     HeldAtRest = "held-at-rest": "something else than friction holds the axis where it rests",
     ForceNotGiven = "force-not-given": "the drive gave less than the force that was logged",

@@ -9,7 +9,7 @@ mod seen;
 mod trust;
 
 use crate::error::Warning;
-pub use friction::{BandEntry, FrictionAtEntry, FrictionCurveEntry};
+pub use friction::{BandEntry, FrictionAtEntry, FrictionCurveEntry, FrictionLineEntry, ValueEntry};
 pub use misfit::MisfitEntry;
 pub use planned::{PieceEntry, PlannedEntry, PlannedParameter};
 pub use procedure::{
@@ -42,8 +42,7 @@ pub struct ResultFile {
     pub law: String,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
-    /// What of the law is left out: `stribeck` (`Fs = Fc`), `sigma1` (0), `unseen-force` (static friction kept below the
-    /// largest friction of the log).
+    /// What of the law is left out: `stribeck` (`Fs = Fc`), `sigma1` (0).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub without: Vec<String>,
     /// Who chose the law: `user`, or by what the data did: `cross-validation`, `validation`, `bic`.
@@ -264,13 +263,16 @@ pub struct ParameterEntry {
     pub value: f64,
     /// SI unit.
     pub unit: String,
-    /// Standard deviation; `null` where the data say nothing.
+    /// Standard deviation of the same test on another day; `null` where the data say nothing.
     pub std: Option<f64>,
     /// What encoder steps and filters are estimated to have added; `null` where not estimated.
     #[serde(default)]
     pub bias: Option<f64>,
     /// 95 % interval; `null` where the data bound it on no side, a `null` end where on one side only.
     pub ci95: Option<[Option<f64>; 2]>,
+    /// Half widths of its 95 % interval by what it is asked for; `null` where only `ci95` is known, which is that of `repeat`.
+    #[serde(default)]
+    pub half_width: Option<HalfWidthEntry>,
     /// `linear`, `profile` or `state-space`; `null` without an interval.
     #[serde(default)]
     pub interval: Option<String>,
@@ -286,6 +288,18 @@ pub struct ParameterEntry {
     /// What motion would determine it; empty if it is identifiable.
     #[serde(default)]
     pub advice: String,
+}
+
+/// Half widths of a 95 % interval in the unit of the value, of a parameter that is positive by nature the value times that of its
+/// logarithm.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct HalfWidthEntry {
+    /// The same test again, now.
+    pub at_once: f64,
+    /// The same test on another day.
+    pub repeat: f64,
+    /// Another motion of the same kind.
+    pub transfer: f64,
 }
 
 impl ParameterEntry {
@@ -459,6 +473,9 @@ pub struct LawEntry {
     /// Whether a constant force is fitted beside it.
     #[serde(default)]
     pub offset: bool,
+    /// Whether quadratic viscous friction was fitted beside it.
+    #[serde(default)]
+    pub quadratic_viscous: bool,
     /// Elements of a Maxwell-slip law; absent for other laws.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elements: Option<usize>,

@@ -1,13 +1,16 @@
 //! Which of several laws the data support: held-out error within its noise, AIC and BIC beside it.
 
 use crate::crossval::LawScore;
-use crate::fit::{EQUAL_ERROR_RATIO, MOST_LAGS};
+use crate::fit::MOST_LAGS;
 use stiction_signal::effective_sample_size;
 
 /// A law counts as equal to the best while its held-out error is above the least by no more than this
 /// many standard errors of the difference (the one-standard-error rule of Breiman, Friedman, Olshen
-/// and Stone 1984, section 3.4.3), or is within [`EQUAL_ERROR_RATIO`] of it, and never above [`NEVER_EQUAL_RATIO`].
+/// and Stone 1984, section 3.4.3), or is within [`AS_GOOD_RATIO`] of it, and never above [`NEVER_EQUAL_RATIO`].
 const EQUAL_STANDARD_ERRORS: f64 = 1.0;
+/// Ratio of two held-out errors up to which the law with fewer parameters is taken. With it ten repeats of one servo test choose
+/// one law in eight, three parts of four robot joints in ten of twelve; with the least error they choose another from day to day.
+const AS_GOOD_RATIO: f64 = 1.05;
 /// Ratio of two held-out errors above which the laws are never equal, however uncertain that ratio is: who compensates
 /// with the simpler law would leave a tenth more.
 pub const NEVER_EQUAL_RATIO: f64 = 1.1;
@@ -24,7 +27,7 @@ pub struct Standing {
     pub aic: Option<f64>,
     /// BIC above the least of all laws.
     pub bic: Option<f64>,
-    /// Whether this is the law to take: of those whose held-out error is within its noise (or 1 %)
+    /// Whether this is the law to take: of those whose held-out error is within its noise (or 5 %)
     /// of the least, the one with the fewest parameters. Where one of the laws has no held-out error,
     /// because too few samples would be left to fit it, the one with the least BIC.
     pub best: bool,
@@ -76,7 +79,7 @@ pub fn choose(scores: &[LawScore]) -> Vec<Standing> {
 
 /// The law with the fewest parameters among those as good as the best.
 fn simplest(scores: &[LawScore], excess: &[Option<(f64, f64)>]) -> Option<usize> {
-    let [least, most] = [EQUAL_ERROR_RATIO, NEVER_EQUAL_RATIO].map(libm::log);
+    let [least, most] = [AS_GOOD_RATIO, NEVER_EQUAL_RATIO].map(libm::log);
     scores
         .iter()
         .zip(excess)
@@ -200,10 +203,10 @@ mod tests {
     fn the_simplest_within_the_noise_is_best() {
         let noise: Vec<f64> = (0..1000).map(|i| normal(1, i)).collect();
         let scaled = |factor: f64| noise.iter().map(|x| factor * x).collect::<Vec<f64>>();
-        // Exactly proportional residuals have a difference without noise: only 1 % is left.
+        // Exactly proportional residuals have a difference without noise: only 5 % is left.
         let laws = [
             score(4, scaled(1.5)),
-            score(6, scaled(1.009)),
+            score(6, scaled(1.04)),
             score(8, scaled(1.0)),
         ];
         let best = choose(&laws).iter().position(|s| s.best);

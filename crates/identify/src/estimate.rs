@@ -1,26 +1,20 @@
 //! The result of a fit: parameters with their uncertainty, residuals, and warnings.
 
 pub(crate) mod advice;
-mod along;
 mod autoregression;
 mod conditioned;
-mod confused;
-mod curve;
 mod delayed;
 mod filtered;
 pub(crate) mod fitted;
+mod informed;
 pub(crate) mod intervals;
-pub(crate) mod least;
 mod optimal;
 mod pressed;
-mod profile;
 pub(crate) mod searched;
 pub(crate) mod series;
 pub(crate) mod sliding;
-pub(crate) mod stated;
 mod stroke;
 pub(crate) mod uncertainty;
-mod unseen;
 mod windows;
 
 pub use stroke::LevelAlong;
@@ -28,7 +22,6 @@ pub use stroke::LevelAlong;
 use crate::conditioning::record::Record;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::series::Series;
-use crate::estimate::uncertainty::Unknowns;
 use crate::fit::Fit;
 use crate::held_delay;
 use crate::law::Law;
@@ -39,6 +32,7 @@ use crate::law::transmitted;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
+use crate::scatter::Scatter;
 use crate::separable::fixed::Column;
 use crate::separable::logs::Logs;
 use crate::separable::objective::Objective;
@@ -56,7 +50,7 @@ pub struct Estimate {
     pub(crate) step: f64,
     pub(crate) p: Vec<f64>,
     pub(crate) coefficients: Vec<f64>,
-    pub(crate) unknowns: Unknowns,
+    pub(crate) unknowns: Scatter,
     /// Root mean square of the residual within the logs; of a single one that of the fit.
     pub(crate) within: f64,
 }
@@ -72,10 +66,6 @@ impl Estimate {
         }
     }
 }
-
-/// Why static friction is open beside a Stribeck velocity that another exponent moves.
-const END_OF_A_SHAPE: &str =
-    "is the end of a Stribeck curve whose shape the log leaves open: it moves with the exponent";
 
 impl Deref for Estimate {
     type Target = FittedLaw;
@@ -97,75 +87,6 @@ impl Estimate {
     pub fn interrupted(mut self) -> Self {
         self.fitted.stopped();
         self
-    }
-
-    /// Flags parameters that a law which holds less has elsewhere, by more than half of their interval: they depend on what is
-    /// held, and static friction with a Stribeck velocity that depends on the shape of its curve. `before` is this estimate as its
-    /// search left it, as `freer` is: the corrections of both would be the same.
-    pub fn doubt_beside(&mut self, before: &FittedLaw, freer: &FittedLaw) {
-        let (own, other) = (&before.law, &freer.law);
-        let freed: Vec<&str> = [
-            (
-                !own.has_stribeck() && other.has_stribeck(),
-                "the Stribeck curve",
-            ),
-            (
-                !own.has_micro_damping() && other.has_micro_damping(),
-                "micro-damping",
-            ),
-            (
-                other.exponent_fitted && !own.exponent_fitted,
-                "the Stribeck exponent",
-            ),
-        ]
-        .into_iter()
-        .filter_map(|(freed, name)| freed.then_some(name))
-        .collect();
-        let freed = match freed.is_empty() {
-            true => "static friction may be above all forces of the log".into(),
-            false => format!("{} is fitted too", freed.join(" and ")),
-        };
-        let line = match other.exponent_fitted && !own.exponent_fitted {
-            true => " (stribeck_exponent = \"fit\" under [terms] of the axis file)",
-            false => "",
-        };
-        let mut unknown = Vec::new();
-        for parameter in &mut self.fitted.parameters {
-            let Some((low, high)) = parameter.ci95.filter(|_| parameter.identifiable) else {
-                continue;
-            };
-            let (Some(mine), Some(other)) =
-                (before.value(parameter.name), freer.value(parameter.name))
-            else {
-                continue;
-            };
-            if (other - mine).abs() > 0.5 * (high - low) {
-                parameter.identifiable = false;
-                parameter.reason = format!(
-                    "depends on what the law holds fixed: {} where {freed}{line}",
-                    stiction_number::four_digits(parameter.value + other - mine)
-                );
-                if parameter.name.quantity == Quantity::StribeckVelocity {
-                    unknown.push(parameter.name.side);
-                }
-            }
-        }
-        if other.exponent_fitted && !own.exponent_fitted {
-            self.doubt(|p| {
-                let ends = p.name.quantity == Quantity::Static && unknown.contains(&p.name.side);
-                ends.then_some(END_OF_A_SHAPE)
-            });
-        }
-    }
-
-    /// Leaves parameters open that are determined otherwise, for this reason.
-    pub fn leave_open(&mut self, quantities: &[Quantity], reason: &str) {
-        for parameter in &mut self.fitted.parameters {
-            if parameter.identifiable && quantities.contains(&parameter.name.quantity) {
-                parameter.identifiable = false;
-                parameter.reason = reason.into();
-            }
-        }
     }
 
     /// Adds evaluations that led to it.
@@ -222,12 +143,12 @@ pub fn estimate(
     let c = &at.solution.coefficients;
     let raw = physical(&law, objective.linear(), record.step(), &optimum.p, c);
     let unknowns = uncertainty::unknowns(&objective, at);
-    let matrix = propagate(&raw, &unknowns.covariance);
+    let matrix = propagate(&raw, &unknowns.repeat());
     let levels = levels(&objective, &raw);
     let mut parameters: Vec<Parameter> = raw
         .iter()
-        .enumerate()
-        .map(|(i, p)| optimal::fitted(p, matrix[(i, i)], None, optimum, levels[i]))
+        .zip(&levels)
+        .map(|(p, level)| optimal::fitted(p, unknowns.of(p), None, optimum, *level))
         .collect();
     if law.has_stribeck() && !law.exponent_fitted {
         let at = parameters
@@ -265,8 +186,6 @@ pub fn estimate(
         }
     }
     let covariance = Covariance::new(raw.iter().map(|p| p.name).collect(), &matrix);
-    curve::stays_within(&law, optimum, &mut parameters);
-    curve::spans_all_speeds(&law, record.top_speed(), &mut parameters);
     sliding::flag_what_the_motion_hides(record, &mut parameters);
     transmitted::flag_parts_of_an_open_weight(terms, &mut parameters);
     advice::explain(&mut parameters, &covariance);

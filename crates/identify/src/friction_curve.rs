@@ -7,10 +7,12 @@
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::estimate::Estimate;
+use crate::law::prior::Prior;
 use crate::law::terms::{Delay, Side, Terms};
 use crate::law::{Law, LawKind};
 use crate::scatter::strokes::Strokes;
 use crate::scatter::{Fitted, HalfWidths, Scatter};
+use crate::separable::logs::Logs;
 use crate::separable::objective::Evaluation;
 use crate::separable::settings::Settings;
 use crate::separable::{follow, separable};
@@ -25,10 +27,6 @@ const FIRST: f64 = 0.02;
 const SAMPLES: usize = 4;
 /// Speeds between two knots at which the curve is stated.
 const BETWEEN: usize = 4;
-/// Presliding length that a bristle may have, in parts of the length of a usual stroke.
-const LONGEST: f64 = 0.1;
-/// Presliding length where no log has a step of the encoder, in parts of the same.
-const SHORTEST: f64 = 1e-5;
 
 /// Friction by speed.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +39,9 @@ pub struct FrictionCurve {
     pub directions: Vec<OfDirection>,
     /// Half of the sum of both directions, N (N m); empty for one direction.
     pub both: Vec<Level>,
+    /// Coulomb and viscous friction, N and N s/m (N m and N m s/rad), of the straight line nearest to it from a tenth of the top speed
+    /// on; `None` for one direction.
+    pub line: Option<[Level; 2]>,
     /// Half of their difference: a constant force, a weight, or friction that differs.
     pub constant: Vec<Level>,
     /// Half of the sum at a twentieth, half and all of the top speed; of a single direction its own.
@@ -69,6 +70,10 @@ pub struct Level {
 
 /// Parts of the top speed at which friction is stated in three numbers.
 const PARTS: [f64; 3] = [0.05, 0.5, 1.0];
+
+/// Part of the top speed from which on a line of Coulomb and viscous friction is taken: below it lies the Stribeck curve, which no
+/// line describes.
+const LINE: f64 = 0.1;
 
 /// A piecewise linear function of the speed that is 1 at a knot and 0 at its neighbours, constant beyond the outer ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -223,29 +228,30 @@ fn stated(
     }
     let jacobian = at.jacobian();
     let mut prior = vec![0.0; jacobian.len()];
-    let shortest = record
-        .resolution
-        .map_or(SHORTEST * strokes.usual_length(), |step| 2.0 * step);
-    let range = libm::log(LONGEST * strokes.usual_length() / shortest).max(1.0);
-    prior[..nonlinear].fill(1.0 / (range / 3.0).max(1.0).powi(2));
-    let scatter = Scatter::of(
-        &Fitted {
-            jacobian,
-            residual: at.residual(),
-            friction: &friction,
-            prior,
-        },
-        strokes,
-    )?;
+    let known = Prior::of(record, strokes, 0.0).length_deviation();
+    prior[..nonlinear].fill(1.0 / (known * known));
+    let logs = Logs::of(record);
+    let logs = logs.as_ref().map_or(&[][..], |logs| logs.ranges());
+    let fit = Fitted {
+        jacobian,
+        residual: at.residual(),
+        friction: &friction,
+        logs,
+        prior,
+    };
+    let scatter = Scatter::from_strokes(&fit, strokes)?.with_transfer(&fit, strokes);
     let all = at.slopes.len() + at.solution.active.iter().filter(|active| **active).count();
-    // Weights of the directions.
-    let level = |speed: f64, weights: &[f64]| {
+    // A sum over speeds with their weights, of the directions by theirs.
+    let sum = |at: f64, speeds: &[(f64, f64)], directions: &[f64]| {
         let mut gradient = DVector::zeros(all);
         let mut force = 0.0;
-        for (s, weight) in weights.iter().enumerate() {
+        for (s, part) in directions.iter().enumerate() {
             for (k, hat) in hats.iter().enumerate() {
                 let j = s * hats.len() + k;
-                let weight = weight * hat.value(speed);
+                let each = speeds
+                    .iter()
+                    .map(|(speed, weight)| weight * hat.value(*speed));
+                let weight = part * each.sum::<f64>();
                 force += weight * c[j];
                 if let Some(i) = place[j] {
                     gradient[i] += weight;
@@ -253,11 +259,12 @@ fn stated(
             }
         }
         Level {
-            speed,
+            speed: at,
             force,
-            half: scatter.half_widths(&gradient),
+            half: scatter.variances(&gradient).half_widths(),
         }
     };
+    let level = |speed: f64, directions: &[f64]| sum(speed, &[(speed, 1.0)], directions);
     let speed: Vec<f64> = hats
         .windows(2)
         .flat_map(|pair| {
@@ -278,12 +285,43 @@ fn stated(
         level: along(&alone(s)),
     });
     let half = if two { vec![0.5; 2] } else { vec![1.0] };
+    let both: Vec<Level> = if two { along(&half) } else { Vec::new() };
+    // The line nearest to it, each speed counted as far as to its neighbours.
+    let line = two.then(|| {
+        let within = |v: &f64| if *v >= LINE * strokes.top { 1.0 } else { 0.0 };
+        let weights = spacing(&speed).into_iter().zip(&speed);
+        let weights: Vec<f64> = weights.map(|(w, v)| w * within(v)).collect();
+        let moment = |power: i32| -> f64 {
+            let each = speed.iter().zip(&weights);
+            each.map(|(v, w)| w * v.powi(power)).sum()
+        };
+        let [n, mean, square] = [0, 1, 2].map(moment);
+        let size = n * square - mean * mean;
+        let weighted = |of: &dyn Fn(f64) -> f64| {
+            let each = speed.iter().zip(&weights);
+            let parts: Vec<(f64, f64)> = each.map(|(v, w)| (*v, w * of(*v) / size)).collect();
+            sum(strokes.top, &parts, &half)
+        };
+        [
+            weighted(&|v| square - mean * v),
+            weighted(&|v| n * v - mean),
+        ]
+    });
     Some(FrictionCurve {
         top: strokes.top,
         directions: directions.collect(),
-        both: if two { along(&half) } else { Vec::new() },
+        both,
+        line,
         constant: if two { along(&[0.5, -0.5]) } else { Vec::new() },
         at: PARTS.map(|part| level(part * strokes.top, &half)),
         speed,
     })
+}
+
+/// Half of the way from the neighbour below each of some speeds to the one above.
+fn spacing(speed: &[f64]) -> Vec<f64> {
+    let at = |i: usize| speed[i.min(speed.len() - 1)];
+    let each = 0..speed.len();
+    each.map(|i| 0.5 * (at(i + 1) - at(i.saturating_sub(1))))
+        .collect()
 }

@@ -9,6 +9,7 @@ use crate::law::terms::{Delay, DelayFrom, Terms};
 use crate::law::{Law, LawKind};
 use crate::parameter::physical::Physical;
 use crate::parameter::{IntervalKind, Parameter};
+use crate::scatter::Variances;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::DMatrix;
 use stiction_parameters::Quantity;
@@ -119,7 +120,13 @@ pub(crate) fn parameter(terms: &Terms, step: f64) -> Option<Parameter> {
         linear: None,
     };
     let variance = terms.delay_deviation * terms.delay_deviation;
-    let parameter = Parameter::judged(&found, variance, None, String::new(), step);
+    let parameter = Parameter::judged(
+        &found,
+        Variances::known(variance),
+        None,
+        String::new(),
+        step,
+    );
     (terms.delay_from == DelayFrom::Elements).then_some(Parameter {
         interval: IntervalKind::Profile,
         ..parameter

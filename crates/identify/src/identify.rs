@@ -3,7 +3,7 @@
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::estimate::intervals::intervals;
-use crate::estimate::{Estimate, estimate};
+use crate::estimate::{Estimate, estimate, uncertainty};
 use crate::gms;
 use crate::law::Law;
 use crate::law::terms::{Delay, DelayFrom, Terms};
@@ -169,6 +169,29 @@ fn stated(
         next.counts.add(&optimum.counts);
         next.iterations += optimum.iterations;
         (optimum, used) = (next, renewed);
+    }
+    if terms.prior.is_none()
+        && optimum.status != Status::Interrupted
+        && let Some(prior) = uncertainty::prior(record, &optimum, &used)
+    {
+        used.prior = Some(prior);
+        let mut starts = vec![optimum.p.clone()];
+        if law.has_stribeck() {
+            starts.push(prior.expected(&law, &optimum.p));
+        }
+        let mut found: Option<Optimum> = None;
+        for start in starts {
+            let mut next = fit(&used, Some(&start))?;
+            next.counts.add(&optimum.counts);
+            next.iterations += optimum.iterations;
+            if found
+                .as_ref()
+                .is_none_or(|best| next.evaluation.cost < best.evaluation.cost)
+            {
+                found = Some(next);
+            }
+        }
+        optimum = found.unwrap_or(optimum);
     }
     let estimate = estimate(record, law, &used, &optimum, low_speed_bound);
     Ok((estimate, optimum))

@@ -3,6 +3,7 @@
 pub(crate) mod dependence;
 pub(crate) mod map;
 pub(crate) mod physical;
+pub(crate) mod prior;
 pub(crate) mod terms;
 pub(crate) mod transmitted;
 

@@ -90,8 +90,9 @@ impl Whole<'_> {
     ) -> Option<(Vec<f64>, Vec<f64>)> {
         let bounded = self.objective.nonnegative();
         let products = Others { sums, out: fold };
-        let here = reduced::from_products(&products, bounded, self.p.len(), None);
+        let here = reduced::from_products(&products, bounded, self.p.len());
         let here = self.secant.corrected(&here, self.share(folds));
+        let here = self.objective.prior().add(self.p, here);
         let region = self.bounds.region();
         let mut p = self.p.to_vec();
         let mut promised = 0.0;
@@ -113,7 +114,7 @@ impl Whole<'_> {
         let kept: Vec<Vec<f64>> = columns.iter().map(|c| others(c)).collect();
         let views: Vec<&[f64]> = kept.iter().map(Vec::as_slice).collect();
         let found = linear::solve(&views, bounded, &others(&self.objective.target_at(&p)));
-        let fell = here.cost - found.cost;
+        let fell = here.cost - found.cost - self.objective.prior().cost(&p);
         let rounding = ROUNDING * self.objective.energy();
         let enough = fell >= KEPT_PROMISE * promised || promised <= NO_GAIN * here.cost + rounding;
         (enough && fell >= -NO_GAIN * here.cost - rounding).then_some((p, found.coefficients))

@@ -5,9 +5,7 @@
 //! back. Encoder steps and filters leave such a part too; how much, the replicas of the fitted axis show,
 //! whose law is right. What is beyond that is the misfit.
 //!
-//! A misfit that can be seen is what is left of one that the parameters have taken up as far as they could. Where a law is
-//! wrong in a few ways, each as large as what is seen, the parameters move as if there were that many samples only, however
-//! long the log is: [`spread`](Misfit::spread).
+//! It is a diagnosis: what comes back in the next run as well moves no parameter from one run to the next.
 
 mod cause;
 mod clocks;
@@ -33,7 +31,6 @@ use parts::Measures;
 pub(crate) use parts::reversals;
 pub use ripple::{Repeats, Ripple};
 pub use spring_force::SpringForce;
-pub(crate) use waves::STRAIGHT;
 
 use self::coupling::beside::Beside;
 use self::reversals::Reversals;
@@ -41,11 +38,7 @@ use self::visits::{BLOCKS, Visits};
 use crate::conditioning::shift::Shift;
 use crate::law::terms::{ColumnKind, Delay, Terms};
 use crate::separable::objective::{Evaluation, Objective};
-use nalgebra::DMatrix;
 
-/// Independent ways in which a law is taken to be wrong, over which the energy of the misfit is spread. The worlds of
-/// `stiction_testkit::worlds` were the measure: with more, intervals miss where the law is another one.
-const WAYS: f64 = 4.0;
 /// What encoder and filters may leave in parts of what they leave in replicas, which show it roughly, and the standard
 /// deviations beyond it that chance explains.
 const ROUGHLY: f64 = 1.5;
@@ -494,12 +487,6 @@ impl Misfit {
         self.share = self.share.max(share);
         self.rms = self.rms.max((share * square).sqrt());
     }
-
-    /// Variances of the unknowns that a misfit of this size may cause, in a fit of `samples` residuals with the inverse of
-    /// `J^T J` that is given.
-    pub(crate) fn spread(&self, inverse: &DMatrix<f64>, samples: usize) -> DMatrix<f64> {
-        inverse * (self.rms * self.rms * samples as f64 / WAYS)
-    }
 }
 
 /// What another cause has to explain beside a misfit: nothing where that has none, a part of it where its cause is the shape of the
@@ -513,7 +500,7 @@ fn least_beside(misfit: Option<&Misfit>, part: f64) -> Option<f64> {
 }
 
 /// Friction as the law has it at the kept samples.
-fn friction(objective: &Objective, at: &Evaluation) -> Vec<f64> {
+pub(crate) fn friction(objective: &Objective, at: &Evaluation) -> Vec<f64> {
     sum_of(objective, at, |column| {
         let beside = [ColumnKind::Acceleration, ColumnKind::One];
         let wave = matches!(column, ColumnKind::Sine(_) | ColumnKind::Cosine(_));

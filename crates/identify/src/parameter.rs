@@ -4,13 +4,39 @@ pub(crate) mod covariance;
 pub(crate) mod physical;
 mod quantile;
 
+use crate::scatter::{HalfWidths, Variances};
 use physical::Physical;
 pub(crate) use quantile::{NORMAL_Q95, quantile};
 use stiction_number::{LARGEST_PERCENT, Percent};
 use stiction_parameters::{Dimension, Name, Quantity};
 
-/// Relative standard deviation above which a parameter counts as not determined by the data.
-pub const IDENTIFIABLE: f64 = 0.10;
+/// Relative half width of the interval of a repeat above which a parameter counts as not determined by the data.
+pub const IDENTIFIABLE: f64 = 0.20;
+/// Half width of the interval of a delay up to which it counts as determined, samples: a command that is held from its sample on is
+/// ahead of its motion by as much.
+const KNOWN_DELAY: f64 = 0.5;
+/// Shift by the conditioning, in parts of the value, up to which it is taken off.
+const CORRECTED: f64 = 0.10;
+
+/// What is added to the variances of some parameters.
+#[derive(Debug, Default)]
+pub(crate) struct Added(Vec<(Name, f64)>);
+
+impl Added {
+    /// What is added to that of a parameter.
+    pub fn variance(&self, name: Name) -> f64 {
+        let own = self.0.iter().find(|(own, _)| *own == name);
+        own.map_or(0.0, |(_, variance)| *variance)
+    }
+
+    /// Adds to that of a parameter.
+    pub fn add(&mut self, name: Name, variance: f64) {
+        match self.0.iter_mut().find(|(own, _)| *own == name) {
+            Some((_, own)) => *own += variance,
+            None => self.0.push((name, variance)),
+        }
+    }
+}
 
 /// How a 95 % interval was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -34,13 +60,13 @@ impl IntervalKind {
     }
 }
 
-/// Why a parameter is not determined, from its deviation relative to its size; `of` names that size.
+/// Why a parameter is not determined, from the half width of its interval relative to its size; `of` names that size.
 pub(crate) fn too_uncertain(relative: f64, of: &str) -> String {
     let percent = Percent::deviation(100.0 * relative);
     if percent.is_bounded() {
-        format!("standard deviation {} of {of}", percent.decimals(0))
+        format!("its interval is +-{} of {of} wide", percent.decimals(0))
     } else {
-        format!("its standard deviation is not bounded (over {LARGEST_PERCENT} % of {of})")
+        format!("its interval is not bounded (over {LARGEST_PERCENT} % of {of})")
     }
 }
 
@@ -51,8 +77,11 @@ pub struct Parameter {
     pub name: Name,
     /// Best value, SI.
     pub value: f64,
-    /// Standard deviation with correlated residuals counted; `None` where the data say nothing.
+    /// Standard deviation of a repeat of the test on another day; `None` where the data say nothing.
     pub std: Option<f64>,
+    /// Half widths of its 95 % interval by what it is asked for, SI, of a parameter that is positive by nature the value times
+    /// that of its logarithm; `None` where only one is known.
+    pub half: Option<HalfWidths>,
     /// What encoder steps, filters and derivatives are estimated to have added, SI; `None` where that
     /// was not estimated. It is taken off the value up to 10 %; beyond, the interval allows for it.
     pub bias: Option<f64>,
@@ -61,7 +90,7 @@ pub struct Parameter {
     pub ci95: Option<(f64, f64)>,
     /// How the interval was found.
     pub interval: IntervalKind,
-    /// Whether the data determine it: standard deviation at most 10 % and not at a bound.
+    /// Whether the data determine it: interval of a repeat at most 20 % to each side and not at a bound.
     pub identifiable: bool,
     /// Whether it was fitted; a given parameter has no deviation.
     pub identified: bool,
@@ -81,6 +110,7 @@ impl Parameter {
             name: name.into(),
             value,
             std: None,
+            half: None,
             bias: None,
             ci95: None,
             interval: IntervalKind::Linear,
@@ -97,11 +127,12 @@ impl Parameter {
     /// be zero is compared: the Coulomb level, or the sample time for a delay.
     pub(crate) fn judged(
         p: &Physical,
-        variance: f64,
+        variances: Variances,
         bias: Option<f64>,
         mut reason: String,
         level: f64,
     ) -> Self {
+        let variance = variances.repeat;
         let known = reason.is_empty() && variance.is_finite() && variance >= 0.0;
         let std = known.then(|| variance.sqrt());
         if reason.is_empty() && std.is_none() {
@@ -109,12 +140,15 @@ impl Parameter {
         }
         let sized = |value: f64| match p.name.dimension() {
             _ if p.is_positive() => (value.abs(), "its value"),
-            Dimension::Time => (level, "the sample time"),
+            Dimension::Time => (
+                value.abs().max(KNOWN_DELAY / IDENTIFIABLE * level),
+                "its value",
+            ),
             _ => (value.abs().max(level), "its value or of the Coulomb level"),
         };
         let (size, _) = sized(p.value);
         let shift = bias.filter(|b| known && b.is_finite()).unwrap_or(0.0);
-        let corrected = shift.abs() <= IDENTIFIABLE * size;
+        let corrected = shift.abs() <= CORRECTED * size;
         let value = if !corrected || shift == 0.0 {
             p.value
         } else if p.is_share() {
@@ -126,17 +160,24 @@ impl Parameter {
             p.value - shift
         };
         let left = if corrected { 0.0 } else { shift };
-        let reach = std.map(|s| s * quantile(left, s));
+        let student = variances.half_widths();
+        let biased = |half: f64| half * quantile(left, half / NORMAL_Q95) / NORMAL_Q95;
+        let half = std.map(|_| HalfWidths {
+            at_once: biased(student.at_once),
+            repeat: biased(student.repeat),
+            transfer: biased(student.transfer),
+        });
+        let reach = half.map(|half| half.repeat);
         // A difference of two dampings is mostly nothing, and there is no size to compare it with; of a map what counts is the sum of
         // its parts.
         let has_size = !matches!(
             p.name.quantity,
             Quantity::Sigma1Log(_) | Quantity::CoulombMap(_)
         );
-        if let Some(std) = std {
+        if let Some(reach) = reach {
             // Relative to the value that is stated, so that a table of both is consistent.
             let (size, of) = sized(value);
-            let relative = std / size;
+            let relative = reach / size;
             if has_size && (relative > IDENTIFIABLE || relative.is_nan()) {
                 reason = too_uncertain(relative, of);
             } else if !corrected {
@@ -161,34 +202,55 @@ impl Parameter {
                 Some((value - reach, value + reach))
             }
         });
-        // A part of the force that may be none of it, and may be a tenth of friction, is no constant: it says nothing of interest.
-        if let Some((low, high)) = ci95
-            && reason.is_empty()
-            && !p.is_positive()
-            && !p.is_share()
-            && !matches!(p.name.dimension(), Dimension::Time)
-            && has_size
-            && low < 0.0
-            && high > 0.0
-            && high - low > IDENTIFIABLE * level
-        {
-            reason = format!(
-                "its interval holds 0 and is as wide as {} of the Coulomb level",
-                Percent::deviation(100.0 * (high - low) / level).decimals(0)
-            );
-        }
         // For a share near one a small relative error of the value can be any error of its odds.
         if ci95.is_none() && reason.is_empty() {
             reason = "the data bound it on no side".into();
         }
         Self {
             std,
+            half: half.filter(|_| variances.freedom.is_finite()),
             bias: bias.filter(|_| known),
             ci95,
             identifiable: reason.is_empty(),
             identified: true,
             reason,
             ..Self::given(p.name, value)
+        }
+    }
+}
+
+impl Parameter {
+    /// Scatters from day to day and from motion to motion as the same parameter of another fit does, whose interval of the same test
+    /// again, now, is another one.
+    pub(crate) fn scatter_as(&mut self, other: &Self) {
+        let (Some(half), Some((low, high))) = (other.half, self.ci95) else {
+            return;
+        };
+        let is_relative = self.name.quantity.allowed().is_never_negative();
+        let [now, then] = match is_relative {
+            true => [self.value, other.value],
+            false => [1.0, 1.0],
+        };
+        let own = match is_relative {
+            true => 0.5 * now * libm::log(high / low),
+            false => 0.5 * (high - low),
+        };
+        let more = |half: f64, less: f64| (half * half - less * less).max(0.0).sqrt() * now / then;
+        let repeat = libm::hypot(own, more(half.repeat, half.at_once));
+        self.half = Some(HalfWidths {
+            at_once: own,
+            repeat,
+            transfer: libm::hypot(own, more(half.transfer, half.at_once)),
+        });
+        self.std = Some(repeat / NORMAL_Q95);
+        let reach = repeat / now;
+        self.ci95 = match is_relative {
+            true => Some((now * libm::exp(-reach), now * libm::exp(reach))),
+            false => Some((self.value - repeat, self.value + repeat)),
+        };
+        if is_relative && self.identifiable && reach > IDENTIFIABLE {
+            self.identifiable = false;
+            self.reason = too_uncertain(reach, "its value");
         }
     }
 }

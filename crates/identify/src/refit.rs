@@ -4,10 +4,10 @@ use crate::agreement::Told;
 use crate::conditioning::record::Record;
 use crate::conditioning::{Conditioning, condition_as};
 use crate::estimate::Estimate;
-use crate::estimate::stated::{self, Against};
-use crate::estimate::uncertainty::{Unknowns, by_noise, unknowns};
+use crate::estimate::uncertainty::unknowns;
 use crate::misfit::{Divisions, Energies, dynamics};
 use crate::replica::{Axis, Replica};
+use crate::scatter::Scatter;
 use crate::separable::descent::descend;
 use crate::separable::logs::Logs;
 use crate::separable::objective::{Evaluation, Objective};
@@ -28,7 +28,9 @@ const MOST_TRIALS: usize = 60;
 pub(crate) enum Asked<'a> {
     /// The unknowns, to first order.
     Unknowns,
-    /// Also how sure they are, what comes back of the residual, and what the logs tell where there are several.
+    /// Also how sure they are.
+    Scatter,
+    /// Also what comes back of the residual, and what the logs tell where there are several.
     All(Option<&'a Logs>),
 }
 
@@ -54,9 +56,8 @@ pub(crate) fn refitted(
     let first = (last.longest <= LONGEST_STEP).then(|| First {
         p: last.p.clone(),
         c: last.c.clone(),
-        residual: at.residual().to_vec(),
     });
-    if let Asked::All(_) = asked {
+    if !matches!(asked, Asked::Unknowns) {
         if last.longest > LONGEST_STEP {
             let p = descended(&objective, &replica.p, counts)?;
             at = evaluated(&p, counts);
@@ -71,18 +72,16 @@ pub(crate) fn refitted(
             last = stepped(&objective, &last.p, &at)?;
         }
     }
+    let scatter = matches!(asked, Asked::Scatter).then(|| unknowns(&objective, &at));
     let all = match asked {
-        Asked::Unknowns => None,
+        Asked::Unknowns | Asked::Scatter => None,
         Asked::All(logs) => {
-            let unknowns = unknowns(&objective, &at);
             let left = logs.and_then(|logs| logs.within(&at));
             let left = left.as_deref().unwrap_or(at.residual());
             Some(All {
                 energies: Divisions::of(&objective, &at, &last.p).energies(left),
-                against: stated::against(&objective, &replica.terms, (&at, &last.p)),
                 square: dynamics::square(&objective, (&at, &last.p), left),
-                told: logs.and_then(|logs| logs.told(&objective, &last.p, &at, &unknowns.bread)),
-                unknowns,
+                told: logs.and_then(|logs| logs.told(&objective, &last.p, &at)),
             })
         }
     };
@@ -91,6 +90,7 @@ pub(crate) fn refitted(
         square: (at.cost - last.fall).max(0.0) / at.residual().len().max(1) as f64,
         c: last.c,
         first,
+        scatter,
         all,
     };
     let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
@@ -188,6 +188,8 @@ pub(crate) struct Refit {
     pub c: Vec<f64>,
     /// What the first step found; `None` where it is not to be trusted.
     pub first: Option<First>,
+    /// How sure they are, where that was asked for.
+    pub scatter: Option<Scatter>,
     /// What else was asked for.
     pub all: Option<All>,
     /// Mean square of the residual.
@@ -200,27 +202,21 @@ pub(crate) struct First {
     pub p: Vec<f64>,
     /// Linear ones.
     pub c: Vec<f64>,
-    /// What the true values leave.
-    residual: Vec<f64>,
 }
 
-/// What a fit of a replica without noise of the force finds to first order, and what that noise adds.
+/// What a fit of a replica without noise of the force finds to first order.
 pub(crate) struct Quiet {
     /// Nonlinear unknowns.
     pub p: Vec<f64>,
     /// Linear ones.
     pub c: Vec<f64>,
-    /// Covariance of both by the noise.
-    pub noise: DMatrix<f64>,
 }
 
-/// One step from the true values, beside the `first` one of the same replica with noise: what the latter leaves more is the noise
-/// as the fit sees it, filtered and thinned.
+/// One step from the true values.
 pub(crate) fn without_noise(
     quiet: &Replica,
     conditioning: &Conditioning,
     fitted: &Estimate,
-    first: &First,
     counts: &mut Counts,
 ) -> Option<Quiet> {
     let record = condition_as(&quiet.logs, conditioning, 0.0).ok()?;
@@ -228,21 +224,14 @@ pub(crate) fn without_noise(
     let at = objective.evaluate(&quiet.p, true);
     counts.derivatives += 1;
     let Stepped { p, c, .. } = stepped(&objective, &quiet.p, &at)?;
-    let both = first.residual.iter().zip(at.residual());
-    let noise: Vec<f64> = both.map(|(noisy, quiet)| noisy - quiet).collect();
-    let noise = by_noise(&objective, &at, &noise);
-    let finite = p.iter().chain(&c).chain(&noise).all(|x| x.is_finite());
-    finite.then_some(Quiet { p, c, noise })
+    let finite = p.iter().chain(&c).all(|x| x.is_finite());
+    finite.then_some(Quiet { p, c })
 }
 
 /// What a fit of a replica says beside its unknowns.
 pub(crate) struct All {
-    /// Uncertainty of the unknowns from the residual.
-    pub unknowns: Unknowns,
     /// What comes back of the residual.
     pub energies: Energies,
-    /// What its residual has against what is stated.
-    pub against: Against,
     /// The square of the time of dynamics between force and motion, samples; `None` where the delay is not fitted.
     pub square: Option<f64>,
     /// What its logs tell; `None` for a single one.

@@ -177,6 +177,8 @@ impl<'a> Axis<'a> {
             (Delay::Fitted, Some(own)) => *own = delay,
             _ => terms.delay = Delay::Given(delay * self.record.step()),
         }
+        // Its fit is asked what conditioning does, not once more what was known before.
+        terms.prior = terms.prior.map(|prior| prior.about(&self.fitted.law, &p));
         let (logs, quiet) = both.into_iter().unzip();
         Some(Replica {
             logs,

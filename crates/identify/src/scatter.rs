@@ -7,14 +7,19 @@
 
 pub(crate) mod strokes;
 
-use crate::estimate::uncertainty::inverse;
+use crate::estimate::uncertainty::{inverse, inverse_in_parts};
+use crate::parameter::physical::Physical;
+use crate::separable::linear::dot;
 use crate::student;
 use nalgebra::{DMatrix, DVector};
+use std::ops::Range;
 use strokes::{PIECES, Strokes};
 
 /// What friction changes between two runs of a test, in parts of itself: its level, half of the difference of the directions, and
 /// its tilt over the speed. A prior: repeats on five machines (two stages, two servo axes, a robot joint) scatter by 1.3 to 3 %.
 const WANDER: [f64; 3] = [0.02, 0.015, 0.015];
+/// Logs of one machine that what is known of any machine counts as.
+const MACHINES: f64 = 4.0;
 /// Ends of the ratio of whole strokes to their pieces that is believed where strokes are few.
 const SIZE: (f64, f64) = (0.5, 6.0);
 /// Added to the diagonal of the scaled covariance of pieces before it is inverted: what they say of no direction is no ratio.
@@ -31,8 +36,14 @@ pub(crate) struct Scatter {
     freedom: f64,
     /// What friction that is another one in the next run adds.
     wander: DMatrix<f64>,
-    /// Changes of the parameters where one half of the motion counts for more, in pairs.
+    /// Changes of the parameters where one half of the motion counts for more, in pairs; empty until they are asked for.
     moved: Vec<DVector<f64>>,
+    /// Inverse of the information: the covariance for independent residuals of variance 1.
+    pub bread: DMatrix<f64>,
+    /// The same without what is known before the log.
+    alone: DMatrix<f64>,
+    /// Square of the residual that counts as an independent sample, in the square of the unit of the force.
+    pub variance: f64,
 }
 
 /// Half widths of a 95 % interval.
@@ -46,6 +57,19 @@ pub struct HalfWidths {
     pub transfer: f64,
 }
 
+/// Variances of a parameter, by what it is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Variances {
+    /// Of the same test again, now.
+    pub at_once: f64,
+    /// Of the same test on another day.
+    pub repeat: f64,
+    /// Of another motion of the same kind.
+    pub transfer: f64,
+    /// Degrees of freedom of the first.
+    pub freedom: f64,
+}
+
 /// A fit, as its scatter sees it.
 pub(crate) struct Fitted<'a> {
     /// Derivatives of the model by each parameter at the kept samples.
@@ -53,13 +77,15 @@ pub(crate) struct Fitted<'a> {
     pub residual: &'a [f64],
     /// Force of friction, without a constant part.
     pub friction: &'a [f64],
+    /// The samples of each log; empty for a single one.
+    pub logs: &'a [Range<usize>],
     /// Inverse of the variance that each parameter has before the log.
     pub prior: Vec<f64>,
 }
 
 impl Scatter {
     /// Of a fit with these strokes; `None` where there are no more samples than parameters.
-    pub fn of(fit: &Fitted, strokes: &Strokes) -> Option<Self> {
+    pub fn from_strokes(fit: &Fitted, strokes: &Strokes) -> Option<Self> {
         let (p, n) = (fit.jacobian.len(), fit.residual.len());
         if p == 0 || n <= p {
             return None;
@@ -71,57 +97,183 @@ impl Scatter {
             .map(|column| 1.0 / size(column))
             .collect();
         let pulls = Pulls::of(fit, &scale, strokes);
-        let variance = pulls.variance(&gram(fit, &scale, None), fit.residual);
-        let prior = DVector::from_fn(p, |i, _| variance * fit.prior[i] * scale[i] * scale[i]);
-        let bread = |weight: Option<&[f64]>| {
-            let information = gram(fit, &scale, weight) + DMatrix::from_diagonal(&prior);
-            inverse(information).0
-        };
-        let own = bread(None);
+        let all = gram(fit, &scale, None);
+        let variance = pulls.variance(&all, fit.residual);
+        let known = prior(fit, &scale, variance);
+        let (own, lost) = inverse_in_parts(&all + known);
+        let alone = inverse(all).0;
         let (meat, freedom) = pulls.meat(strokes);
         let back = DMatrix::from_fn(p, p, |i, j| scale[i] * scale[j]);
-        let at_once = (&own * meat * &own).component_mul(&back);
-        let sources = wander(fit.friction, strokes);
+        // No residual has a component in a direction lost to rounding, so the pulls give no variance for it.
+        let at_once = (&own * meat * &own + &lost * variance).component_mul(&back);
+        let sources = wander(fit, strokes);
         let reached = sources.map(|source| &own * products(fit, &scale, &source));
         let wander: DMatrix<f64> = reached.iter().map(|w| w * w.transpose()).sum();
-        let mut moved = Vec::new();
-        for half in &strokes.halves {
-            for side in [true, false] {
-                let weight = |half: &bool| if *half == side { 1.0 } else { REWEIGHTED };
-                let weight: Vec<f64> = half.iter().map(weight).collect();
-                let weighted: Vec<f64> = weight
-                    .iter()
-                    .zip(fit.residual)
-                    .map(|(w, r)| w * r)
-                    .collect();
-                let step = bread(Some(&weight)) * products(fit, &scale, &weighted);
-                moved.push(DVector::from_fn(p, |i, _| step[i] * scale[i]));
-            }
-        }
         Some(Self {
             at_once,
             freedom,
             wander: wander.component_mul(&back),
-            moved,
+            moved: Vec::new(),
+            bread: (own + lost).component_mul(&back),
+            alone: alone.component_mul(&back),
+            variance,
         })
     }
 
-    /// Of a linear function of the parameters, by its derivatives.
-    pub fn half_widths(&self, gradient: &DVector<f64>) -> HalfWidths {
+    /// The same with what another motion changes.
+    pub fn with_transfer(mut self, fit: &Fitted, strokes: &Strokes) -> Self {
+        let scale: Vec<f64> = (fit.jacobian.iter())
+            .map(|column| 1.0 / size(column))
+            .collect();
+        let all = gram(fit, &scale, None);
+        let pull = products(fit, &scale, fit.residual);
+        let variance = Pulls::of(fit, &scale, strokes).variance(&all, fit.residual);
+        let prior = prior(fit, &scale, variance);
+        for half in &strokes.halves {
+            let inside: Vec<f64> = (half.iter().zip(fit.residual))
+                .map(|(half, r)| if *half { *r } else { 0.0 })
+                .collect();
+            let inside = (
+                gram(fit, &scale, Some(half)),
+                products(fit, &scale, &inside),
+            );
+            let outside = (&all - &inside.0, &pull - &inside.1);
+            for (own, other) in [(&inside, &outside), (&outside, &inside)] {
+                let information = &own.0 + &other.0 * REWEIGHTED + &prior;
+                let step = inverse(information).0 * (&own.1 + &other.1 * REWEIGHTED);
+                self.moved
+                    .push(DVector::from_fn(step.len(), |i, _| step[i] * scale[i]));
+            }
+        }
+        self
+    }
+
+    /// The variances of a linear function of the parameters, by its derivatives.
+    pub fn variances(&self, gradient: &DVector<f64>) -> Variances {
         let along = |matrix: &DMatrix<f64>| (gradient.transpose() * matrix * gradient)[0].max(0.0);
-        let at_once = along(&self.at_once).max(f64::MIN_POSITIVE);
+        let at_once = along(&self.at_once);
         let repeat = at_once + along(&self.wander);
         let moved = self.moved.iter().map(|change| change.dot(gradient).powi(2));
-        let transfer = repeat + 0.5 * moved.sum::<f64>();
-        // What wanders has a variance that is given.
-        let part = repeat / at_once;
-        let quantile = student::quantile(self.freedom * part * part);
-        HalfWidths {
-            at_once: student::quantile(self.freedom) * at_once.sqrt(),
-            repeat: quantile * repeat.sqrt(),
-            transfer: quantile * transfer.sqrt(),
+        Variances {
+            at_once,
+            repeat,
+            transfer: repeat + 0.5 * moved.sum::<f64>(),
+            freedom: self.freedom,
         }
     }
+
+    /// The variances of a parameter of a law.
+    pub fn of(&self, parameter: &Physical) -> Variances {
+        // Where less was evaluated, nothing is stated of the rest.
+        let known = parameter.slope.len().min(self.at_once.nrows());
+        let mut gradient = DVector::zeros(self.at_once.nrows());
+        gradient
+            .rows_mut(0, known)
+            .copy_from_slice(&parameter.slope[..known]);
+        self.variances(&gradient)
+    }
+
+    /// Variance of a parameter from the log alone.
+    pub fn alone(&self, parameter: &Physical) -> f64 {
+        self.variance * parameter.variance(&self.alone)
+    }
+
+    /// The same beside what is known before it.
+    pub fn beside_prior(&self, parameter: &Physical) -> f64 {
+        self.variance * parameter.variance(&self.bread)
+    }
+
+    /// Covariance of the same test again, now.
+    pub fn at_once(&self) -> &DMatrix<f64> {
+        &self.at_once
+    }
+
+    /// Covariance of the same test on another day.
+    pub fn repeat(&self) -> DMatrix<f64> {
+        &self.at_once + &self.wander
+    }
+
+    /// The same among `all` parameters, of which these are at the places `index`; nothing is known of the others.
+    pub fn among(&self, index: &[usize], all: usize) -> Self {
+        let spread = |small: &DMatrix<f64>| {
+            let mut out = DMatrix::zeros(all, all);
+            for (a, &i) in index.iter().enumerate() {
+                for (b, &j) in index.iter().enumerate() {
+                    out[(i, j)] = small[(a, b)];
+                }
+            }
+            out
+        };
+        let each = |small: &DVector<f64>| {
+            let mut out = DVector::zeros(all);
+            (index.iter().zip(small.iter())).for_each(|(i, x)| out[*i] = *x);
+            out
+        };
+        Self {
+            at_once: spread(&self.at_once),
+            freedom: self.freedom,
+            wander: spread(&self.wander),
+            moved: self.moved.iter().map(each).collect(),
+            bread: spread(&self.bread),
+            alone: spread(&self.alone),
+            variance: self.variance,
+        }
+    }
+
+    /// Where nothing is known of `all` parameters.
+    pub fn unknown(all: usize) -> Self {
+        let unbounded = DMatrix::from_element(all, all, f64::INFINITY);
+        Self {
+            at_once: unbounded.clone(),
+            freedom: 1.0,
+            wander: DMatrix::zeros(all, all),
+            moved: Vec::new(),
+            bread: unbounded.clone(),
+            alone: unbounded,
+            variance: f64::INFINITY,
+        }
+    }
+}
+
+impl Variances {
+    /// One that is known, whatever it is asked for.
+    pub fn known(variance: f64) -> Self {
+        Self {
+            at_once: variance,
+            repeat: variance,
+            transfer: variance,
+            freedom: f64::INFINITY,
+        }
+    }
+
+    /// With more that is known.
+    pub fn and(self, variance: f64) -> Self {
+        Self {
+            at_once: self.at_once + variance,
+            repeat: self.repeat + variance,
+            transfer: self.transfer + variance,
+            ..self
+        }
+    }
+
+    /// Half widths of 95 % intervals.
+    pub fn half_widths(&self) -> HalfWidths {
+        // What wanders has a variance that is given.
+        let part = self.repeat / self.at_once.max(f64::MIN_POSITIVE);
+        let quantile = student::quantile(self.freedom * part * part);
+        HalfWidths {
+            at_once: student::quantile(self.freedom) * self.at_once.sqrt(),
+            repeat: quantile * self.repeat.sqrt(),
+            transfer: quantile * self.transfer.sqrt(),
+        }
+    }
+}
+
+/// What is known before the log, as information of the scaled parameters.
+fn prior(fit: &Fitted, scale: &[f64], variance: f64) -> DMatrix<f64> {
+    DMatrix::from_diagonal(&DVector::from_fn(scale.len(), |i, _| {
+        variance * fit.prior[i] * scale[i] * scale[i]
+    }))
 }
 
 /// Root of the sum of squares, or 1 where that is 0.
@@ -130,26 +282,23 @@ fn size(column: &[f64]) -> f64 {
     if square > 0.0 { square.sqrt() } else { 1.0 }
 }
 
-/// `J' W J` of the scaled columns.
-fn gram(fit: &Fitted, scale: &[f64], weight: Option<&[f64]>) -> DMatrix<f64> {
+/// `J' J` of the scaled columns, over a part of the samples.
+fn gram(fit: &Fitted, scale: &[f64], part: Option<&[bool]>) -> DMatrix<f64> {
     let p = scale.len();
     let mut out = DMatrix::zeros(p, p);
+    let mut kept = Vec::new();
     for i in 0..p {
-        let weighted: Vec<f64> = match weight {
-            Some(weight) => fit.jacobian[i]
-                .iter()
-                .zip(weight)
-                .map(|(x, w)| x * w)
-                .collect(),
-            None => fit.jacobian[i].to_vec(),
+        let column = match part {
+            Some(part) => {
+                kept.clear();
+                let each = fit.jacobian[i].iter().zip(part);
+                kept.extend(each.map(|(x, inside)| if *inside { *x } else { 0.0 }));
+                &kept
+            }
+            None => fit.jacobian[i],
         };
         for j in 0..=i {
-            let sum: f64 = weighted
-                .iter()
-                .zip(fit.jacobian[j])
-                .map(|(x, y)| x * y)
-                .sum();
-            out[(i, j)] = sum * scale[i] * scale[j];
+            out[(i, j)] = dot(column, fit.jacobian[j]) * scale[i] * scale[j];
             out[(j, i)] = out[(i, j)];
         }
     }
@@ -158,26 +307,40 @@ fn gram(fit: &Fitted, scale: &[f64], weight: Option<&[f64]>) -> DMatrix<f64> {
 
 /// `J' y` of the scaled columns.
 fn products(fit: &Fitted, scale: &[f64], y: &[f64]) -> DVector<f64> {
-    let each = fit.jacobian.iter().zip(scale);
-    let sums = each.map(|(column, s)| s * column.iter().zip(y).map(|(x, y)| x * y).sum::<f64>());
+    let sums = fit.jacobian.iter().zip(scale).map(|(x, s)| s * dot(x, y));
     DVector::from_iterator(scale.len(), sums)
 }
 
 /// Forces by which friction differs in the next run: level, directions, tilt.
-fn wander(friction: &[f64], strokes: &Strokes) -> [Vec<f64>; 3] {
-    let [level, side, tilt] = WANDER;
+fn wander(fit: &Fitted, strokes: &Strokes) -> [Vec<f64>; 3] {
+    let [_, side, tilt] = WANDER;
+    let level = level(fit);
     let factor = |k: usize, i: usize| match k {
         0 => level,
         1 => side * strokes.sense[i],
         _ => tilt * (2.0 * (strokes.speed[i] / strokes.top).min(1.0) - 1.0),
     };
     [0, 1, 2].map(|k| {
-        friction
+        fit.friction
             .iter()
             .enumerate()
             .map(|(i, f)| factor(k, i) * f)
             .collect()
     })
+}
+
+/// By what part of itself the level of friction differs from one log to the next: as it does in these, with what is known of any
+/// machine as [`MACHINES`] more of them.
+fn level(fit: &Fitted) -> f64 {
+    let [machines, ..] = WANDER;
+    let apart = |range: &Range<usize>| {
+        let friction = &fit.friction[range.clone()];
+        dot(friction, &fit.residual[range.clone()]) / dot(friction, friction)
+    };
+    let apart = fit.logs.iter().map(apart).filter(|part| part.is_finite());
+    let squares: f64 = apart.map(|part| part * part).sum();
+    let freedom = MACHINES + fit.logs.len().saturating_sub(1) as f64;
+    ((MACHINES * machines * machines + squares) / freedom).sqrt()
 }
 
 /// Sums of the scores of each piece of each stroke.

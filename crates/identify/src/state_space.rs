@@ -18,10 +18,10 @@ mod state;
 mod tangent;
 mod unknowns;
 
-use crate::agreement::Between;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use crate::law::LawKind;
+use crate::parameter::Added;
 use crate::parameter::Parameter;
 use crate::watch::Watch;
 
@@ -75,8 +75,8 @@ pub fn rests_much(record: &Record) -> bool {
 
 /// What a fit of the force knows beside the parameters that the counts state.
 pub(crate) struct Known<'a> {
-    /// What the logs add between them.
-    pub between: &'a Between,
+    /// What is added to its variances.
+    pub more: &'a Added,
     /// The delay as that fit states it, with what its replicas show.
     pub delay: Option<&'a Parameter>,
 }
@@ -96,7 +96,7 @@ pub(crate) fn ask(
         None if watch.stopped => Counts::NotAsked,
         None => Counts::Unexplained,
         Some(found) if found.against.is_empty() => {
-            state::state(estimate, &found, known.between);
+            state::state(estimate, &found, known.more);
             Counts::Stated
         }
         Some(found) => Counts::Doubted(Doubted(Box::new(found))),

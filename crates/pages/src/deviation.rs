@@ -2,10 +2,13 @@
 
 use stiction_files::result::{ParameterEntry, ResultFile};
 use stiction_identify::IDENTIFIABLE;
-use stiction_number::Percent;
+use stiction_number::{Percent, short};
 use stiction_parameters::{Dimension, Name, Quantity};
 
-/// The deviation of a parameter in a form that a reader can use.
+/// 97.5 % quantile of the normal distribution.
+const NORMAL: f64 = 1.96;
+
+/// Half width of a 95 % interval of a parameter in a form that a reader can use.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Deviation {
     /// It was not fitted.
@@ -21,9 +24,30 @@ pub(crate) enum Deviation {
 }
 
 impl Deviation {
-    /// Of a parameter of a result.
+    /// As a cell of a table, with the unit of the parameter where it needs one.
+    pub fn cell(self, unit: &str) -> String {
+        match self {
+            Self::Given => "given".into(),
+            Self::Absolute(half) => format!("± {} {unit}", short(half)),
+            Self::Relative(part) => format!("± {}", part.digits(2)),
+            Self::Unknown => String::new(),
+            Self::Unbounded => "not bounded".into(),
+        }
+    }
+
+    /// Of a parameter of a result: for the same test on another day.
     pub fn of(p: &ParameterEntry, result: &ResultFile) -> Self {
-        let Some(std) = p.std.filter(|_| p.origin != "given") else {
+        let half = p.half_width.map(|half| half.repeat);
+        Self::of_half(p, half.or(p.std.map(|std| NORMAL * std)), result)
+    }
+
+    /// The same for another motion; `Unknown` where only one interval is known.
+    pub fn of_transfer(p: &ParameterEntry, result: &ResultFile) -> Self {
+        Self::of_half(p, p.half_width.map(|half| half.transfer), result)
+    }
+
+    fn of_half(p: &ParameterEntry, half: Option<f64>, result: &ResultFile) -> Self {
+        let Some(half) = half.filter(|_| p.origin != "given") else {
             return match p.origin.as_str() {
                 "given" => Self::Given,
                 _ => Self::Unknown,
@@ -32,7 +56,7 @@ impl Deviation {
         let size = p.value.abs();
         let name: Option<Name> = p.name.parse().ok();
         let may_be_zero = name.is_some_and(|n| !n.quantity.allowed().is_never_negative());
-        if may_be_zero && std > IDENTIFIABLE * size {
+        if may_be_zero && half > IDENTIFIABLE * size {
             // The scale by which it is judged: the Coulomb level where the parameter is a force, the sample time for
             // a delay.
             let level = match name.map(|n| n.dimension()) {
@@ -40,16 +64,16 @@ impl Deviation {
                 Some(Dimension::Time) => result.inputs.first().map_or(0.0, |i| 1.0 / i.rate_hz),
                 _ => 0.0,
             };
-            let part = Percent::deviation(100.0 * std / size.max(level));
+            let part = Percent::deviation(100.0 * half / size.max(level));
             return match p.identifiable || part.is_bounded() {
-                true => Self::Absolute(std),
+                true => Self::Absolute(half),
                 false => Self::Unbounded,
             };
         }
         if size == 0.0 {
             return Self::Unknown;
         }
-        let part = Percent::deviation(100.0 * std / size);
+        let part = Percent::deviation(100.0 * half / size);
         match p.identifiable || part.is_bounded() {
             true => Self::Relative(part),
             false => Self::Unbounded,

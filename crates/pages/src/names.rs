@@ -18,6 +18,9 @@ pub(crate) fn law_beside(entry: &LawEntry) -> String {
     if entry.exponent_fitted {
         name.push_str(", δ fitted");
     }
+    if entry.quadratic_viscous {
+        name.push_str(" + v|v|");
+    }
     if entry.asymmetric && entry.offset {
         name.push_str(", with offset");
     }
@@ -30,7 +33,6 @@ fn named(law: &str, asymmetric: bool, without: &[String]) -> String {
         name.push_str(match held.as_str() {
             "stribeck" => " with Fs = Fc",
             "sigma1" => " with σ₁ = 0",
-            "unseen-force" => ", Fs as high as seen",
             _ => "",
         });
     }
@@ -130,6 +132,7 @@ mod tests {
             without: Vec::new(),
             exponent_fitted: false,
             offset: !asymmetric,
+            quadratic_viscous: false,
             elements: None,
             parameters: 9,
             fitted_error_percent: error,

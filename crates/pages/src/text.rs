@@ -71,19 +71,21 @@ pub fn outcome(outcome: &Outcome) -> String {
         chosen_by(&result.law_chosen_by)
     );
     let mut rows = vec![
-        ["parameter", "", "value", "unit", "std", "95 % interval", ""]
-            .map(String::from)
-            .to_vec(),
+        [
+            "parameter",
+            "",
+            "value",
+            "unit",
+            "another day",
+            "95 % interval",
+            "another motion",
+            "",
+        ]
+        .map(String::from)
+        .to_vec(),
     ];
     for p in parameters_shown(result) {
         let deviation = Deviation::of(p, result);
-        let std = match deviation {
-            Deviation::Given => "given".to_string(),
-            Deviation::Absolute(std) => format!("{} {}", short(std), unit(&p.unit)),
-            Deviation::Relative(part) => part.decimals(2),
-            Deviation::Unknown => "-".into(),
-            Deviation::Unbounded => "not bounded".into(),
-        };
         let interval = match p.range() {
             Some((f64::NEG_INFINITY, high)) => format!("at most {}", short(high)),
             Some((low, f64::INFINITY)) => format!("at least {}", short(low)),
@@ -100,8 +102,12 @@ pub fn outcome(outcome: &Outcome) -> String {
                 _ => short(p.value),
             },
             unit(&p.unit),
-            std,
+            deviation.cell(&unit(&p.unit)),
             interval,
+            match deviation {
+                Deviation::Given | Deviation::Unbounded => String::new(),
+                _ => Deviation::of_transfer(p, result).cell(&unit(&p.unit)),
+            },
             if p.identifiable {
                 String::new()
             } else {
@@ -111,7 +117,7 @@ pub fn outcome(outcome: &Outcome) -> String {
     }
     out.push_str(&table(
         &rows,
-        &[false, false, true, false, true, true, false],
+        &[false, false, true, false, true, true, true, false],
     ));
     let fit = &result.fit;
     let _ = writeln!(
@@ -124,6 +130,9 @@ pub fn outcome(outcome: &Outcome) -> String {
     );
     if let Some(curve) = &result.friction_curve {
         let _ = writeln!(out, "friction    {}", friction(curve));
+    }
+    if let Some(line) = line(result) {
+        let _ = writeln!(out, "simulators  {line}");
     }
     for along in &result.level_along {
         let _ = writeln!(out, "stroke      {}", level_along(along, outcome));
@@ -273,6 +282,33 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
         );
     }
     out
+}
+
+/// Coulomb and viscous friction with the mass, as simulators take them; `None` where they are not known.
+fn line(result: &ResultFile) -> Option<String> {
+    let curve = result.friction_curve.as_ref()?;
+    let line = curve.line.as_ref()?;
+    let stated = |value: f64, half: Option<f64>, of: &str| {
+        let part = half.map(|half| Percent::deviation(100.0 * half / value.abs()));
+        match part.filter(|part| part.is_bounded()) {
+            Some(part) => format!("{} {} ± {}", short(value), unit(of), part.digits(2)),
+            None => format!("{} {}", short(value), unit(of)),
+        }
+    };
+    let mass = result.parameters.iter().find(|p| p.name == "mass");
+    let mass = mass.map_or(String::new(), |p| {
+        let half = p.half_width.map(|half| half.repeat);
+        format!(", {} {}", p.symbol, stated(p.value, half, &p.unit))
+    });
+    Some(format!(
+        "Coulomb {}, viscous {}{mass}",
+        stated(line.coulomb.value, Some(line.coulomb.repeat), &curve.unit),
+        stated(
+            line.viscous.value,
+            Some(line.viscous.repeat),
+            &line.viscous_unit
+        ),
+    ))
 }
 
 /// Half width of a 95 % interval for another day, relative, up to which friction at a speed is stated.

@@ -21,7 +21,7 @@ mod claims;
 mod identified;
 
 use asked::{Asked, all, cell};
-use claims::{Figures, Run};
+use claims::{Claim, Figures, Run};
 use identified::identified;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -151,7 +151,7 @@ fn widths(cases: &[Case], runs: &[Run]) {
     for (case, run) in cases.iter().zip(runs).filter(|both| as_assumed(both.0)) {
         let column = names.iter().position(|name| *name == case.motion.name());
         for claim in &run.claims {
-            let sided = claim.0.trim_end_matches("_pos").trim_end_matches("_neg");
+            let sided = claim.name.trim_end_matches("_pos").trim_end_matches("_neg");
             let by_motion = found.entry((sided, case.axis));
             let by_motion = by_motion.or_insert_with(|| vec![Vec::new(); names.len()]);
             by_motion[column.expect("one of all motions")].push(half_width(claim));
@@ -170,8 +170,8 @@ fn widths(cases: &[Case], runs: &[Run]) {
 }
 
 /// Half of the interval of a claim, in parts of the truth.
-fn half_width(claim: &(String, f64, f64)) -> f64 {
-    (claim.1 / claim.2).abs()
+fn half_width(claim: &Claim) -> f64 {
+    (claim.part / claim.at_once).abs()
 }
 
 fn middle(mut values: Vec<f64>) -> Option<f64> {
@@ -188,17 +188,17 @@ fn row(head: &str, runs: &[&Run]) {
         return;
     }
     let claims = || runs.iter().flat_map(|r| &r.claims);
-    let inside = claims().filter(|c| c.2.abs() <= 1.0).count();
+    let inside = claims().filter(|c| c.at_once.abs() <= 1.0).count();
     let open: usize = runs.iter().filter(|r| r.trusted).map(|r| r.open).sum();
-    let worst = |by: fn(&(String, f64, f64)) -> f64| {
+    let worst = |by: fn(&Claim) -> f64| {
         claims()
             .max_by(|a, b| by(a).abs().total_cmp(&by(b).abs()))
-            .map(|c| (c.0.clone(), by(c)))
+            .map(|c| (c.name.clone(), by(c)))
     };
-    let part = worst(|c| c.1).map_or(String::new(), |(name, x)| {
+    let part = worst(|c| c.part).map_or(String::new(), |(name, x)| {
         format!("{name} {:+.1} %", 100.0 * x)
     });
-    let halves = worst(|c| c.2).map_or(String::new(), |(name, x)| format!("{name} {x:+.1}"));
+    let halves = worst(|c| c.transfer).map_or(String::new(), |(name, x)| format!("{name} {x:+.1}"));
     let width = percent(middle(claims().map(half_width).collect()));
     let mut codes = BTreeMap::<&str, usize>::new();
     for code in runs.iter().flat_map(|r| &r.codes) {

@@ -1,6 +1,6 @@
 //! A parameter of a fit, as a programmer asks for it.
 
-use stiction_files::result::ParameterEntry;
+use stiction_files::result::{HalfWidthEntry, ParameterEntry};
 
 /// One parameter of an identified law.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +36,12 @@ impl<'a> Parameter<'a> {
     /// The 95 % interval; an end is infinite where the data bound the value on one side only, `None` where on neither.
     pub fn interval(&self) -> Option<(f64, f64)> {
         self.0.range()
+    }
+
+    /// Half widths of the 95 % interval by what it is asked for: the same test again, on another day, another motion; `None` where
+    /// only [`interval`](Self::interval) is known.
+    pub fn half_widths(&self) -> Option<HalfWidthEntry> {
+        self.0.half_width
     }
 
     /// Whether the log determines it, or it was given. A value that is not identifiable is not to be used.

@@ -46,6 +46,7 @@ mod trust;
 mod turn;
 mod turned;
 mod unfit;
+mod weight;
 
 pub(crate) use condition::record_of;
 pub(crate) use load::{Asked, GIVEN_ONCE};

@@ -74,6 +74,8 @@ pub struct Axis {
     pub(super) search: SearchValues,
     /// Whether to fit a constant force; `None` follows from the law.
     pub(super) offset: Option<bool>,
+    /// Whether anything is said of gravity.
+    pub(super) gravity_is_stated: bool,
     /// Values whose unit fits one kind of axis only, checked when the log says which it is.
     pub(super) tied: Vec<Tied>,
     pub(super) file: PathBuf,
@@ -109,6 +111,7 @@ impl Default for Axis {
             controller: None,
             search: SearchValues::default(),
             offset: None,
+            gravity_is_stated: false,
             tied: Vec::new(),
             file: PathBuf::new(),
             read_from: None,
@@ -178,9 +181,9 @@ impl Axis {
         self.sha256.as_deref()
     }
 
-    /// Whether nothing is said of a constant force beside the law.
-    pub fn leaves_offset_open(&self) -> bool {
-        self.offset.is_none()
+    /// Whether nothing is said of gravity.
+    pub fn leaves_gravity_open(&self) -> bool {
+        !self.gravity_is_stated
     }
 
     /// The Stribeck exponent to assume, dimensionless: that of the Gaussian curve unless another is given.

@@ -11,6 +11,10 @@ pub struct FrictionCurveEntry {
     pub unit: String,
     /// Half of the sum of both directions at a twentieth, half and all of the top speed; of a log with one direction its own.
     pub at: Vec<FrictionAtEntry>,
+    /// Coulomb and viscous friction of the straight line nearest to half of the sum of both directions from a tenth of the top speed
+    /// on, as simulators take it; absent for one direction.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<FrictionLineEntry>,
     /// Speeds from the least to the top speed.
     pub speed: Vec<f64>,
     /// Half of the sum of both directions; absent for one direction.
@@ -34,6 +38,30 @@ pub struct FrictionAtEntry {
     pub speed: f64,
     /// Force against the motion.
     pub force: f64,
+    /// Half width for the same test again, now.
+    pub at_once: f64,
+    /// Half width for the same test on another day.
+    pub repeat: f64,
+    /// Half width for another motion of the same kind.
+    pub transfer: f64,
+}
+
+/// Coulomb and viscous friction of a straight line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrictionLineEntry {
+    /// Friction at no speed.
+    pub coulomb: ValueEntry,
+    /// Friction that is added for each unit of the speed.
+    pub viscous: ValueEntry,
+    /// Unit of the latter.
+    pub viscous_unit: String,
+}
+
+/// A value with half widths of 95 % intervals.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ValueEntry {
+    /// The value.
+    pub value: f64,
     /// Half width for the same test again, now.
     pub at_once: f64,
     /// Half width for the same test on another day.

@@ -52,7 +52,7 @@ fn main() {
 fn table(tallies: &[Tally]) {
     println!(
         "  {:18} {:>12} {:>9} {:>9} {:>9} {:>9} {:>9}",
-        "", "identifiable", "profiled", "hold", "bias %", "spread %", "stated %"
+        "", "identifiable", "hold", "bias %", "spread %", "stated %"
     );
     for t in tallies {
         let size = if t.truth == 0.0 { 1.0 } else { t.truth };
@@ -64,7 +64,6 @@ fn table(tallies: &[Tally]) {
             "  {:18} {:12} {:9} {:7.1} % {:9.3} {:9.3} {:9.3}",
             t.name,
             t.identifiable,
-            t.profiled,
             100.0 * t.coverage(),
             100.0 * (mean - t.truth) / size,
             100.0 * spread / size,

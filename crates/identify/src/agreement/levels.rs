@@ -7,7 +7,6 @@ use crate::parameter::physical::Physical;
 use crate::separable::logs::Logs;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::DMatrix;
-use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity};
 
 /// Deviations of a difference from which it is no chance: 1 in 1000 with the nine degrees of freedom of ten replicas.
@@ -40,40 +39,13 @@ pub struct Disagreement {
     pub part: f64,
 }
 
-impl Disagreement {
-    /// Why a parameter is no constant of the machine; `None` where its interval says enough. Static friction is so many times
-    /// the Coulomb level.
-    pub(crate) fn against(&self, name: Name) -> Option<String> {
-        let of_level = self.name.quantity == Quantity::Coulomb
-            && name == Name::new(Quantity::Static, self.name.side);
-        let differs = name == self.name || of_level;
-        (differs && self.part >= NOT_CONSTANT).then(|| {
-            format!(
-                "differs between the logs: {} in log {}, {} in log {}",
-                four_digits(self.values[0]),
-                self.logs[0] + 1,
-                four_digits(self.values[1]),
-                self.logs[1] + 1
-            )
-        })
-    }
-}
-
 /// A number for each compared parameter, log by log.
 pub(super) type Levels = Vec<Vec<f64>>;
 
 impl Logs {
-    /// What a fit of these logs tells, the inverse of `J^T J` being given; `None` where it has another number of samples.
-    pub fn told(
-        &self,
-        objective: &Objective,
-        p: &[f64],
-        at: &Evaluation,
-        inverse: &DMatrix<f64>,
-    ) -> Option<Told> {
+    /// What a fit of these logs tells; `None` where it has another number of samples.
+    pub fn told(&self, objective: &Objective, p: &[f64], at: &Evaluation) -> Option<Told> {
         self.are_of(at).then(|| Told {
-            pulls: self.pulls(at, inverse),
-            from_centre: self.pulls_from_centre(at, inverse),
             levels: self.levels(objective, p, at),
         })
     }

@@ -10,7 +10,6 @@ use crate::agreement::Told;
 use crate::conditioning::condition;
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
-use crate::estimate::stated::Against;
 use crate::estimate::windows::Windows;
 use crate::law::physical::physical;
 use crate::misfit::Energies;
@@ -33,10 +32,6 @@ pub(super) struct Shift {
     pub bias: Vec<f64>,
     /// Variance from one replica to the next, without what noise of the force makes to first order.
     scatter: Vec<f64>,
-    /// Variance that this noise makes.
-    noise: Vec<f64>,
-    /// Variance that the residuals of the replicas state, on average.
-    stated: Vec<f64>,
     /// Squared difference between the shift of a replica and that of a replica of it, less what chance
     /// explains.
     change: Vec<f64>,
@@ -46,36 +41,20 @@ pub(super) struct Shift {
     pub energies: Vec<Energies>,
     /// The squares of the times of dynamics between force and motion that they show, samples.
     pub squares: Vec<f64>,
-    /// What their residuals have against what is stated.
-    pub against: Vec<Against>,
     /// What the logs of each replica tell, where there are several.
     pub told: Vec<Told>,
 }
 
 impl Shift {
-    /// Variance of a parameter from which the shift was taken off, `residual` being what the residual
-    /// of the log states.
+    /// Variance of a parameter from which the shift was taken off, `strokes` being what strokes of the log differ by.
     ///
-    /// A residual made of encoder steps is correlated with the motion and repeats with it, which makes
-    /// the parameters look less certain than they are. The replicas show by how much: the variance is
-    /// taken larger or smaller as they scatter more or less than they state (calibration by a bootstrap:
-    /// Beran 1987, doi 10.1093/biomet/74.3.457). What noise of the force adds to their scatter is known in closed form; what it
-    /// added to these few by chance is taken off (a control variate: Hammersley and Handscomb 1964,
-    /// doi 10.1007/978-94-009-5819-7, section 5.5), and the rest is enlarged because they are few. Added to it are
-    /// the variance of the mean shift and the possible error of the shift itself: a tenth of it, and the
-    /// amount by which it changes from the replicas to replicas of them (an iterated bootstrap: Hall
-    /// 1992, doi 10.1007/978-1-4612-4384-7, section 1.4).
-    pub fn total(&self, i: usize, residual: f64) -> f64 {
-        let scatter = self.noise[i] + TEN_REPLICAS_FACTOR * self.scatter[i];
-        let calibration = scatter / self.stated[i];
-        let calibrated = residual
-            * if calibration.is_finite() {
-                calibration
-            } else {
-                1.0
-            };
+    /// What encoder steps do may repeat with the motion, which no stroke shows: then the replicas scatter by more, and count,
+    /// enlarged because they are few. Added are the variance of the mean shift and the possible error of the shift itself: a
+    /// tenth of it, the amount by which it changes from the replicas to replicas of them (an iterated bootstrap: Hall
+    /// 1992, doi 10.1007/978-1-4612-4384-7, section 1.4), and what other cut-offs show beyond it.
+    pub fn total(&self, i: usize, strokes: f64) -> f64 {
         let doubt = SHIFT_DOUBT * self.bias[i];
-        calibrated
+        strokes.max(TEN_REPLICAS_FACTOR * self.scatter[i])
             + self.scatter[i] / REPLICA_COUNT as f64
             + doubt * doubt
             + self.change[i]
@@ -104,9 +83,8 @@ pub(super) fn shift(
     // Those of the first without noise and to first order, which is all that is asked of the second.
     let mut alike = Shifts::default();
     let mut second = Shifts::default();
-    let (mut stated, mut by_noise) = (vec![0.0; raw.len()], vec![0.0; raw.len()]);
     let (mut energies, mut told) = (Vec::new(), Vec::new());
-    let (mut squares, mut against) = (Vec::new(), Vec::new());
+    let mut squares = Vec::new();
     for i in 0..REPLICA_COUNT {
         let (found, replica) = once(
             record,
@@ -118,9 +96,6 @@ pub(super) fn shift(
         )?;
         asked(watch)?;
         let all = found.refit.all.as_ref()?;
-        for (sum, p) in stated.iter_mut().zip(&found.parameters) {
-            *sum += p.variance(&all.unknowns.covariance) / REPLICA_COUNT as f64;
-        }
         let returns = repeating.as_ref().and_then(|axis| {
             let seed = FIRST_SEED + i;
             comes_back(record, fitted, axis, noise, (seed, logs), watch)
@@ -128,7 +103,6 @@ pub(super) fn shift(
         asked(watch)?;
         energies.push(returns.unwrap_or(all.energies));
         squares.extend(all.square);
-        against.push(all.against);
         told.extend(all.told.clone());
         let of = (record, fitted);
         let quiet = replica.without_noise();
@@ -142,9 +116,6 @@ pub(super) fn shift(
         asked(watch)?;
         alike.0.push(shift.clone());
         first.0.push(still.shift);
-        for (sum, variance) in by_noise.iter_mut().zip(&still.noise) {
-            *sum += variance / REPLICA_COUNT as f64;
-        }
         // A replica that cannot be simulated is left out. Of a replica of a replica only the shift is asked for, to first
         // order and without noise.
         if let Ok(again) = condition(&replica.logs, &conditioning)
@@ -169,13 +140,10 @@ pub(super) fn shift(
     Some(Shift {
         bias: all.clone().map(|i| first.mean(i)).collect(),
         scatter: all.clone().map(|i| first.variance(i)).collect(),
-        noise: by_noise,
-        stated,
         change: all.map(|i| second.change(&alike, i)).collect(),
         windows: windows.variance(raw.len()),
         energies,
         squares,
-        against,
         told,
     })
 }
@@ -214,8 +182,6 @@ struct Still {
     shift: Vec<f64>,
     /// That without any noise, to first order; `None` where noise moves the fit too far for that, and stays in the shift.
     first: Option<Vec<f64>>,
-    /// Variance that noise makes, which the shift is without.
-    noise: Vec<f64>,
 }
 
 impl Still {
@@ -230,14 +196,13 @@ impl Still {
         let at = |p: &[f64], c: &[f64]| physical(&fitted.law, &linear, record.step(), p, c);
         let how = record.conditioning.as_ref().zip(found.refit.first.as_ref());
         let still = how.and_then(|(conditioning, first)| {
-            let still = without_noise(quiet, conditioning, fitted, first, counts)?;
+            let still = without_noise(quiet, conditioning, fitted, counts)?;
             Some((still, first))
         });
         let Some((still, noisy)) = still else {
             return Self {
                 shift: found.shift.clone(),
                 first: None,
-                noise: vec![0.0; found.shift.len()],
             };
         };
         let first = between(&found.truth, &at(&still.p, &still.c));
@@ -246,11 +211,6 @@ impl Still {
         Self {
             shift: each
                 .map(|(all, (noisy, first))| all - noisy + first)
-                .collect(),
-            noise: found
-                .truth
-                .iter()
-                .map(|p| p.variance(&still.noise))
                 .collect(),
             first: Some(first),
         }

@@ -2,18 +2,19 @@
 
 use crate::parameter::Parameter;
 use crate::parameter::physical::Physical;
+use crate::scatter::Variances;
 use crate::separable::optimum::Optimum;
 
 /// A fitted parameter with its linear interval. `bias` is what the conditioning adds to it; `level` is
 /// the Coulomb level, with which a parameter that may be zero is compared.
 pub(super) fn fitted(
     p: &Physical,
-    variance: f64,
+    variances: Variances,
     bias: Option<f64>,
     optimum: &Optimum,
     level: f64,
 ) -> Parameter {
-    Parameter::judged(p, variance, bias, at_its_end(p, optimum), level)
+    Parameter::judged(p, variances, bias, at_its_end(p, optimum), level)
 }
 
 /// Why a parameter is not free at the optimum; empty if it is.

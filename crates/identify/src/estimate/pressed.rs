@@ -5,11 +5,13 @@
 //! knows it to be zero. What it really is, is not known: it may be as large as if it were free, and whatever presses it down
 //! (a delay, a filter, encoder steps) presses at least as far as the negative value that the data ask for.
 //!
-//! The same holds of an inertia: where the acceleration hardly changes, its force is a part of the constant one.
+//! The same holds of an inertia: where the acceleration hardly changes, its force is a part of the constant one. And of viscous
+//! friction: at hardly more than one speed its force is a part of the level.
 
 use crate::estimate::uncertainty;
 use crate::law::terms::ColumnKind;
 use crate::parameter::physical::Physical;
+use crate::scatter::strokes::Strokes;
 use crate::separable::linear::dot;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::{DMatrix, DVector};
@@ -30,7 +32,8 @@ pub(super) fn spread(
     if pressed.is_empty() {
         return None;
     }
-    let free = uncertainty::beside(objective, at, |j| {
+    let strokes = Strokes::of(objective.record());
+    let free = uncertainty::beside(objective, at, (&strokes, false), |j| {
         solution.active[j] || pressed.contains(&j)
     });
     let unknown = |j: usize| at.slopes.len() + j;
@@ -40,10 +43,13 @@ pub(super) fn spread(
         let pull = dot(&at.columns[j], at.residual());
         asked += free.bread.column(unknown(j)) * pull;
     }
-    let opened = &free.covariance - stated + &asked * asked.transpose();
+    let opened = free.at_once() - stated + &asked * asked.transpose();
     Some(raw.iter().map(|p| p.variance(&opened).max(0.0)).collect())
 }
 
 fn may_be_held(column: ColumnKind) -> bool {
-    matches!(column, ColumnKind::Rate | ColumnKind::Acceleration)
+    matches!(
+        column,
+        ColumnKind::Rate | ColumnKind::Acceleration | ColumnKind::Speed(_)
+    )
 }

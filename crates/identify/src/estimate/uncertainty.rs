@@ -12,68 +12,95 @@
 //!
 //! Why these two: decision 0014.
 
+use crate::conditioning::record::Record;
 use crate::estimate::autoregression::{Autoregression, segments};
+use crate::law::prior::Prior;
+use crate::law::terms::Terms;
+use crate::misfit;
+use crate::scatter::strokes::Strokes;
+use crate::scatter::{Fitted, Scatter};
 use crate::separable::linear::dot;
 use crate::separable::logs::Logs;
 use crate::separable::objective::{Evaluation, Objective};
+use crate::separable::optimum::Optimum;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 /// Eigenvalue of a normal matrix scaled to a unit diagonal, relative to the largest, that is only
 /// rounding error.
 pub(crate) const ROUNDED_EIGENVALUE: f64 = 1e-15;
 
-/// Uncertainty of the unknowns `(p, c)`.
+/// Covariance of some unknowns from the correlation of the residual alone.
 #[derive(Clone, Debug)]
 pub(crate) struct Unknowns {
-    /// Covariance; coefficients held at zero or left out have zero rows.
+    /// Covariance.
     pub covariance: DMatrix<f64>,
-    /// Inverse of `J^T J`: the covariance for white residuals of variance 1; zero where the covariance has a zero row.
+    /// Inverse of `J^T J`: the covariance for white residuals of variance 1.
     pub bread: DMatrix<f64>,
 }
 
+/// How surely the unknowns `(p, c)` are known; coefficients held at zero or left out have zero rows.
+///
 /// A nonlinear unknown at the bound of its search range counts as free here: the bound is a choice of the
 /// program, no physical limit, and holding the unknown would make the others look better known than they
-/// are. What levels that logs have differently leave is no noise within them: of several logs the residual is that of each with
-/// linear unknowns of its own.
-pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> Unknowns {
-    beside(objective, at, |j| at.solution.active[j])
+/// are.
+pub(crate) fn unknowns(objective: &Objective, at: &Evaluation) -> Scatter {
+    let strokes = Strokes::of(objective.record());
+    beside(objective, at, (&strokes, false), |j| at.solution.active[j])
 }
 
-/// The same with rows for the coefficients held at zero, as if they were free.
-pub(crate) fn free(objective: &Objective, at: &Evaluation) -> Unknowns {
-    let (solution, bounded) = (&at.solution, objective.nonnegative());
-    beside(objective, at, |j| {
-        solution.active[j] || (bounded[j] && !solution.dependent[j])
-    })
+/// The same with what another motion changes.
+pub(crate) fn with_transfer(objective: &Objective, at: &Evaluation) -> Scatter {
+    let strokes = Strokes::of(objective.record());
+    beside(objective, at, (&strokes, true), |j| at.solution.active[j])
 }
 
-/// With the coefficients of which that is said beside the nonlinear unknowns.
+/// What is known before a log of the law of a fit; `None` for a law of which nothing is.
+pub(crate) fn prior(record: &Record, optimum: &Optimum, terms: &Terms) -> Option<Prior> {
+    let objective = Objective::new(record, optimum.law, terms);
+    let strokes = Strokes::of(record);
+    let at = &optimum.evaluation;
+    let variance = beside(&objective, at, (&strokes, false), |j| at.solution.active[j]).variance;
+    let prior = Prior::of(record, &strokes, variance);
+    let counts = prior.is_of(&optimum.law) && variance.is_finite();
+    counts.then_some(prior)
+}
+
+/// With the coefficients of which that is said beside the nonlinear unknowns, and with what another motion changes where it is asked
+/// for.
 pub(crate) fn beside(
     objective: &Objective,
     at: &Evaluation,
+    (strokes, transfer): (&Strokes, bool),
     is_free: impl Fn(usize) -> bool,
-) -> Unknowns {
+) -> Scatter {
     let free = Free::of(at, is_free);
-    let within = Logs::of(objective.record()).and_then(|logs| logs.within(at));
-    let residual = within.as_deref().unwrap_or(at.residual());
-    let small = sandwich(&free.jacobian, residual, &objective.record().breaks());
-    Unknowns {
-        covariance: free.among_all(&small.covariance),
-        bread: free.among_all(&small.bread),
+    let friction = misfit::friction(objective, at);
+    let logs = Logs::of(objective.record());
+    let logs = logs.as_ref().map_or(&[][..], |logs| logs.ranges());
+    let fit = Fitted {
+        residual: at.residual(),
+        logs,
+        friction: &friction,
+        prior: prior_information(objective, &free),
+        jacobian: free.jacobian,
+    };
+    let small = Scatter::from_strokes(&fit, strokes).map(|small| match transfer {
+        true => small.with_transfer(&fit, strokes),
+        false => small,
+    });
+    match small {
+        Some(small) => small.among(&free.index, free.all),
+        None => Scatter::unknown(free.index.len()).among(&free.index, free.all),
     }
 }
 
-/// Covariance that comes of a noise of the force alone, of which this is a long record, as the fit sees it.
-pub(crate) fn by_noise(objective: &Objective, at: &Evaluation, noise: &[f64]) -> DMatrix<f64> {
-    let free = Free::of(at, |j| at.solution.active[j]);
-    let breaks = objective.record().breaks();
-    let (scale, bread, _) = normal(&free.jacobian);
-    let weights = weights(&free.jacobian, &scale, &bread);
-    let scaled = Autoregression::fit(noise, &breaks).covariance(&weights, &breaks);
-    let q = scale.len();
-    free.among_all(&DMatrix::from_fn(q, q, |i, j| {
-        scaled[(i, j)] * scale[i] * scale[j]
-    }))
+/// Inverse of the variance that each of some unknowns has before the log, in parts of what a sample counts.
+fn prior_information(objective: &Objective, free: &Free) -> Vec<f64> {
+    let mut out = vec![0.0; free.jacobian.len()];
+    for (i, information) in objective.prior().information() {
+        out[i] = information;
+    }
+    out
 }
 
 /// The unknowns that count as free: the nonlinear ones, and some of the coefficients.
@@ -98,17 +125,6 @@ impl<'a> Free<'a> {
             jacobian: slopes.chain(of_columns).collect(),
         }
     }
-
-    /// A matrix of them with zero rows for the others.
-    fn among_all(&self, small: &DMatrix<f64>) -> DMatrix<f64> {
-        let mut out = DMatrix::zeros(self.all, self.all);
-        for (a, &i) in self.index.iter().enumerate() {
-            for (b, &j) in self.index.iter().enumerate() {
-                out[(i, j)] = small[(a, b)];
-            }
-        }
-        out
-    }
 }
 
 /// What each column is divided by, the inverse of the normal matrix of the divided columns, and the part of it that belongs to
@@ -126,14 +142,6 @@ fn normal(jacobian: &[&[f64]]) -> (Vec<f64>, DMatrix<f64>, DMatrix<f64>) {
     });
     let (bread, lost) = inverse(gram);
     (scale, bread, lost)
-}
-
-/// The inverse of `J^T J` for Jacobian columns.
-pub(crate) fn bread(jacobian: &[&[f64]]) -> DMatrix<f64> {
-    let (scale, bread, _) = normal(jacobian);
-    DMatrix::from_fn(scale.len(), scale.len(), |i, j| {
-        bread[(i, j)] * scale[i] * scale[j]
-    })
 }
 
 /// `B S B` for Jacobian columns and residual; `breaks` are the indices at which a new segment starts.
@@ -192,6 +200,12 @@ pub(crate) fn followed(at: &Evaluation, bread: &DMatrix<f64>) -> Option<Vec<f64>
 /// Inverse of a scaled symmetric matrix. Directions that are lost to rounding keep a huge variance: they
 /// must come out as unknown, not as zero. Also returns the part of the inverse that belongs to them.
 pub(crate) fn inverse(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (known, lost) = inverse_in_parts(matrix);
+    (known + &lost, lost)
+}
+
+/// The same, what is not lost and what is.
+pub(crate) fn inverse_in_parts(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     let q = matrix.nrows();
     let eigen = SymmetricEigen::new(matrix);
     let most = eigen.eigenvalues.iter().fold(0.0_f64, |m, x| m.max(*x));
@@ -207,7 +221,7 @@ pub(crate) fn inverse(matrix: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
                 .sum()
         })
     };
-    (sum(&|_| true), sum(&|x| x <= floor))
+    (sum(&|x| x > floor), sum(&|x| x <= floor))
 }
 
 /// `B J_t`, one column of length n per unknown: the effect of a residual on the unknown.

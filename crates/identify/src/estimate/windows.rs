@@ -39,11 +39,11 @@ impl Windows {
         let log = logged(record, fitted);
         let chosen = record.conditioning.as_ref();
         let neighbours = NEIGHBOURS.iter().filter_map(|by| beside(chosen?, by));
-        let own = propagate(raw, &fitted.unknowns.covariance);
+        let own = propagate(raw, fitted.unknowns.at_once());
         let window = |conditioning: Conditioning| {
-            let refit = refitted(&log, &conditioning, fitted, Asked::All(None), counts)?;
+            let refit = refitted(&log, &conditioning, fitted, Asked::Scatter, counts)?;
             let there = at(record, fitted, &refit);
-            let covariance = propagate(&there, &refit.all?.unknowns.covariance);
+            let covariance = propagate(&there, refit.scatter?.at_once());
             let chance = (0..raw.len()).map(|i| (covariance[(i, i)] - own[(i, i)]).abs());
             Some(Window {
                 conditioning,

@@ -4,6 +4,7 @@ use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::friction_curve::Hats;
 use crate::law::dependence::{Dependence, Factor};
+use crate::law::prior::Prior;
 use crate::law::{Law, LawKind};
 use std::f64::consts::TAU;
 use stiction_parameters::{Name, Quantity, Wave};
@@ -42,6 +43,8 @@ pub struct Terms {
     pub low_pass_undone: bool,
     /// The delay that the first fit of the choice of cut-offs found, whose common cut-off is low; `None` without a choice.
     pub first_delay: Option<FirstDelay>,
+    /// What is known of the law before the log; `None` before a first fit shows what a sample counts.
+    pub prior: Option<Prior>,
 }
 
 /// A delay of the force against the motion as a fit with low cut-offs found it.
@@ -140,6 +143,7 @@ impl Default for Terms {
             lag: Lag::NONE,
             low_pass_undone: false,
             first_delay: None,
+            prior: None,
             quadratic_viscous: false,
             dependences: Vec::new(),
             curve: Hats::default(),

@@ -1,7 +1,6 @@
 //! What a misfit is most likely to come from, and which parameters it makes doubtful.
 
 use super::{Between, Divided, Misfit, Repeats};
-use stiction_parameters::Quantity;
 
 /// Part of the variance of the residual from which a misfit is named. Replicas and chance leave up to about half of it where
 /// the law is right.
@@ -104,11 +103,6 @@ impl Misfit {
         })
     }
 
-    /// By which parts of its mean the level of friction is least and largest, where its change is the cause.
-    pub(crate) fn swing(&self) -> Option<(f64, f64)> {
-        self.cause().and_then(Cause::level).map(|_| self.levels)
-    }
-
     /// Part of the variance of the residual that comes back in a way of dividing the motion.
     pub fn share_by(&self, by: Divided) -> f64 {
         let own = self.shares.iter().find(|(own, _)| *own == by);
@@ -134,48 +128,5 @@ impl Cause {
             | Cause::Held
             | Cause::Shape => None,
         }
-    }
-
-    /// Why a parameter is no constant of the machine with this cause; `None` where its interval says enough.
-    pub(crate) fn against(self, quantity: Quantity) -> Option<&'static str> {
-        let reason = match self {
-            Cause::Shape => {
-                "depends on the shape of the law, which the residual shows to be another one at reversals or low speed"
-            }
-            Cause::Held => {
-                "takes up part of what holds the axis where it rests, which is no friction"
-            }
-            Cause::Resonance => {
-                "takes up part of what a resonance between motor and load does at reversals"
-            }
-            Cause::Backlash => {
-                "takes up part of what backlash between motor and load does at reversals"
-            }
-            Cause::SpringForce => {
-                let moved = quantity == Quantity::Mass || quantity.is_of_the_shape();
-                return moved.then_some("takes up part of a force that grows with the position");
-            }
-            Cause::Dynamics => {
-                let reason =
-                    "takes up part of dynamics between force and motion that the law does not have";
-                let moved = quantity == Quantity::Delay || quantity.is_of_the_shape();
-                return moved.then_some(reason);
-            }
-            Cause::Clocks => {
-                let moved = [Quantity::Mass, Quantity::Delay].contains(&quantity)
-                    || quantity.is_of_the_shape();
-                return moved
-                    .then_some("takes up part of a delay of the force that changes along the log");
-            }
-            Cause::Limit => {
-                return Some(
-                    "makes up in part for force that was logged and that the drive did not give",
-                );
-            }
-            Cause::Drift | Cause::Position | Cause::Load | Cause::Temperature | Cause::Ripple => {
-                return None;
-            }
-        };
-        quantity.is_of_the_shape().then_some(reason)
     }
 }

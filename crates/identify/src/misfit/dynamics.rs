@@ -12,8 +12,6 @@ use crate::separable::objective::{Evaluation, Objective};
 /// Deviations beyond what replicas have from which such a part is sure, and the part of the residual that it then explains.
 const SURE: f64 = 5.0;
 const LEAST_SHARE: f64 = 0.1;
-/// Deviations that chance makes.
-const CHANCE: f64 = 2.0;
 /// Part of a misfit of the shape of the law that it explains where it is the cause.
 pub(super) const PART_OF_MISFIT: f64 = 0.5;
 
@@ -80,11 +78,5 @@ impl Dynamics {
     /// Whether there surely are some.
     pub(super) fn is_sure(&self) -> bool {
         self.square.abs() > SURE * self.deviation && self.share >= LEAST_SHARE
-    }
-
-    /// What is open of their square where they are not sure, s^4: that beyond what chance makes.
-    pub(crate) fn open(&self) -> f64 {
-        let by_chance = CHANCE * self.deviation;
-        (self.square * self.square - by_chance * by_chance).max(0.0)
     }
 }

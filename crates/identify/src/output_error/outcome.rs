@@ -21,6 +21,7 @@ use crate::output_error::unknowns::Unknown;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use crate::parameter::physical::{Physical, propagate};
+use crate::scatter::Variances;
 use nalgebra::DMatrix;
 use stiction_parameters::Quantity;
 use stiction_search::{Counts, Status};
@@ -157,7 +158,7 @@ pub(crate) fn describe(
                 true => search.scale.step,
                 false => level,
             };
-            Parameter::judged(p, matrix[(i, i)], None, reason, size)
+            Parameter::judged(p, Variances::known(matrix[(i, i)]), None, reason, size)
         })
         .collect();
     insert_given(&mut parameters, &law, terms);

@@ -52,6 +52,15 @@ impl Covariance {
         }
     }
 
+    /// Gives a parameter this variance, its correlations as they are.
+    pub(crate) fn widen(&mut self, name: Name, variance: f64) {
+        let Some(i) = self.place(name) else { return };
+        let by = (variance / self.matrix[i][i]).sqrt();
+        let by = if by.is_finite() { by } else { 1.0 };
+        self.matrix[i].iter_mut().for_each(|x| *x *= by);
+        self.matrix.iter_mut().for_each(|row| row[i] *= by);
+    }
+
     /// Place of a parameter among its rows and columns.
     pub fn place(&self, name: Name) -> Option<usize> {
         self.names.iter().position(|own| *own == name)

@@ -14,6 +14,7 @@ use crate::law::terms::{Delay, Terms};
 use crate::parameter::Parameter;
 use crate::refit::force_noise;
 use crate::replica::{Axis, Replica};
+use crate::scatter::Variances;
 use crate::shifts::{REPLICA_COUNT, SHIFT_DOUBT, Shifts, TEN_REPLICAS_FACTOR, as_found, between};
 use crate::watch::Watch;
 use stiction_search::{Control, Observer, Stage};
@@ -76,7 +77,13 @@ pub fn dynamic_conditioned(
         if !widen.is_finite() {
             continue;
         }
-        *parameter = Parameter::judged(found, variance, bias, String::new(), level);
+        *parameter = Parameter::judged(
+            found,
+            Variances::known(variance),
+            bias,
+            String::new(),
+            level,
+        );
         let matrix = &mut fitted.covariance.matrix;
         matrix[place].iter_mut().for_each(|x| *x *= widen);
         matrix.iter_mut().for_each(|row| row[place] *= widen);

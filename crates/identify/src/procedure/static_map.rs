@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::estimate::advice;
 use crate::estimate::uncertainty::ROUNDED_EIGENVALUE;
 use crate::parameter::covariance::Covariance;
-use crate::parameter::{NORMAL_Q95, Parameter};
+use crate::parameter::{IDENTIFIABLE, NORMAL_Q95, Parameter, too_uncertain};
 use nalgebra::{DMatrix, SymmetricEigen};
 use stiction_parameters::{Name, Quantity, Side};
 
@@ -293,7 +293,7 @@ fn unknowns(blocks: &[Block], settings: &StaticSettings) -> usize {
         + fitted
 }
 
-/// Widens the levels of logs that differ, and takes them for no constants where they differ by much.
+/// Widens the levels of logs that differ.
 fn scattered(found: &Disagreement, parameters: &mut [Parameter]) {
     let levels = [Quantity::Coulomb, Quantity::Static];
     for p in parameters
@@ -306,14 +306,9 @@ fn scattered(found: &Disagreement, parameters: &mut [Parameter]) {
         let reach = NORMAL_Q95 * wider / p.value;
         p.std = Some(wider);
         p.ci95 = Some((p.value * libm::exp(-reach), p.value * libm::exp(reach)));
-        let own = Name::new(Quantity::Coulomb, p.name.side);
-        let of_side = Disagreement {
-            name: own,
-            ..found.clone()
-        };
-        if let Some(reason) = of_side.against(p.name) {
+        if p.identifiable && reach > IDENTIFIABLE {
             p.identifiable = false;
-            p.reason = reason;
+            p.reason = too_uncertain(reach, "its value");
         }
     }
 }

@@ -69,10 +69,16 @@ impl Beside {
                         }
                     }
                 }
-                ColumnKind::Element(_)
-                | ColumnKind::Sign(_)
-                | ColumnKind::Square(_)
-                | ColumnKind::RateTimes(_) => return None,
+                ColumnKind::Square(side) => {
+                    for (y, &v) in out.iter_mut().zip(&segment.velocity) {
+                        if side.is_none_or(|side| side.selects(v)) {
+                            *y += c * v * v.abs();
+                        }
+                    }
+                }
+                ColumnKind::Element(_) | ColumnKind::Sign(_) | ColumnKind::RateTimes(_) => {
+                    return None;
+                }
             }
         }
         Some(Self { force: out, level })

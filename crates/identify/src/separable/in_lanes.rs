@@ -1,6 +1,7 @@
 //! LuGre and Dahl on the kernels of `stiction-lanes`.
 
 use crate::conditioning::record::{self, Record};
+use crate::law::prior::Beside;
 use crate::law::terms::{ColumnKind, LinearTerm};
 use crate::law::{Law, LawKind, Layout};
 use crate::separable::recursion::Trace;
@@ -24,6 +25,7 @@ pub(crate) struct InLanes {
     /// Where the unknowns of a law with parameters for each direction stand; `None` for a symmetric law.
     directed: Option<Layout>,
     summed: Option<Summed>,
+    prior: Beside,
 }
 
 /// What is needed to build the reduced problem from sums: only where neither a filter nor a delay lies
@@ -33,7 +35,6 @@ struct Summed {
     places: Vec<Place>,
     nonnegative: Vec<bool>,
     shared: Vec<Vec<f64>>,
-    held: Option<(usize, f64)>,
 }
 
 /// Where a column of the regression stands in the sums.
@@ -94,7 +95,6 @@ impl InLanes {
             places,
             nonnegative: terms.iter().map(|term| term.is_never_negative()).collect(),
             shared: shared_sums(&out.track),
-            held: None,
         });
         Some(out)
     }
@@ -132,16 +132,14 @@ impl InLanes {
             unknowns: layout.count,
             directed: layout.ratio.is_some().then_some(layout),
             summed: None,
+            prior: Beside::default(),
         })
     }
 
-    /// The same with one coefficient held at a value.
-    pub fn holding(&self, coefficient: usize, value: f64) -> Self {
-        let mut out = self.clone();
-        if let Some(summed) = &mut out.summed {
-            summed.held = Some((coefficient, value));
-        }
-        out
+    /// The same with what is known of the law before the record.
+    pub fn beside(mut self, prior: Beside) -> Self {
+        self.prior = prior;
+        self
     }
 
     /// Whether the reduced problem can be computed here.
@@ -265,33 +263,40 @@ impl InLanes {
     pub fn reduced(&self, p: &[f64]) -> Option<Derivatives> {
         let summed = self.summed.as_ref()?;
         let found = sums_alone(&self.track, &self.trial(p), InstructionSet::best()).ok()?;
-        Some(summed.reduce(&found, self.unknowns))
+        Some(self.prior.add(p, summed.reduce(&found, self.unknowns)))
     }
 
     /// The reduced problem at many trials, trials in lanes. The same as [`reduced`](Self::reduced) up to
     /// rounding; the result of a trial does not depend, to the last bit, on the other trials.
     pub fn many(&self, trials: &[&[f64]]) -> Option<Vec<Derivatives>> {
         let summed = self.summed.as_ref()?;
-        let trials: Vec<Trial> = trials.iter().map(|p| self.trial(p)).collect();
-        let found = sums(&self.track, &trials, InstructionSet::best()).ok()?;
-        let reduce = |sums| summed.reduce(sums, self.unknowns);
-        Some(found.iter().map(reduce).collect())
+        let each: Vec<Trial> = trials.iter().map(|p| self.trial(p)).collect();
+        let found = sums(&self.track, &each, InstructionSet::best()).ok()?;
+        let found = found.iter().zip(trials);
+        let reduce =
+            |(sums, p): (&Sums, &&[f64])| self.prior.add(p, summed.reduce(sums, self.unknowns));
+        Some(found.map(reduce).collect())
     }
 
     /// The costs alone of many trials, in the same way.
     pub fn costs(&self, trials: &[&[f64]]) -> Option<Vec<f64>> {
         let summed = self.summed.as_ref()?;
-        let trials: Vec<Trial> = trials.iter().map(|p| self.trial(p)).collect();
-        let found = levels(&self.track, &trials, InstructionSet::best()).ok()?;
-        let cost = |own| reduced::cost(&Made { summed, own }, &summed.nonnegative, summed.held);
-        Some(found.iter().map(cost).collect())
+        let each: Vec<Trial> = trials.iter().map(|p| self.trial(p)).collect();
+        let found = levels(&self.track, &each, InstructionSet::best()).ok()?;
+        let cost = |own| reduced::cost(&Made { summed, own }, &summed.nonnegative);
+        let found = found.iter().zip(trials);
+        Some(
+            found
+                .map(|(own, p)| cost(own) + self.prior.cost(p))
+                .collect(),
+        )
     }
 }
 
 impl Summed {
     fn reduce(&self, own: &Sums, unknowns: usize) -> Derivatives {
         let products = Made { summed: self, own };
-        reduced::from_products(&products, &self.nonnegative, unknowns, self.held)
+        reduced::from_products(&products, &self.nonnegative, unknowns)
     }
 }
 
@@ -449,7 +454,8 @@ mod tests {
         ] {
             let law = Law::new(kind);
             let free = Objective::new(&record, law, &terms);
-            for objective in [&free, &free.holding(0, 17.0)] {
+            {
+                let objective = &free;
                 let points = [[7.0, -0.7, -5.0], [9.0, 0.3, -6.0], [6.0, -2.0, -4.2]];
                 let points: Vec<&[f64]> = points.iter().map(|p| &p[..law.nonlinear()]).collect();
                 let sums = objective.sums().unwrap();

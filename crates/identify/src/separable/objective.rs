@@ -6,6 +6,7 @@ use crate::conditioning::thinning;
 use crate::gms;
 use crate::law::Law;
 use crate::law::dependence::{Factor, product};
+use crate::law::prior::Beside;
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Mass, Side, Terms};
 use crate::separable::fixed::{Column, Fixed, fixed_columns};
 use crate::separable::in_lanes::InLanes;
@@ -42,11 +43,11 @@ pub struct Objective<'a> {
     inertia: Option<(f64, Fixed)>,
     /// Sum of squares of the measured force at the kept samples.
     energy: f64,
-    /// A coefficient that is not fitted but held at a value.
-    held: Option<(usize, f64)>,
     /// The common filter where it is worth computing its output at the kept samples alone.
     thinning: Option<Thinning>,
     /// The record on the batch kernels, where they know the law; made when first needed.
+    /// What is known of the law before the record.
+    prior: Beside,
     lanes: OnceLock<Option<InLanes>>,
 }
 
@@ -180,8 +181,11 @@ impl<'a> Objective<'a> {
             force,
             inertia,
             energy,
-            held: None,
             thinning,
+            prior: terms
+                .prior
+                .map(|prior| prior.beside(&law))
+                .unwrap_or_default(),
             lanes: OnceLock::new(),
         }
     }
@@ -204,6 +208,7 @@ impl<'a> Objective<'a> {
                 })
                 .collect();
             InLanes::regression(self.record, &self.law, &self.linear, &target, &columns)
+                .map(|lanes| lanes.beside(self.prior.clone()))
         });
         made.as_ref()
     }
@@ -219,19 +224,14 @@ impl<'a> Objective<'a> {
         self.law.nonlinear() + usize::from(self.delay == Delay::Fitted)
     }
 
+    /// What is known of the law before the record.
+    pub(crate) fn prior(&self) -> &Beside {
+        &self.prior
+    }
+
     /// Whether the delay is an unknown.
     pub(crate) fn is_delayed(&self) -> bool {
         self.delay == Delay::Fitted
-    }
-
-    /// The same objective with one coefficient held at a value.
-    pub(crate) fn holding(&self, coefficient: usize, value: f64) -> Self {
-        let mut out = self.clone();
-        out.held = Some((coefficient, value));
-        if let Some(lanes) = self.lanes() {
-            out.lanes = OnceLock::from(Some(lanes.holding(coefficient, value)));
-        }
-        out
     }
 
     /// The record.
@@ -282,23 +282,26 @@ impl<'a> Objective<'a> {
     pub fn evaluate(&self, p: &[f64], slopes: bool) -> Evaluation {
         let mut traces = self.traces(p, slopes);
         let shift = self.shift(p);
-        let mut columns = self.columns(&mut traces, shift, Moved::Value);
-        let target = self.without_held(&mut columns, shift);
+        let columns = self.columns(&mut traces, shift, Moved::Value);
+        let target = self.target(shift);
         let views: Vec<&[f64]> = columns.iter().map(|column| column.as_slice()).collect();
-        let mut solution = linear::solve(&views, &self.nonnegative, &target);
-        if let Some((j, value)) = self.held {
-            solution.coefficients[j] = value;
-        }
+        let solution = linear::solve(&views, &self.nonnegative, &target);
         let slope_columns = if slopes {
             self.slopes(&mut traces, p, &solution.coefficients)
         } else {
             Vec::new()
         };
-        let hessian = solution.curvature(&views, &slope_columns);
+        let mut hessian = solution.curvature(&views, &slope_columns);
         let descent = slope_columns.iter().map(|d| dot(d, &solution.residual));
-        let descent = DVector::from_iterator(slope_columns.len(), descent);
+        let mut descent = DVector::from_iterator(slope_columns.len(), descent);
+        if slopes {
+            for (i, weight, pull) in self.prior.pulls(p) {
+                hessian[(i, i)] += weight;
+                descent[i] += pull;
+            }
+        }
         Evaluation {
-            cost: solution.cost,
+            cost: solution.cost + self.prior.cost(p),
             solution,
             columns,
             slopes: slope_columns,
@@ -319,18 +322,6 @@ impl<'a> Objective<'a> {
     pub(crate) fn cost(&self, p: &[f64]) -> f64 {
         let summed = self.sums().and_then(|sums| sums.reduced(p));
         summed.map_or_else(|| self.evaluate(p, false).cost, |reduced| reduced.cost)
-    }
-
-    /// The target without the part of a held coefficient, whose column is emptied so that the linear
-    /// problem leaves it out.
-    fn without_held(&self, columns: &mut [Column], shift: Shift) -> Cow<'_, [f64]> {
-        let target = self.target(shift);
-        let Some((j, value)) = self.held else {
-            return target;
-        };
-        let part: Vec<f64> = columns[j].iter().map(|x| value * x).collect();
-        columns[j] = Arc::new(vec![0.0; part.len()]);
-        Cow::Owned(difference(&target, &part))
     }
 
     /// `-1/2` times the gradient of the cost with respect to the nonlinear unknowns.

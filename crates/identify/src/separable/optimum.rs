@@ -86,21 +86,6 @@ impl Optimum {
         [with(&|i| other.p[i]), with(&middle)]
     }
 
-    /// The box that was searched, with static friction at most `force` where Coulomb friction stays as it is, `coulomb` in
-    /// positive and negative direction: for the law alone, without the delay.
-    pub fn bounds_with_static_below(&self, coulomb: [f64; 2], force: f64) -> SearchBox {
-        let mut bounds = self.bounds.clone();
-        if self.delay {
-            bounds = bounds.without(bounds.len() - 1);
-        }
-        for (excess, coulomb) in self.law.layout().excess.into_iter().zip(coulomb) {
-            if let Some(i) = excess {
-                bounds = bounds.below(i, libm::log((force / coulomb - 1.0).max(0.0)));
-            }
-        }
-        bounds
-    }
-
     /// The distance that the axis must slide until its friction no longer depends on how its bristles were deflected before,
     /// m or rad; 0 for a law without bristles, and for one of several elements.
     pub(crate) fn settling(&self) -> f64 {

@@ -21,18 +21,17 @@ pub(crate) trait Products {
     fn slopes(&self, k: usize, l: usize, coefficients: &[f64]) -> f64;
 }
 
-/// The reduced problem from the products of `bounded.len()` linear columns and `unknowns` derivatives;
-/// `held` is a coefficient that is held at a value. `J^T J` is that of Kaufman.
+/// The reduced problem from the products of `bounded.len()` linear columns and `unknowns` derivatives. `J^T J` is that of
+/// Kaufman.
 ///
 /// The cost has an absolute error of about 1e-15 of the energy of the target.
 pub(crate) fn from_products(
     products: &impl Products,
     bounded: &[bool],
     unknowns: usize,
-    held: Option<(usize, f64)>,
 ) -> Derivatives {
     let m = bounded.len();
-    let (factor, c, cost) = linear(products, bounded, held);
+    let (factor, c, cost) = linear(products, bounded);
     let mut out = Derivatives::zeros(unknowns);
     out.cost = cost;
     let rows: Vec<Vec<f64>> = (0..unknowns)
@@ -59,32 +58,22 @@ pub(crate) fn from_products(
 }
 
 /// The cost alone.
-pub(super) fn cost(products: &impl Products, bounded: &[bool], held: Option<(usize, f64)>) -> f64 {
-    linear(products, bounded, held).2
+pub(super) fn cost(products: &impl Products, bounded: &[bool]) -> f64 {
+    linear(products, bounded).2
 }
 
 /// The linear problem: its factor, the coefficients, and the cost.
-fn linear(
-    products: &impl Products,
-    bounded: &[bool],
-    held: Option<(usize, f64)>,
-) -> (Factor, Vec<f64>, f64) {
+fn linear(products: &impl Products, bounded: &[bool]) -> (Factor, Vec<f64>, f64) {
     let m = bounded.len();
     let whole = Normal {
         gram: DMatrix::from_fn(m, m, |i, j| products.linear(i, j)),
         rhs: (0..m).map(|i| products.target(i)).collect(),
         energy: products.energy(),
     };
-    let (factor, found, _) = match held {
-        None => whole.solve(bounded),
-        Some((j, value)) => without(&whole, j, value).solve(bounded),
-    };
+    let (factor, found, _) = whole.solve(bounded);
     let mut c = vec![0.0; m];
     for (&j, &x) in factor.columns().iter().zip(&found) {
         c[j] = x;
-    }
-    if let Some((j, value)) = held {
-        c[j] = value;
     }
     let mut cost = whole.energy;
     for i in 0..m {
@@ -92,17 +81,4 @@ fn linear(
         cost += c[i] * (model - 2.0 * whole.rhs[i]);
     }
     (factor, c, cost.max(0.0))
-}
-
-/// The same with the part of one column taken from the target, and the column emptied.
-fn without(whole: &Normal, j: usize, value: f64) -> Normal {
-    let mut out = whole.clone();
-    out.energy += value * (value * whole.gram[(j, j)] - 2.0 * whole.rhs[j]);
-    for i in 0..out.rhs.len() {
-        out.rhs[i] -= value * whole.gram[(i, j)];
-        out.gram[(i, j)] = 0.0;
-        out.gram[(j, i)] = 0.0;
-    }
-    out.rhs[j] = 0.0;
-    out
 }

@@ -8,6 +8,9 @@ use stiction_search::descent::Region;
 /// Longest delay between force and motion that is looked for, either way, in samples.
 pub(crate) const MOST_DELAY: f64 = 4.0;
 
+/// Longest presliding length that is looked for, in strokes: a bristle of that length is a spring all along one of them.
+const LONGEST: f64 = 10.0;
+
 /// Bounds of the nonlinear unknowns, in logarithms and in the order of the law.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearchBox {
@@ -51,7 +54,7 @@ impl SearchBox {
     }
 
     /// The box that the record itself allows: the presliding length between one count of the encoder
-    /// (or a thousandth of the longest step) and the stroke, the Stribeck velocity between
+    /// (or a thousandth of the longest step) and ten strokes, the Stribeck velocity between
     /// 1e-4 of the top speed and the top speed, `Fs/Fc - 1` from .02 to 3, a Stribeck exponent that is
     /// fitted from .3 to 4, the break-away part of an elasto-plastic law from .02 to .98. The yield
     /// deflections of a Maxwell-slip law lie where the presliding length does, up to half the stroke.
@@ -64,7 +67,7 @@ impl SearchBox {
                 unit: "",
             });
         }
-        let longest = stroke;
+        let longest = LONGEST * stroke;
         let step = record
             .segments
             .iter()
@@ -72,7 +75,7 @@ impl SearchBox {
             .fold(f64::INFINITY, f64::min);
         let finest = record.resolution.unwrap_or(1e-3 * top * step);
         let ranges = Ranges {
-            length: (finest.clamp(1e-6 * longest, 0.1 * longest), longest),
+            length: (finest.clamp(1e-6 * stroke, 0.1 * stroke), longest),
             excess: (0.02, 3.0),
             velocity: (1e-4 * top, top),
             ratio: (0.1, 10.0),
@@ -100,7 +103,7 @@ impl SearchBox {
         set(layout.attraction, ranges.attraction);
         for i in layout.yields() {
             // An element that yields after more than half the stroke is not certain to slip.
-            set(Some(i), (ranges.length.0, 0.5 * ranges.length.1));
+            set(Some(i), (ranges.length.0, 0.5 * stroke));
         }
         set(layout.exponent, ranges.exponent);
         Ok(Self { low, high })
@@ -163,13 +166,6 @@ impl SearchBox {
         let mut out = self.clone();
         out.low[i] = value;
         out.high[i] = value;
-        out
-    }
-
-    /// The same box with one unknown at most at a value, as far as its range allows.
-    pub(crate) fn below(&self, i: usize, value: f64) -> Self {
-        let mut out = self.clone();
-        out.high[i] = value.clamp(out.low[i], out.high[i]);
         out
     }
 

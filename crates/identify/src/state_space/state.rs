@@ -1,10 +1,9 @@
 //! What the likelihood found, stated in an estimate.
 
-use crate::agreement::Between;
 use crate::estimate::Estimate;
 use crate::exponential::exp;
 use crate::parameter::{
-    IDENTIFIABLE, IntervalKind, NORMAL_Q95, Parameter, WIDEST_INTERVAL, too_uncertain,
+    Added, IDENTIFIABLE, IntervalKind, NORMAL_Q95, Parameter, WIDEST_INTERVAL, too_uncertain,
 };
 use crate::state_space::fit::Likely;
 use crate::state_space::unknowns::{UNKNOWNS, lanes};
@@ -35,20 +34,20 @@ impl Own {
 
 /// States the parameters of the likelihood, with what logs add to their variances. The jackknife leaves out parts of logs, of
 /// which it takes those of one log for independent.
-pub(super) fn state(estimate: &mut Estimate, found: &Likely, between: &Between) {
+pub(super) fn state(estimate: &mut Estimate, found: &Likely, more: &Added) {
     let step = estimate.step;
     let parameters = &mut estimate.fitted.parameters;
     let mut owns: Vec<(Name, Own)> = Vec::new();
     for parameter in parameters.iter_mut().filter(|p| p.identified) {
         if let Some(mut own) = own(parameter.name, found) {
-            own.widen(parameter.name, between.variance(parameter.name));
+            own.widen(parameter.name, more.variance(parameter.name));
             write(parameter, &own);
             owns.push((parameter.name, own));
         } else if let Some([delay, reach]) = found.delay
             && parameter.name == Quantity::Delay
         {
             parameter.value = delay * step;
-            let more = NORMAL_Q95 * between.variance(parameter.name).sqrt();
+            let more = NORMAL_Q95 * more.variance(parameter.name).sqrt();
             normal(parameter, libm::hypot(reach * step, more));
         }
     }
@@ -181,10 +180,10 @@ fn write(parameter: &mut Parameter, own: &Own) {
     parameter.interval = IntervalKind::StateSpace;
     parameter.ci95 =
         (own.reach <= WIDEST_INTERVAL).then(|| (value * exp(-own.reach), value * exp(own.reach)));
-    parameter.identifiable = relative <= IDENTIFIABLE;
+    parameter.identifiable = own.reach <= IDENTIFIABLE;
     parameter.reason = match parameter.identifiable {
         true => String::new(),
-        false => too_uncertain(relative, "its value"),
+        false => too_uncertain(own.reach, "its value"),
     };
 }
 

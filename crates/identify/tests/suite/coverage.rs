@@ -69,7 +69,8 @@ fn encoder_steps() {
             t.name,
             square.sqrt()
         );
-        assert!(stated < 2.0 * square.sqrt(), "{}: far too wide", t.name);
+        // Of few strokes a 95 % interval is 1.3 times that of a normal distribution.
+        assert!(stated < 2.6 * square.sqrt(), "{}: far too wide", t.name);
     }
     // What is taken off is most of what was wrong: without it the mass is off by 3 of its deviations.
     let mass = tallies.iter().find(|t| t.name == "mass").unwrap();

@@ -1,6 +1,7 @@
 //! The elasto-plastic law: the friction crate as oracle, and what is found from simulated records.
 
 use crate::common;
+use crate::common::trials::at_once;
 use crate::common::{MACHINE, Noise, Set, record};
 use std::f64::consts::TAU;
 use stiction_friction::{Damping, Direction, ElastoPlastic, LuGre, Shape, Stribeck};
@@ -215,7 +216,7 @@ fn intervals_hold_the_truth() {
         );
         for (name, truth) in truth(&law, false) {
             let p = found.parameter(&name).unwrap();
-            if let (true, Some((low, high))) = (p.identifiable, p.ci95) {
+            if let Some((low, high)) = at_once(p) {
                 let inside = u32::from(low <= truth && truth <= high);
                 hits += inside;
                 all += 1;

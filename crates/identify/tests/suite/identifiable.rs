@@ -2,11 +2,12 @@
 //! can tell is not.
 
 use crate::common::chance::neither_too_narrow_nor_too_wide;
+use crate::common::trials::at_once;
 use crate::common::{C95, Noise, force_along, record};
 use std::f64::consts::TAU;
 use stiction_friction::{Direction, Shape, Stribeck};
 use stiction_identify::{
-    Estimate, Law, LawKind, Mass, Record, Settings, Silent, Terms, estimate, intervals, separable,
+    Estimate, Law, LawKind, Mass, Parameter, Record, Settings, Silent, Terms, fit_law, intervals,
 };
 
 /// Samples at each constant speed.
@@ -37,9 +38,9 @@ fn static_map(pos: [f64; 4], neg: [f64; 4], noise: f64, seed: u64) -> Record {
 }
 
 fn fit(record: &Record, law: Law, terms: &Terms) -> Estimate {
-    let found = separable(record, law, terms, &Settings::default(), &mut Silent).unwrap();
-    let mut out = estimate(record, law, terms, &found, 0.0);
-    intervals(record, &found, &mut out, &mut stiction_identify::Silent);
+    let settings = Settings::default();
+    let (mut out, found) = fit_law(record, law, terms, 0.0, &settings, &mut Silent).unwrap();
+    intervals(record, &found, &mut out, &mut Silent);
     out
 }
 
@@ -49,6 +50,11 @@ fn friction_only() -> Terms {
         offset: false,
         ..Terms::default()
     }
+}
+
+/// Whether the same test again would find it within 20 %.
+fn is_known(p: &Parameter) -> bool {
+    at_once(p).is_some_and(|(low, high)| high - low <= 0.4 * p.value)
 }
 
 /// The asymmetric curve of Liu, System Identification, 8.7: a Stribeck velocity of .01 on speeds in
@@ -83,7 +89,7 @@ fn a_stribeck_range_between_two_speeds_is_flagged() {
             ("sigma2_neg", 0.03),
         ] {
             let p = found.parameter(name).unwrap();
-            assert!(p.identifiable, "seed {seed}: {name}: {}", p.reason);
+            assert!(is_known(p), "seed {seed}: {name}: {}", p.reason);
             assert!((p.value / truth - 1.0).abs() < 0.1, "{name} = {}", p.value);
         }
     }
@@ -102,9 +108,8 @@ fn a_stribeck_range_over_several_speeds_is_not() {
             .zip(truth)
         {
             let p = found.parameter(name).unwrap();
-            assert!(p.identifiable, "seed {seed}: {name}: {}", p.reason);
-            assert!(p.reason.is_empty() && p.advice.is_empty() && p.moves_with.is_empty());
-            let (low, high) = p.ci95.unwrap();
+            assert!(is_known(p), "seed {seed}: {name}: {}", p.reason);
+            let (low, high) = at_once(p).unwrap();
             inside += usize::from(low <= truth && truth <= high);
             all += 1;
         }
@@ -171,7 +176,7 @@ fn each_motion_tells_its_own_parameters() {
         for name in known {
             let p = found.parameter(name).unwrap();
             println!("{amplitude} {name} {} {:?} {}", p.value, p.std, p.reason);
-            assert!(p.identifiable, "{amplitude} m/s: {name}: {}", p.reason);
+            assert!(is_known(p), "{amplitude} m/s: {name}: {}", p.reason);
         }
         for name in unknown {
             let p = found.parameter(name).unwrap();
@@ -182,40 +187,14 @@ fn each_motion_tells_its_own_parameters() {
     }
 }
 
-/// A parameter that a law which holds less has elsewhere is not a constant, and the others stay what they were.
+/// At speeds of twice the Stribeck velocity Coulomb and viscous friction share one force: what noise leaves open of one is in the
+/// interval of the other.
 #[test]
-fn what_depends_on_the_law_is_flagged() {
-    let law = Law::new(LawKind::Stribeck);
-    let of = |viscous: f64| {
-        let side = [10.0, 15.0, viscous, 0.1];
-        fit(&static_map(side, side, 0.1, 3), law, &friction_only())
-    };
-    let mine = of(4.0);
-    let flagged = |freer: &Estimate| {
-        let mut out = mine.clone();
-        out.doubt_beside(&mine, freer);
-        let lost = out.parameters.iter().zip(&mine.parameters);
-        lost.filter(|(a, b)| b.identifiable && !a.identifiable)
-            .map(|(a, _)| a.reason.clone())
-            .collect::<Vec<_>>()
-    };
-    assert_eq!(flagged(&mine), [""; 0]);
-    let lost = flagged(&of(4.4));
-    assert_eq!(lost.len(), 1, "{lost:?}");
-    assert!(
-        lost[0].starts_with("depends on what the law holds fixed: 4.4"),
-        "{lost:?}"
-    );
-}
-
-/// At speeds of twice the Stribeck velocity Coulomb and viscous friction share one force. With little noise Fc is known whatever
-/// viscous friction is; with more, what viscous friction takes of it is not.
-#[test]
-fn a_level_that_viscous_friction_may_take_is_open() {
+fn a_level_that_viscous_friction_may_take_is_no_surer_than_both() {
     let omega = 2.0 * std::f64::consts::PI;
     let motion = |t: f64| 2e-3 * (omega * t).sin();
     let acceleration = |t: f64| 2e-3 * omega * (omega * t).cos();
-    for (sd, known) in [(0.01, true), (0.2, false)] {
+    for sd in [0.01, 0.2] {
         let (v, friction) = force_along(&C95.law(), 30_001, 1e-4, 20, motion);
         let mut noise = Noise::new(3);
         let force = |(i, f): (usize, &f64)| f + acceleration(i as f64 * 1e-4) + sd * noise.normal();
@@ -225,12 +204,10 @@ fn a_level_that_viscous_friction_may_take_is_open() {
             Law::new(LawKind::LuGre),
             &Terms::default(),
         );
-        for name in ["coulomb", "sigma2"] {
-            let p = found.parameter(name).unwrap();
-            println!("{sd} {name} {} {:?} {}", p.value, p.std, p.reason);
-        }
         let own = found.parameter("coulomb").unwrap();
-        assert_eq!(own.identifiable, known, "{sd}: {}", own.reason);
+        let (low, high) = own.ci95.unwrap();
+        println!("{sd} {low} .. {high}");
+        assert!((low..high).contains(&1.0), "{sd}: {low} .. {high}");
         assert!(!found.parameter("sigma2").unwrap().identifiable);
     }
 }

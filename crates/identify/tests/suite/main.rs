@@ -20,7 +20,6 @@ mod identifiable;
 mod lugre;
 mod oracle;
 mod output_error;
-mod profile;
 mod refusals;
 mod settling;
 mod sines;

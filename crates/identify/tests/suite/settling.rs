@@ -183,6 +183,7 @@ fn what_elements_held_before_is_not_blamed_on_the_law() {
 #[test]
 fn a_short_log_of_fast_strokes_keeps_its_delay() {
     let machine = axis("machine");
+    let (mut all, mut outside) = (0, Vec::new());
     // With the last three noises the force passed for one that is logged as it is held.
     for seed in [0, 1, 2, 51, 57, 67] {
         let log = ClosedLoop {
@@ -211,14 +212,12 @@ fn a_short_log_of_fast_strokes_keeps_its_delay() {
                 continue;
             };
             let Some((low, high)) = p.ci95 else { continue };
-            // Of the 48 values two or three may lie a little outside.
-            let reach = 0.6 * (high - low);
-            let off = (right - 0.5 * (low + high)).abs();
-            assert!(
-                off < reach,
-                "seed {seed}: {name} {} {low} to {high}",
-                p.value
-            );
+            all += 1;
+            if !(low..=high).contains(right) {
+                outside.push(format!("seed {seed}: {name} {} {low} to {high}", p.value));
+            }
         }
     }
+    // Of 48 values two or three.
+    assert!(all >= 48 && outside.len() <= 3, "{all}: {outside:#?}");
 }

@@ -13,15 +13,19 @@ use stiction_workflows::identify::Outcome;
 pub(super) fn parameters(outcome: &Outcome) -> Table {
     let caption = match is_of_the_counts(&outcome.result) {
         true => "Identified parameters, from the counts of the encoder.",
-        false => "Identified parameters. The intervals count the correlation of the residuals.",
+        false => {
+            "Effective constants along the motion of this log. The interval is that of the same test on another day; beside it what \
+             another motion of the same kind may give."
+        }
     };
     let mut table = Table::new([
         ("Parameter", Align::Left),
         ("", Align::Left),
         ("Value", Align::Right),
         ("Unit", Align::Left),
-        ("Std. dev.", Align::Right),
+        ("Another day", Align::Right),
         ("95 % interval", Align::Right),
+        ("Another motion", Align::Right),
         ("", Align::Left),
     ])
     .caption(caption);
@@ -32,15 +36,6 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
             Some(std) if p.identifiable && std > 0.0 => digits(p.value, std),
             _ => number::sig(p.value, 4),
         };
-        let std = match deviation {
-            Deviation::Given => "given".to_string(),
-            Deviation::Absolute(std) => {
-                format!("{} {}", number::sig(std, 2), number::unit(&p.unit))
-            }
-            Deviation::Relative(part) => part.digits(2),
-            Deviation::Unknown => "–".into(),
-            Deviation::Unbounded => "not bounded".into(),
-        };
         let interval = match (p.range(), p.origin.as_str()) {
             (Some((f64::NEG_INFINITY, high)), _) => format!("at most {}", number::sig(high, 3)),
             (Some((low, f64::INFINITY)), _) => format!("at least {}", number::sig(low, 3)),
@@ -48,6 +43,10 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
             (Some((low, high)), _) => number::interval(low, high),
             (None, "given") => String::new(),
             _ => "not bounded".into(),
+        };
+        let transfer = match deviation {
+            Deviation::Given | Deviation::Unbounded => String::new(),
+            _ => Deviation::of_transfer(p, &outcome.result).cell(&number::unit(&p.unit)),
         };
         let flag = if p.identifiable {
             String::new()
@@ -59,8 +58,9 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
             Text::from(p.symbol.as_str()),
             Text::from(value),
             Text::from(number::unit(&p.unit)),
-            Text::from(std),
+            Text::from(deviation.cell(&number::unit(&p.unit))),
             Text::from(interval),
+            Text::from(transfer),
             Text::from(flag),
         ];
         table = if p.identifiable {

@@ -431,7 +431,8 @@ fn a_level_along_the_stroke_moves_no_delay() {
         let [low, high] = p.ci95.unwrap().map(|x| x.expect("a closed interval"));
         let off = (p.value - truth).abs() / (0.5 * (high - low));
         assert!(off < 1.5, "{name}: {low} .. {high}, {off:.2} half-widths");
-        let narrow = name == "delay" || high - low < 0.05 * truth;
-        assert!(narrow, "{name}: {low} .. {high}");
+        let at_once = p.half_width.unwrap().at_once;
+        let narrow = name == "delay" || at_once < 0.025 * truth;
+        assert!(narrow, "{name}: {at_once}");
     }
 }

@@ -96,7 +96,7 @@ pub(super) fn subject(
         data: Data::Record {
             thinned: thinned(&record).map(Box::new),
             record: Box::new(record),
-            terms,
+            terms: Box::new(terms),
             held: None,
         },
     })

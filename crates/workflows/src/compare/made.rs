@@ -188,11 +188,11 @@ pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Su
         let data = Data::Record {
             thinned: thinned(&record).map(Box::new),
             record: Box::new(record),
-            terms: Terms {
+            terms: Box::new(Terms {
                 mass: Mass::Absent,
                 offset: false,
                 ..Terms::default()
-            },
+            }),
             held: (cost == Cost::Dynamic).then_some(*side),
         };
         (data, excitation.description().to_string())

@@ -40,7 +40,7 @@ pub(super) enum Data {
     Record {
         record: Box<Record>,
         thinned: Option<Box<Record>>,
-        terms: Terms,
+        terms: Box<Terms>,
         /// The steady curve, where it is known and only the bristles are searched.
         held: Option<Direction<f64>>,
     },
@@ -127,7 +127,7 @@ impl Subject {
                     Delay::Fitted => Delay::NONE,
                     given => given,
                 },
-                ..terms.clone()
+                ..(**terms).clone()
             };
             let settings = Settings::default();
             let found = engine::separable(record, self.law, &still, &settings, observer)

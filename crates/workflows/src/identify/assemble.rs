@@ -12,8 +12,8 @@ use crate::source::Source;
 use stiction_files::Axis;
 use stiction_files::axis::{ListedLog, Use};
 use stiction_files::result::{
-    CovarianceEntry, ElementsEntry, LawEntry, LowSpeedEntry, ParameterEntry, PartnerEntry,
-    ResolvedAxis, ResultFile, SCHEMA, Search, Unsettled, ValidationEntry,
+    CovarianceEntry, ElementsEntry, HalfWidthEntry, LawEntry, LowSpeedEntry, ParameterEntry,
+    PartnerEntry, ResolvedAxis, ResultFile, SCHEMA, Search, Unsettled, ValidationEntry,
 };
 use stiction_files::symbols;
 use stiction_identify::{
@@ -224,6 +224,11 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -
         ci95: p
             .ci95
             .map(|(low, high)| [low, high].map(|x| Some(x).filter(|x| x.is_finite()))),
+        half_width: p.half.map(|half| HalfWidthEntry {
+            at_once: half.at_once,
+            repeat: half.repeat,
+            transfer: half.transfer,
+        }),
         interval: p.ci95.map(|_| p.interval.name().into()),
         identifiable: p.identifiable,
         origin: if p.identified { "identified" } else { "given" }.into(),

@@ -3,54 +3,21 @@
 use super::heard::Heard;
 use super::ladder::{self, Candidate, Climb, Ladder, Rung};
 use super::stated::EXPONENT_APART;
-use super::trust::{RICHER_LAW_WINS_BELOW, SIMPLER_LAW_WINS_FROM};
-use super::unfit;
+use super::trust::RICHER_LAW_WINS_BELOW;
 use stiction_files::result::{BetterLaw, LawEntry};
 use stiction_identify as engine;
-use stiction_identify::{Delay, Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
-use stiction_parameters::{Quantity, Side};
+use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
+use stiction_parameters::Quantity;
 
 /// The families that the data choose from.
-pub(super) const FAMILIES: [LawKind; 4] = [
-    LawKind::CoulombViscous,
-    LawKind::Stribeck,
-    LawKind::Dahl,
-    LawKind::LuGre,
-];
+pub(super) const FAMILIES: [LawKind; 3] = [LawKind::CoulombViscous, LawKind::Dahl, LawKind::LuGre];
 
 /// The same in standard deviations.
 const SURELY: f64 = 3.0;
 
-/// Why bristle and mass are open where no delay that is looked for fits: what is late, and how, decides most about the slopes of
-/// reversals, and viscous friction of a late force looks like a part of the inertia.
-const BEYOND_ALL_DELAYS: &str = "the delay of the force came out at the end of those that are looked for, and it moves stiffness \
-                                 and damping of the bristles, viscous friction and the mass more than all else";
-
-/// Why static friction is open there too, where the Stribeck velocity is.
-const AN_END_BESIDE_IT: &str = "is where a curve ends whose Stribeck velocity is open, and the delay of the force came out at the end \
-                                of those that are looked for";
-
-/// Why the delay is open behind a low-pass that was undone: either may be a part of the other.
-const BESIDE_A_LOW_PASS: &str = "what the low-pass of the logged force delays and what is late beside it are known together, not each of them";
-
-/// Why what describes the shape of a law is no constant where that shape holds worse than a simpler one.
-const ANOTHER_SHAPE: &str =
-    "depends on the shape of the law, and a simpler one holds better on held-out samples";
-
-/// Why the best law is not the one that is reported.
-const AT_AN_END: &str =
-    "one of its parameters came out at the end of what is searched, and another law holds as well";
-
 /// Why a law that holds static friction at Coulomb friction is not taken where the axis rests.
 const SHOWN_BY_THE_COUNTS: &str =
     "the counts of the encoder show a static friction above Coulomb friction";
-
-/// Why the stiffness is open beside a micro-damping that is held at none.
-const HELD_WITH_DAMPING: &str = "takes up what micro-damping gives, which the law holds at none: with that fitted too it is open";
-
-/// Why the bristles are open where the counts are asked of a law that holds static friction, and do not determine it.
-const HELD_FROM_THE_COUNTS: &str = "the counts of the encoder, which this is from, do not tell whether static friction is above Coulomb \
-                                    friction, where the law holds it; the bristles would make up for it";
 
 /// Error on held-out samples, percent, from which on a law says nothing of them: as much as without any force.
 const NOTHING_HOLDS: f64 = 100.0;
@@ -62,8 +29,6 @@ pub(super) struct Choice {
     pub laws: Vec<LawEntry>,
     /// Who chose the law, as written to `result.json`.
     pub by: &'static str,
-    /// Why a compensator should not rely on it.
-    pub held_back: Option<String>,
     /// The best of the others that a compensator may rely on, where the law was asked for.
     pub better: Option<BetterLaw>,
     /// Rms residual on held-out samples of the record, where it was cross-validated.
@@ -76,8 +41,7 @@ impl Choice {
     /// A law that was asked for and compared with none.
     pub fn alone(estimate: Estimate) -> Self {
         Self {
-            held_back: unfit::unseen_force(&estimate),
-            without: ladder::without(&estimate.law, false),
+            without: ladder::without(&estimate.law),
             estimate,
             laws: Vec::new(),
             by: "user",
@@ -158,67 +122,24 @@ fn beside(
     } else {
         Vec::new()
     };
-    let held_back = unfit::unseen_force(&estimate);
-    let without = ladder::without(&estimate.law, false);
-    let mut estimate = stated(ladder, &optimum, estimate, observer);
-    let of_one_bristle = fitted
-        .iter()
-        .map(|(one, _)| one)
-        .find(|one| !one.law.kind.has_elements());
-    if let Some(one) = of_one_bristle.filter(|_| law.kind.has_elements())
-        && estimate.fit.rmse > HARDLY_LESS * one.fit.rmse
-    {
-        estimate.doubt(|p| {
-            let level = [Quantity::Coulomb, Quantity::Sigma2].contains(&p.name.quantity);
-            (level || is_of_the_shape(p.name.quantity)).then_some(AS_ONE_BRISTLE)
-        });
-    }
-    if simpler_shape_holds_better(&laws) {
-        estimate.doubt(|p| is_of_the_shape(p.name.quantity).then_some(ANOTHER_SHAPE));
-    }
+    let without = ladder::without(&estimate.law);
+    let estimate = stated(ladder, &optimum, estimate, observer);
     Choice {
         estimate,
         laws,
         by: "user",
-        held_back,
         better,
         held_out_rmse,
         without,
     }
 }
 
-/// What elements leave, in parts of what one bristle leaves, from which on they describe hardly more: of simulated axes with elements
-/// they leave up to .43 of it, beside springs and resonances .85 to .93.
-const HARDLY_LESS: f64 = 0.7;
-const AS_ONE_BRISTLE: &str = "several elements leave hardly less than one bristle does: what that leaves has another cause, which this may take up";
-
-/// Whether a law of another family, with fewer parameters than the one that is reported, holds better on held-out samples.
-fn simpler_shape_holds_better(laws: &[LawEntry]) -> bool {
-    let Some(own) = laws.iter().find(|law| law.reported) else {
-        return false;
-    };
-    let better = |other: &LawEntry| {
-        let errors = own.held_out_error_percent.zip(other.held_out_error_percent);
-        errors.is_some_and(|(mine, least)| {
-            least < NOTHING_HOLDS && mine > SIMPLER_LAW_WINS_FROM * least
-        })
-    };
-    laws.iter()
-        .any(|other| other.law != own.law && other.parameters < own.parameters && better(other))
-}
-
-/// Whether a quantity describes the shape of presliding or of the Stribeck curve in any family of laws.
-fn is_of_the_shape(quantity: Quantity) -> bool {
-    let of_one_family = [Quantity::BreakawayRatio, Quantity::Attraction];
-    quantity.is_of_the_shape() || of_one_family.contains(&quantity) || quantity.is_of_an_element()
-}
-
 /// Fits the laws that can be exported, each with what it holds, and takes the best that a compensator may rely on.
 ///
-/// In rounds, so that only laws are fitted that may turn out best: the symmetric ones; what these leave open held at
-/// nothing, and asymmetric laws of the families that hold best; the same of the best asymmetric one; the best of all with
-/// its static friction kept below what the log shows, where it is above that; the best of all with its Stribeck exponent
-/// fitted. A law that leaves more than the same with something held is fitted again from there after each round.
+/// In rounds, so that only laws are fitted that may turn out best: the symmetric ones, each with and without quadratic viscous
+/// friction; what these leave open held at nothing, and asymmetric laws of the families that hold best; the same of the best
+/// asymmetric one; the best of all with its Stribeck exponent fitted. A law that leaves more than the same with something held is fitted again from there after each
+/// round.
 pub(super) fn auto(
     base: Law,
     ladder: &Ladder,
@@ -230,7 +151,7 @@ pub(super) fn auto(
         .map(|law| ladder.usual(law))
         .collect();
     let mut climb = ladder.climb(&first, &[], settings, observer);
-    for round in [second, third, capped] {
+    for round in [bent, second, third] {
         if climb.stopped {
             break;
         }
@@ -238,25 +159,19 @@ pub(super) fn auto(
         let more = ladder.climb(&next, &[], settings, observer);
         climb = caught_up(climb.and(more), ladder, settings, observer);
     }
-    let mut unsure = None;
     // A fit of the force sees another curve in every rest, and must not choose by it.
     let rests = engine::rests_much(ladder.record);
     if !climb.stopped
         && !rests
         && let Some(next) = shaped(&climb, ladder)
         && let Ok((estimate, optimum)) = ladder.fit(&next, settings, observer)
+        && is_another_shape(&estimate, base.exponent)
     {
-        match shape(&estimate, base.exponent) {
-            Shape::AsAssumed => {}
-            Shape::Unknown => unsure = Some(estimate),
-            Shape::Another => {
-                let known = [(&estimate, &optimum)];
-                let freer = damped(&climb, &next.law, ladder);
-                let next: Vec<Candidate> = [next].into_iter().chain(freer).collect();
-                let more = ladder.climb(&next, &known, settings, observer);
-                climb = climb.and(more);
-            }
-        }
+        let known = [(&estimate, &optimum)];
+        let freer = damped(&climb, &next.law, ladder);
+        let next: Vec<Candidate> = [next].into_iter().chain(freer).collect();
+        let more = ladder.climb(&next, &known, settings, observer);
+        climb = climb.and(more);
     }
     let climb = climb.sorted();
     let (mut laws, best) = climb.entries();
@@ -265,94 +180,44 @@ pub(super) fn auto(
         let simplest = ladder::symmetric(base, &[LawKind::CoulombViscous])[0];
         return asked(simplest, ladder, &[], false, settings, observer);
     };
-    let at = reliable(&climb, &laws, best);
-    let left_aside = at != best && laws[best].held_back.is_none();
-    let asked = match rests && !climb.stopped {
-        true => of_the_counts(&climb, &laws, at, ladder, observer),
+    let counted = match rests && !climb.stopped {
+        true => of_the_counts(&climb, &laws, best, ladder, observer),
         false => None,
     };
-    let by_the_force = at;
-    let at = match &asked {
-        Some(asked) if asked.shows => asked.at,
-        _ => by_the_force,
-    };
+    let at = counted.as_ref().map_or(best, |(at, _)| *at);
+    if at != best {
+        laws[best].held_back = Some(SHOWN_BY_THE_COUNTS.into());
+    }
     laws[at].reported = true;
     let Climb { mut rungs, stopped } = climb;
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     // Too few samples may be left to hold some out.
     let by = if held_out { "cross-validation" } else { "bic" };
-    let before = rungs[at].estimate.clone();
-    let capped = rungs[at].capped;
-    let is_freer = |rung: &&Rung| {
-        let law = &rung.estimate.law;
-        holds_less(law, &before.law) || capped && !rung.capped && *law == before.law
-    };
-    let fitted = rungs.iter().filter(is_freer).map(|rung| &rung.estimate);
-    let unsure = unsure.filter(|other| holds_less(&other.law, &before.law));
-    let freer: Vec<Estimate> = fitted.cloned().chain(unsure).collect();
-    let passed_over = (0..rungs.len()).any(|i| {
-        let (own, other) = (&rungs[at], &rungs[i]);
-        let (law, fuller) = (&own.estimate.law, &other.estimate.law);
-        law.flat
-            && !fuller.flat
-            && law.kind == fuller.kind
-            && laws[i].held_back.is_some()
-            && other.held_out_error() < own.held_out_error()
-    });
-    if left_aside {
-        laws[best].held_back = Some(AT_AN_END.into());
-    } else if at != by_the_force {
-        laws[by_the_force].held_back = Some(SHOWN_BY_THE_COUNTS.into());
-    }
     let rung = rungs.swap_remove(at);
-    let another_curve = rests.then(|| curved(&rung, ladder)).flatten();
     let held_out_rmse = rung.cross_validated_rmse(ladder);
-    let held_back = unfit::unseen_force(&rung.estimate);
     let without = laws[at].without.clone();
     let Rung {
         estimate, optimum, ..
     } = rung;
-    let mut estimate = match &asked {
-        Some(asked) if asked.shows => asked.estimate.clone(),
-        _ => stated(ladder, &optimum, estimate, observer),
+    let mut estimate = match counted {
+        Some((_, estimate)) => estimate,
+        None => stated(ladder, &optimum, estimate, observer),
     };
-    for freer in &freer {
-        estimate.doubt_beside(&before, freer);
-    }
-    // Stiffness takes up what micro-damping gives, and its interval counts none.
-    let law = before.law;
-    let is_damped = |rung: &&Rung| {
-        let own = rung.estimate.law;
-        own.has_micro_damping() && own.undamped() == law
-    };
-    let damped = rungs.iter().find(is_damped);
-    if let Some(rung) = damped.filter(|_| law.undamped && !stopped && !estimate.of_the_counts) {
-        let damped = stated(ladder, &rung.optimum, rung.estimate.clone(), observer);
-        let stiffness = damped.parameters.iter();
-        let mut stiffness = stiffness.filter(|p| p.name.quantity == Quantity::Sigma0);
-        if stiffness.any(|p| !p.identifiable) {
-            estimate.leave_open(&[Quantity::Sigma0], HELD_WITH_DAMPING);
-        }
-    }
-    if asked.is_some_and(|asked| !asked.shows) && estimate.of_the_counts {
-        estimate.leave_open(&[Quantity::Sigma0, Quantity::Sigma1], HELD_FROM_THE_COUNTS);
-    }
-    if let Some(next) = another_curve
-        && !stopped
-        && estimate.status != Status::Interrupted
-        && !estimate.of_the_counts
-        && let Ok((freer, _)) = ladder.fit(&next, settings, observer)
-        && !matches!(shape(&freer, base.exponent), Shape::AsAssumed)
-    {
-        // Whether the rests or the axis make that curve is not known.
-        estimate.doubt_beside(&before, &freer);
-    }
-    if passed_over {
-        // Bristles that end at a lower level than those of the axis are stiffer or softer, to make up for it.
-        estimate.leave_open(
-            &[Quantity::Sigma0, Quantity::Sigma1],
-            "the log asks for a static friction above any force in it, which was left out; the bristles depend on it",
-        );
+    if !stopped && shape_is_left(&estimate) {
+        let kind = match estimate.law.has_stribeck() {
+            true => LawKind::Gms,
+            false => LawKind::MaxwellSlip,
+        };
+        let elements: Vec<Candidate> = ladder::symmetric(base, &[kind])
+            .into_iter()
+            .map(|law| ladder.usual(law))
+            .collect();
+        let more = ladder.climb(&elements, &[], settings, observer);
+        let entries = more.entries().0.into_iter();
+        laws.extend(entries.map(|entry| LawEntry {
+            best: false,
+            ..entry
+        }));
     }
     if stopped {
         // Not all laws were tried, so even a converged one is only the best so far.
@@ -362,11 +227,18 @@ pub(super) fn auto(
         estimate,
         laws: if stopped { Vec::new() } else { laws },
         by,
-        held_back,
         better: None,
         held_out_rmse,
         without,
     })
+}
+
+/// Whether what a law with one bristle leaves looks like friction of another shape.
+fn shape_is_left(estimate: &Estimate) -> bool {
+    let cause = estimate.misfit.as_ref().and_then(engine::Misfit::cause);
+    let kind = estimate.law.kind;
+    let bristle = kind.has_bristle() && !kind.has_elements();
+    bristle && cause == Some(engine::Cause::Shape) && estimate.terms.dependences.is_empty()
 }
 
 /// Whether a law is another one with less held: micro-damping, the Stribeck curve or its exponent. Dahl is LuGre that holds all
@@ -390,6 +262,13 @@ fn holds_less(law: &Law, than: &Law) -> bool {
         && parts().any(|(own, other)| other && !own)
 }
 
+/// The symmetric laws with quadratic viscous friction: without it a Stribeck curve bends a viscous line that is none.
+fn bent<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
+    let rungs = climb.rungs.iter();
+    let bent = |rung: &Rung| Some(ladder.bent(rung.estimate.law)?.from(&[rung]));
+    rungs.filter_map(bent).collect()
+}
+
 /// What the symmetric laws suggest: LuGre with what it leaves open held at nothing, and the families that hold best with
 /// parameters for each direction.
 fn second<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
@@ -398,65 +277,27 @@ fn second<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
     let least = errors.fold(f64::INFINITY, f64::min);
     let close = |rung: &&Rung| RICHER_LAW_WINS_BELOW * rung.held_out_error() <= least;
     // Coulomb and viscous friction stays linear, so it costs next to nothing.
-    let wanted = |rung: &&Rung| rung.estimate.law.kind == LawKind::CoulombViscous || close(rung);
+    // A Stribeck curve of each direction beside viscous friction that bends leaves no level that is known.
+    let wanted = |rung: &&Rung| match rung.estimate.law.kind {
+        LawKind::CoulombViscous => true,
+        LawKind::Dahl => close(rung),
+        _ => close(rung) && !rung.estimate.terms.quadratic_viscous,
+    };
     for rung in climb.rungs.iter().filter(wanted) {
-        let candidate = ladder.usual(rung.estimate.law.asymmetric());
+        let candidate = ladder.as_beside(rung.estimate.law.asymmetric(), rung);
         next.push(candidate.from(&[rung]));
     }
     next
 }
 
-/// What the best of all laws so far suggests where it is asymmetric: the same with what it leaves open held at nothing,
-/// and with a constant force beside it.
+/// The best of all laws so far, where it is asymmetric LuGre, with what it leaves open held at nothing.
 fn third<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
     let (_, best) = climb.entries();
-    let Some(rung) = best.map(|best| &climb.rungs[best]) else {
-        return Vec::new();
-    };
-    let law = rung.estimate.law;
-    if !law.asymmetric {
-        return Vec::new();
-    }
-    let mut next = match law.kind {
-        LawKind::LuGre => held(climb, ladder, true),
+    let best = best.map(|best| climb.rungs[best].estimate.law);
+    match best {
+        Some(law) if law.asymmetric && law.kind == LawKind::LuGre => held(climb, ladder, true),
         _ => Vec::new(),
-    };
-    // Without a bristle the two levels and the constant force cannot be told apart.
-    let both = ladder.terms.asymmetric_with_offset.as_ref();
-    next.extend(both.filter(|_| law.kind.has_bristle()).map(|terms| {
-        let candidate = Candidate {
-            terms,
-            ..ladder.usual(law)
-        };
-        candidate.from(&[rung])
-    }));
-    next
-}
-
-/// The best law so far with its static friction kept below the largest friction of the log, where it is above that.
-fn capped<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
-    let (_, best) = climb.entries();
-    let Some(rung) = best.map(|best| &climb.rungs[best]) else {
-        return Vec::new();
-    };
-    let law = rung.estimate.law;
-    // Without a Stribeck curve there is no static friction to keep below anything.
-    if !law.has_stribeck() || unfit::unseen_force(&rung.estimate).is_none() {
-        return Vec::new();
     }
-    let values = rung.estimate.values();
-    let level = |side| values.on(Quantity::Coulomb, side).unwrap_or(f64::INFINITY);
-    let coulomb = [Side::Positive, Side::Negative].map(level);
-    let most = unfit::largest_friction(&rung.estimate);
-    let candidate = Candidate {
-        terms: ladder.beside(rung),
-        ..ladder.usual(law)
-    };
-    let candidate = candidate.from(&[rung]);
-    vec![Candidate {
-        capped: Some(rung.optimum.bounds_with_static_below(coulomb, most)),
-        ..candidate
-    }]
 }
 
 /// The best law so far with its Stribeck exponent fitted, where the data show the curve.
@@ -483,36 +324,17 @@ fn damped<'a>(climb: &Climb, law: &Law, ladder: &'a Ladder) -> Option<Candidate<
 fn curved<'a>(rung: &Rung, ladder: &'a Ladder) -> Option<Candidate<'a>> {
     let law = rung.estimate.law;
     let asks = ladder.exponent_is_open && law.has_stribeck() && !law.exponent_fitted;
-    let candidate = Candidate {
-        terms: ladder.beside(rung),
-        ..ladder.usual(law.with_fitted_exponent())
-    };
+    let candidate = ladder.as_beside(law.with_fitted_exponent(), rung);
     asks.then(|| candidate.from(&[rung]))
 }
 
-/// What a fitted exponent says of the curve that is assumed.
-enum Shape {
-    /// It is of that shape, or not surely of another.
-    AsAssumed,
-    /// It is not.
-    Another,
-    /// The data do not determine the exponent.
-    Unknown,
-}
-
-fn shape(fitted: &Estimate, assumed: f64) -> Shape {
-    let Some(p) = fitted.parameter(Quantity::StribeckExponent) else {
-        return Shape::AsAssumed;
-    };
-    if !p.identifiable {
-        return Shape::Unknown;
-    }
-    let off = libm::log(p.value / assumed).abs();
-    let sure = p.std.is_some_and(|std| off > SURELY * std / p.value);
-    match off > EXPONENT_APART && sure {
-        true => Shape::Another,
-        false => Shape::AsAssumed,
-    }
+/// Whether a fitted exponent is surely another one than that which is assumed.
+fn is_another_shape(fitted: &Estimate, assumed: f64) -> bool {
+    let exponent = fitted.parameter(Quantity::StribeckExponent);
+    exponent.filter(|p| p.identifiable).is_some_and(|p| {
+        let off = libm::log(p.value / assumed).abs();
+        off > EXPONENT_APART && p.std.is_some_and(|std| off > SURELY * std / p.value)
+    })
 }
 
 /// LuGre with what it leaves open held at nothing.
@@ -521,7 +343,8 @@ fn held<'a>(climb: &Climb, ladder: &'a Ladder, asymmetric: bool) -> Vec<Candidat
         let is = |rung: &&Rung| {
             rung.estimate.law.kind == kind && rung.estimate.law.asymmetric == asymmetric
         };
-        climb.rungs.iter().find(is)
+        let own = climb.rungs.iter().filter(is);
+        own.min_by(|a, b| a.held_out_error().total_cmp(&b.held_out_error()))
     };
     let Some(lugre) = of(LawKind::LuGre) else {
         return Vec::new();
@@ -533,10 +356,10 @@ fn held<'a>(climb: &Climb, ladder: &'a Ladder, asymmetric: bool) -> Vec<Candidat
             .into_iter()
             .flatten()
             .collect();
-        next.push(ladder.usual(law.flat()).from(&near));
+        next.push(ladder.as_beside(law.flat(), lugre).from(&near));
     }
     if lugre.leaves_open(Quantity::Sigma1) {
-        next.push(ladder.usual(law.undamped()).from(&[lugre]));
+        next.push(ladder.as_beside(law.undamped(), lugre).from(&[lugre]));
     }
     next
 }
@@ -559,12 +382,13 @@ fn caught_up(
         let holds_more = |other: &&Rung| {
             let own = other.estimate.law;
             let is_held = own.flat && own == law.flat() || own.undamped && own == law.undamped();
-            is_held && cost(other) < MISSED * cost(rung)
+            let bent = |rung: &Rung| rung.estimate.terms.quadratic_viscous;
+            is_held && bent(other) == bent(rung) && cost(other) < MISSED * cost(rung)
         };
         let nearest = climb.rungs.iter().filter(holds_more);
         let nearest = nearest.min_by(|a, b| cost(a).total_cmp(&cost(b)));
-        if let Some(nearest) = nearest.filter(|_| !rung.capped) {
-            let mut again = ladder.usual(law);
+        if let Some(nearest) = nearest {
+            let mut again = ladder.as_beside(law, rung);
             again.starts = nearest.optimum.starts_within(&rung.optimum).into();
             missed.push((at, again));
         }
@@ -599,75 +423,19 @@ fn stated(
             estimate = estimate.interrupted();
         }
     }
-    let sought = ladder.usual(estimate.law).terms.delay == Delay::Fitted;
-    if sought && estimate.terms.delay == Delay::NONE {
-        let moved = [
-            Quantity::Sigma0,
-            Quantity::Sigma1,
-            Quantity::Sigma2,
-            Quantity::Mass,
-        ];
-        estimate.doubt(|p| {
-            moved
-                .contains(&p.name.quantity)
-                .then_some(BEYOND_ALL_DELAYS)
-        });
-        let widths = estimate.parameters.iter();
-        let open: Vec<Side> = widths
-            .filter(|p| {
-                p.name.quantity == Quantity::StribeckVelocity && p.identified && !p.identifiable
-            })
-            .map(|p| p.name.side)
-            .collect();
-        estimate.doubt(|p| {
-            let ends = p.name.quantity == Quantity::Static && open.contains(&p.name.side);
-            ends.then_some(AN_END_BESIDE_IT)
-        });
-    }
-    if estimate.terms.low_pass_undone {
-        estimate.doubt(|p| (p.name.quantity == Quantity::Delay).then_some(BESIDE_A_LOW_PASS));
-    }
     estimate
-}
-
-/// The best of the laws that a compensator may rely on. Of those that leave at most a tenth more, one without a parameter
-/// at the end of its search range comes first.
-fn reliable(climb: &Climb, laws: &[LawEntry], best: usize) -> usize {
-    let rungs = &climb.rungs;
-    let able: Vec<usize> = (0..laws.len())
-        .filter(|&i| laws[i].held_back.is_none())
-        .collect();
-    let best = climb.best_of(&able).unwrap_or(best);
-    let inside = |&i: &usize| !unfit::at_its_end(&rungs[i].optimum);
-    if inside(&best) {
-        return best;
-    }
-    let errors = able.iter().map(|&i| rungs[i].held_out_error());
-    let most = engine::NEVER_EQUAL_RATIO * errors.fold(f64::INFINITY, f64::min);
-    let near = |&i: &usize| rungs[i].held_out_error() <= most;
-    let within: Vec<usize> = able.into_iter().filter(inside).filter(near).collect();
-    climb.best_of(&within).unwrap_or(best)
-}
-
-/// A law with a Stribeck curve that the counts of the encoder were asked of.
-struct OfTheCounts {
-    /// Its place among the laws.
-    at: usize,
-    estimate: Estimate,
-    /// Whether they were used and determine its static friction.
-    shows: bool,
 }
 
 /// What the counts say of static friction where the law that was chosen by the force, at this place, holds it at Coulomb friction. A fit
 /// of the force passes over what happens within a count or two of a rest; the counts do not, and what they see of a rise that the law
-/// lacks they give to the stiffness of the bristles.
+/// lacks they give to the stiffness of the bristles. The law that shows it, and its estimate.
 fn of_the_counts(
     climb: &Climb,
     laws: &[LawEntry],
     at: usize,
     ladder: &Ladder,
     observer: &mut dyn Observer,
-) -> Option<OfTheCounts> {
+) -> Option<(usize, Estimate)> {
     let own = &climb.rungs[at];
     let law = &own.estimate.law;
     let most = engine::NEVER_EQUAL_RATIO * own.held_out_error();
@@ -686,11 +454,7 @@ fn of_the_counts(
     let mut levels = estimate.parameters.iter();
     let determined = levels.all(|p| p.name.quantity != Quantity::Static || p.identifiable);
     let shows = determined && estimate.of_the_counts && estimate.status != Status::Interrupted;
-    Some(OfTheCounts {
-        at,
-        estimate,
-        shows,
-    })
+    shows.then_some((at, estimate))
 }
 
 #[cfg(test)]

@@ -45,8 +45,7 @@ pub(super) fn message(clocks: &Clocks, what: &str, to_do: Option<&str>) -> Strin
         format!(", or fit a part in which they hardly do: {line}")
     });
     format!(
-        "{what}: {behind} by at least {ms} ms more at the end of the log than at its beginning, {ppm} (± {about}) millionths. What \
-         changes fast with position or speed is no constant of the machine; Coulomb and viscous friction hold as far as their \
-         intervals say. Record both by one clock{part}"
+        "{what}: {behind} by at least {ms} ms more at the end of the log than at its beginning, {ppm} (± {about}) millionths. Coulomb and viscous \
+         friction hold; what changes fast with position or speed takes up part of it. Record both by one clock{part}"
     )
 }

@@ -101,14 +101,9 @@ pub(super) fn condition(
         dependences: symmetric.dependences.clone(),
         ..asymmetric.about(&record)
     };
-    let with_offset = Terms {
-        offset: true,
-        ..asymmetric.clone()
-    };
     Ok(Conditioned {
         terms: LinearTerms {
             symmetric,
-            asymmetric_with_offset: axis.leaves_offset_open().then_some(with_offset),
             asymmetric,
         },
         record,

@@ -52,8 +52,7 @@ pub(super) fn message(coupling: &Coupling, of_force: f64, log: &Log) -> String {
     );
     let load = Percent::error(100.0 * coupling.load).digits(2);
     let about = Percent::error(100.0 * QUANTILE * coupling.deviation).digits(2);
-    let stands = "The intervals count it: Coulomb friction, viscous friction and the whole mass hold as far as they say; \
-                  presliding and the Stribeck curve are no constants of the machine";
+    let stands = "Coulomb friction, viscous friction and the whole mass hold; presliding and the Stribeck curve take up part of it";
     let surely = match coupling.deviation > HARDLY_KNOWN {
         true => "most likely ",
         false => "",

@@ -8,7 +8,7 @@ use std::fmt::Write;
 use stiction_codes::Code;
 use stiction_files::result::{CauseEntry, Cure};
 use stiction_files::{Warning, shell, symbols};
-use stiction_identify::{Disagreement, FittedLaw, NOT_CONSTANT};
+use stiction_identify::{Disagreement, FittedLaw};
 use stiction_log::Motion;
 use stiction_number::{Percent, four_digits, short};
 use stiction_parameters::Quantity;
@@ -73,10 +73,7 @@ fn warning(
     };
     let part = |x: f64| Percent::error(100.0 * x).digits(2);
     let size = (found.values[1] - found.values[0]) / found.part;
-    let verdict = match found.part < NOT_CONSTANT {
-        true => "The intervals count how the logs scatter",
-        false => "It is no constant of the machine",
-    };
+    let verdict = "The interval of another day counts how the logs scatter";
     let own_level = own_level(found).filter(|_| !one_level);
     let together = own_level.map_or(String::new(), |key| {
         format!(

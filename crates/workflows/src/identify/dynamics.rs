@@ -26,8 +26,8 @@ pub(super) fn message(
         ),
     };
     format!(
-        "{what}: {left} goes with the second derivative of the force; {alike}. The intervals count it: Coulomb friction, viscous \
-         friction and the mass hold as far as they say; presliding, the Stribeck curve and the delay are no constants of the machine. \
+        "{what}: {left} goes with the second derivative of the force; {alike}. Coulomb friction, viscous friction and the mass \
+         hold; presliding, the Stribeck curve and the delay take up part of it. \
          Log force and motion unfiltered, from the same loop of the drive, then: stiction identify another.csv{options} --out another"
     )
 }

@@ -73,6 +73,7 @@ fn ladder<'a>(asked: Asked, conditioned: &'a Conditioned) -> Ladder<'a> {
         record: &conditioned.record,
         held_out: &conditioned.unseen,
         terms: &conditioned.terms,
+        bent: (!conditioned.terms.symmetric.quadratic_viscous).then(|| conditioned.terms.bent()),
         held_delay: None,
         low_speed: conditioned.low_speed,
         exponent_is_open: asked.axis.leaves_exponent_open(),

@@ -1,9 +1,12 @@
 //! The friction curve as the result states it.
 
-use stiction_files::result::{BandEntry, FrictionAtEntry, FrictionCurveEntry};
+use stiction_files::result::{
+    BandEntry, FrictionAtEntry, FrictionCurveEntry, FrictionLineEntry, ValueEntry,
+};
 use stiction_files::symbols;
 use stiction_identify::{FrictionCurve, Level};
 use stiction_log::Motion;
+use stiction_parameters::Quantity;
 
 /// The entry of a curve.
 pub(super) fn entry(curve: &FrictionCurve, motion: Motion, unit: &str) -> FrictionCurveEntry {
@@ -19,7 +22,19 @@ pub(super) fn entry(curve: &FrictionCurve, motion: Motion, unit: &str) -> Fricti
         repeat: level.half.repeat,
         transfer: level.half.transfer,
     };
+    let value = |level: &Level| ValueEntry {
+        value: level.force,
+        at_once: level.half.at_once,
+        repeat: level.half.repeat,
+        transfer: level.half.transfer,
+    };
+    let line = curve.line.as_ref();
     FrictionCurveEntry {
+        line: line.map(|[coulomb, viscous]| FrictionLineEntry {
+            coulomb: value(coulomb),
+            viscous: value(viscous),
+            viscous_unit: symbols::unit(Quantity::Sigma2.dimension(), motion, unit, ""),
+        }),
         speed_unit: symbols::speed_unit(motion).into(),
         unit: unit.into(),
         at: curve.at.iter().map(at).collect(),

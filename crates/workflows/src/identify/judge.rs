@@ -61,7 +61,6 @@ pub(super) fn judge(
         contradicted,
         unused: unused.as_deref(),
         chosen: fitted.choice.by != "user",
-        held_back: fitted.choice.held_back.as_deref(),
         better: fitted.choice.better.as_ref(),
         held_out_rmse: fitted.choice.held_out_rmse,
         validation,

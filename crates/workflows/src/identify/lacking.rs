@@ -63,7 +63,7 @@ pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
     let enable = found(Code::EnableIgnored).filter(|_| poor);
     if let Some(finding) = found(Code::ForceSign).or(enable) {
         reasons.push(finding.message.clone(), Next::AxisFile);
-    } else if poor && all_negative(evidence) {
+    } else if poor && evidence.moves_both_ways && all_negative(evidence) {
         reasons.push(TURNED.to_string(), Next::AxisFile);
     } else if poor && evidence.sources.iter().any(|s| s.log.force_as_stamped) {
         reasons.push(ANOTHER_CLOCK.to_string(), Next::AxisFile);

@@ -1,11 +1,10 @@
 //! Laws side by side, on samples that none of them was fitted to.
 
-use super::unfit;
 use rayon::prelude::*;
 use stiction_files::result::LawEntry;
 use stiction_identify as engine;
 use stiction_identify::{
-    Estimate, Law, LawKind, LawScore, Observer, Optimum, Record, SearchBox, Settings, Terms,
+    Estimate, Law, LawKind, LawScore, Observer, Optimum, Record, Settings, Status, Terms,
 };
 use stiction_parameters::Quantity;
 use stiction_search::{Shared, Stage};
@@ -21,7 +20,9 @@ pub(super) struct Ladder<'a> {
     pub held_out: &'a [Record],
     /// Linear terms beside the laws.
     pub terms: &'a LinearTerms,
-    /// The same beside a law that begins to look for the delay of the force, where that is asked for, at what another finds.
+    /// The same with quadratic viscous friction, where the axis file leaves that open.
+    pub bent: Option<LinearTerms>,
+    /// Those beside a law that begins to look for the delay of the force, where that is asked for, at what another finds.
     pub held_delay: Option<LinearTerms>,
     pub low_speed: f64,
     /// Whether the Stribeck exponent is assumed, and may be fitted where the data ask for it.
@@ -35,9 +36,6 @@ pub(super) struct LinearTerms {
     pub symmetric: Terms,
     /// Beside an asymmetric law.
     pub asymmetric: Terms,
-    /// The same with a constant force, where the axis file leaves that open: with it an asymmetric law holds the
-    /// symmetric one.
-    pub asymmetric_with_offset: Option<Terms>,
 }
 
 /// A law to fit, and what stands beside it.
@@ -48,8 +46,6 @@ pub(super) struct Candidate<'a> {
     /// Where descents start: at the end points of laws that it holds or that hold it. Without any, its whole range is
     /// searched.
     pub starts: Vec<Vec<f64>>,
-    /// Where its static friction is kept below a force: the box that does so.
-    pub capped: Option<SearchBox>,
 }
 
 /// A law, fitted and scored.
@@ -57,8 +53,6 @@ pub(super) struct Rung {
     pub estimate: Estimate,
     pub optimum: Optimum,
     score: LawScore,
-    /// Whether its static friction was kept below the largest friction of the log.
-    pub capped: bool,
 }
 
 /// What came of fitting several laws.
@@ -108,7 +102,26 @@ impl Ladder<'_> {
             law,
             terms,
             starts: Vec::new(),
-            capped: None,
+        }
+    }
+
+    /// The same with quadratic viscous friction; `None` where the axis file asks for it beside every law.
+    pub fn bent(&self, law: Law) -> Option<Candidate<'_>> {
+        let terms = self.bent.as_ref()?.beside(law.asymmetric);
+        Some(Candidate {
+            terms,
+            ..self.usual(law)
+        })
+    }
+
+    /// A law with the terms that another one was fitted with.
+    pub fn as_beside(&self, law: Law, rung: &Rung) -> Candidate<'_> {
+        let terms = &rung.estimate.terms;
+        let bent = self.bent.as_ref();
+        let bent = bent.filter(|_| terms.quadratic_viscous);
+        Candidate {
+            terms: bent.unwrap_or(self.terms).beside(law.asymmetric),
+            ..self.usual(law)
         }
     }
 
@@ -131,15 +144,6 @@ impl Ladder<'_> {
         Some(left)
     }
 
-    /// The terms that a law was fitted with.
-    pub fn beside(&self, rung: &Rung) -> &Terms {
-        let law = rung.estimate.law;
-        let both = self.terms.asymmetric_with_offset.as_ref();
-        let offset = rung.estimate.terms.offset;
-        let with_offset = both.filter(|terms| law.asymmetric && offset == terms.offset);
-        with_offset.unwrap_or(self.usual(law).terms)
-    }
-
     /// Fits one law.
     pub fn fit(
         &self,
@@ -150,10 +154,6 @@ impl Ladder<'_> {
         let Candidate {
             law, terms, starts, ..
         } = candidate;
-        let settings = &Settings {
-            bounds: candidate.capped.clone().or(settings.bounds.clone()),
-            ..settings.clone()
-        };
         let (record, bound) = (self.record, self.low_speed);
         let Some((first, others)) = starts.split_first() else {
             return engine::fit_law(record, *law, terms, bound, settings, observer);
@@ -197,7 +197,6 @@ impl Ladder<'_> {
             estimate,
             optimum,
             score,
-            capped: candidate.capped.is_some(),
         })
     }
 }
@@ -211,12 +210,23 @@ impl LinearTerms {
         }
     }
 
+    /// The same with quadratic viscous friction.
+    pub fn bent(&self) -> Self {
+        let bent = |terms: &Terms| Terms {
+            quadratic_viscous: true,
+            ..terms.clone()
+        };
+        Self {
+            symmetric: bent(&self.symmetric),
+            asymmetric: bent(&self.asymmetric),
+        }
+    }
+
     fn holding_delay_of(&self, other: &Estimate) -> Self {
         let held = |terms: &Terms| terms.holding_delay_of(other);
         Self {
             symmetric: held(&self.symmetric),
             asymmetric: held(&self.asymmetric),
-            asymmetric_with_offset: self.asymmetric_with_offset.as_ref().map(held),
         }
     }
 }
@@ -231,7 +241,8 @@ impl<'a> Candidate<'a> {
 
     /// Whether an estimate is of this law with these terms; a delay at the end of its range was taken out of its terms.
     fn is(&self, estimate: &Estimate) -> bool {
-        estimate.law == self.law && estimate.terms.offset == self.terms.offset
+        let same = |terms: &Terms| (terms.offset, terms.quadratic_viscous);
+        estimate.law == self.law && same(&estimate.terms) == same(self.terms)
     }
 }
 
@@ -261,9 +272,11 @@ impl Rung {
         held_out.map(|fit| fit.rmse)
     }
 
-    /// Why a compensator should not rely on it; `None` where it may.
+    /// Why it is not taken; `None` where it may be.
     fn held_back(&self) -> Option<String> {
-        unfit::reason(&self.estimate, &self.optimum)
+        let status = self.optimum.status;
+        let ended = matches!(status, Status::Converged | Status::Interrupted);
+        (!ended).then(|| format!("its search ended with {}", status.name()))
     }
 
     fn entry(&self, standing: &engine::Standing) -> LawEntry {
@@ -274,9 +287,10 @@ impl Rung {
         LawEntry {
             law: law.kind.name().into(),
             asymmetric: law.asymmetric,
-            without: without(law, self.capped),
+            without: without(law),
             exponent_fitted: law.has_stribeck() && law.exponent_fitted,
             offset: estimate.terms.offset,
+            quadratic_viscous: estimate.terms.quadratic_viscous,
             elements: law.kind.has_elements().then_some(law.elements),
             parameters: score.parameters,
             fitted_error_percent: score.fitted.relative_error_percent,
@@ -311,17 +325,17 @@ impl Climb {
         self.rungs.sort_by_key(|rung| {
             let law = &rung.estimate.law;
             let held = usize::from(law.flat) + usize::from(law.undamped);
-            let offset = rung.estimate.terms.offset;
-            let capped = rung.capped;
+            let terms = &rung.estimate.terms;
+            let offset = terms.offset;
             let exponent = law.exponent_fitted;
             (
                 law.kind,
                 law.asymmetric,
+                terms.quadratic_viscous,
                 2 - held,
                 law.undamped,
                 exponent,
                 offset,
-                capped,
             )
         });
         self
@@ -348,12 +362,8 @@ impl Climb {
 }
 
 /// What of a law is left out, as `result.json` names it.
-pub(super) fn without(law: &Law, capped: bool) -> Vec<String> {
-    let held = [
-        (law.flat, "stribeck"),
-        (law.undamped, "sigma1"),
-        (capped, "unseen-force"),
-    ];
+pub(super) fn without(law: &Law) -> Vec<String> {
+    let held = [(law.flat, "stribeck"), (law.undamped, "sigma1")];
     let names = held
         .into_iter()
         .filter_map(|(held, name)| held.then_some(name));

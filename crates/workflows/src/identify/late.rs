@@ -9,8 +9,8 @@ use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::{Axis, Warning, shell};
 use stiction_identify::{
-    Alignment, Delay, Estimate, FittedLaw, ForceFilter, Misfit, Observer, Smoothing, alignment,
-    force_filter, lateness,
+    Alignment, Delay, FittedLaw, ForceFilter, Observer, Smoothing, alignment, force_filter,
+    lateness,
 };
 use stiction_log::{Offset, Role};
 use stiction_number::{four_digits, full};
@@ -57,15 +57,6 @@ fn apart(sources: &[Source], each: &[usize]) -> Option<String> {
 
 /// What rows that are late leave, in parts of what a filter leaves, up to which they are believed: a filter has one number more.
 const LATE_AS_GOOD: f64 = 1.3;
-/// Time constant of a low-pass, samples, from which what is open of it counts in the mass by more than its interval says: of simulated logs
-/// behind 20 samples two had it 2.3 and 2.5 % off, by more than the width of the interval.
-const LONG_FILTER: f64 = 10.0;
-const LONG: &str = "moves with the time constant of the low-pass that was undone, which is long";
-
-/// Why bristle and mass are open where a force was taken as late as the rest of the law has it, and something is left all the same.
-const LATE_OR_ELSE: &str = "the force is taken later than fits look for, and what is left all the same has another cause, of which that \
-                            delay may be a part";
-
 /// The same where the fits that choose the cut-offs found the delay at the end of its range: by fits further on. Gives the rows
 /// that explain the force better, where they are not sure to be its cause.
 pub(super) fn realigned(
@@ -129,7 +120,6 @@ pub(super) fn unfiltered(
     let is_as_good = |further: &Alignment| further.left < LATE_AS_GOOD * least;
     if let Some(further) = further.filter(is_as_good) {
         loaded.take_force_from(further.rows);
-        loaded.is_late_or_else = true;
         let conditioned = condition(asked, &loaded, observer)?;
         return Ok((loaded, conditioned));
     }
@@ -146,21 +136,6 @@ pub(super) fn unfiltered(
     loaded.take_force_from(found.rows);
     let conditioned = condition(asked, &loaded, observer)?;
     Ok((loaded, conditioned))
-}
-
-/// Leaves the mass open behind a low-pass that was undone and is long. Leaves bristle and mass open where the force may be as late as it was taken, or something else is wrong, which a law would show.
-pub(super) fn doubted(loaded: &Loaded, estimate: &mut Estimate) {
-    let left = estimate.misfit.as_ref().and_then(Misfit::cause);
-    if loaded.is_late_or_else && left.is_some() {
-        let moved = [Quantity::Sigma0, Quantity::Sigma1, Quantity::Mass];
-        estimate.leave_open(&moved, LATE_OR_ELSE);
-    }
-    let rate = loaded.sources[0].log.rate_hz;
-    if let Some(Smoothing::LowPass(time)) = loaded.filter.map(|filter| filter.what)
-        && time * rate > LONG_FILTER
-    {
-        estimate.leave_open(&[Quantity::Mass], LONG);
-    }
 }
 
 /// Whether a delay is looked for.

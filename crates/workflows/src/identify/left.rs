@@ -1,9 +1,10 @@
 //! What a law leaves systematically, and what to do about it, in words.
 
+use super::trust::RICHER_LAW_WINS_BELOW;
 use super::{clocks, coupled, dynamics, pitch, settled};
 use crate::source::Source;
 use stiction_codes::Code;
-use stiction_files::result::{CauseEntry, Cure, MisfitEntry};
+use stiction_files::result::{CauseEntry, Cure, LawEntry, MisfitEntry};
 use stiction_files::{Warning, symbols};
 use stiction_identify::{Cause, Dependence, Divided, FittedLaw, LawKind, Misfit, Ripple};
 use stiction_number::{Percent, four_digits};
@@ -71,6 +72,7 @@ fn code(cause: Cause) -> Code {
 pub(super) fn named(
     law: &FittedLaw,
     sources: &[Source],
+    laws: &[LawEntry],
     options: &str,
     warnings: &mut Vec<Warning>,
 ) {
@@ -83,14 +85,34 @@ pub(super) fn named(
         warnings.push(Warning::new(Code::LawShape, message));
     }
     let Some(misfit) = &law.misfit else { return };
-    let Some(cause) = misfit.cause() else { return };
+    let Some(cause) = misfit.cause().filter(|cause| is_shown(*cause, law, laws)) else {
+        return;
+    };
     let message = message(misfit, cause, law, (sources, options));
     warnings.push(Warning::new(code(cause), message));
 }
 
-/// The same as a part of the verdict, with what takes it into the fit; another law where the data chose among the `others` without
-/// it. From a law that was asked for none leads to another by its shape, which may be where it came from.
-pub(super) fn cause(law: &FittedLaw, sources: &[Source], others: bool) -> Option<CauseEntry> {
+/// Whether a cause is more than a guess: another shape is one where elements were fitted beside and hold better.
+fn is_shown(cause: Cause, law: &FittedLaw, laws: &[LawEntry]) -> bool {
+    cause != Cause::Shape || elements_hold_better(law, laws)
+}
+
+/// Whether several elements hold better on samples that were not fitted than the one bristle of a law.
+fn elements_hold_better(law: &FittedLaw, laws: &[LawEntry]) -> bool {
+    let own = laws.iter().find(|own| own.reported);
+    let own = own.and_then(|own| own.held_out_error_percent);
+    let mut errors = laws.iter().filter(|other| other.elements.is_some());
+    !law.law.kind.has_elements()
+        && own.is_some_and(|own| {
+            errors.any(|other| {
+                let error = other.held_out_error_percent;
+                error.is_some_and(|error| error < RICHER_LAW_WINS_BELOW * own)
+            })
+        })
+}
+
+/// The same as a part of the verdict, with what takes it into the fit.
+pub(super) fn cause(law: &FittedLaw, sources: &[Source], laws: &[LawEntry]) -> Option<CauseEntry> {
     if let Some(exponent) = law.likelier_exponent {
         return Some(CauseEntry {
             code: Code::LawShape,
@@ -104,7 +126,7 @@ pub(super) fn cause(law: &FittedLaw, sources: &[Source], others: bool) -> Option
         });
     }
     let misfit = law.misfit.as_ref()?;
-    let cause = misfit.cause()?;
+    let cause = misfit.cause().filter(|cause| is_shown(*cause, law, laws))?;
     let share = match (&misfit.clocks, &misfit.coupling, moved(misfit)) {
         _ if cause == Cause::Limit => misfit.limit.map_or(misfit.share, |limit| limit.share),
         (Some(clocks), _, _) => clocks.share,
@@ -116,8 +138,7 @@ pub(super) fn cause(law: &FittedLaw, sources: &[Source], others: bool) -> Option
         code: code(cause),
         text: moved(misfit).map_or_else(|| coupled::likely(misfit, words(cause)), |_| MOVED.into()),
         size: of_what_is_left(share, law),
-        cure: cure(misfit, cause, law, sources)
-            .filter(|cure| others || !matches!(cure, Cure::Law { .. })),
+        cure: cure(misfit, cause, law, sources),
     })
 }
 
@@ -255,7 +276,6 @@ fn message(
         let part = |x: f64| Percent::error(100.0 * x).signed(0);
         format!("{} to {}", part(low), part(high))
     };
-    let counted = "The intervals count it";
     let what = words(cause);
     let cure = cure(misfit, cause, law, sources);
     let cured = cure.is_some();
@@ -288,9 +308,7 @@ fn message(
     if let Some(ripple) = moved(misfit) {
         let share = Percent::error(100.0 * ripple.share).digits(2);
         let found = pitch::found(ripple, log.motion);
-        return format!(
-            "{MOVED}: {found} explains {share} of what the law leaves. {counted}. {to_do}"
-        );
+        return format!("{MOVED}: {found} explains {share} of what the law leaves. {to_do}");
     }
     // Of a wave, what it is and how surely its pitch is known.
     let wave = misfit.ripple.map(|ripple| {
@@ -334,8 +352,7 @@ fn message(
                 false => String::new(),
             };
             format!(
-                "{what}: {left} is a Coulomb level that goes from {} of its mean, as means over sixteenths of the log. {counted}; the \
-                 values are means over the log. {to_do}{by_place}",
+                "{what}: {left} is a Coulomb level that goes from {} of its mean, as means over sixteenths of the log; the values are means over the log. {to_do}{by_place}",
                 levels()
             )
         }
@@ -344,16 +361,16 @@ fn message(
                 format!(", which {wave} describes much better than a straight line")
             });
             format!(
-                "{what}: {left} is a level that goes from {} of its mean{line}. {counted}. {to_do}",
+                "{what}: {left} is a level that goes from {} of its mean{line}. {to_do}",
                 levels()
             )
         }
         Cause::Load => format!(
-            "{what}: {left} is a level that goes from {} of its mean over the loads of the log. {counted}. {to_do}",
+            "{what}: {left} is a level that goes from {} of its mean over the loads of the log. {to_do}",
             levels()
         ),
         Cause::Temperature => format!(
-            "{what}: {left} is a level that goes from {} of its mean over the temperatures of the log. {counted}. {to_do}",
+            "{what}: {left} is a level that goes from {} of its mean over the temperatures of the log. {to_do}",
             levels()
         ),
         Cause::Clocks => misfit.clocks.as_ref().map_or_else(String::new, |found| {
@@ -366,8 +383,7 @@ fn message(
             let [rests, all] = held.rests;
             format!(
                 "{what}: in {rests} of {all} rests the force goes by up to {} {} without a count of motion, several times farther than bristles \
-                 let it, as where a brake holds and the controller lets go. {left} comes of what the law makes of it. {counted}, and \
-                 presliding and the Stribeck curve are no constants of the machine. A column that says where the brake holds, given as \
+                 let it, as where a brake holds and the controller lets go. {left} comes of what the law makes of it. The law takes up part of it in presliding and in the Stribeck curve. A column that says where the brake holds, given as \
                  enable under [columns], leaves those rows out; else record motion without rests",
                 four_digits(held.force),
                 log.force_unit
@@ -378,7 +394,7 @@ fn message(
             let beyond = Percent::error(100.0 * limit.beyond).digits(2);
             format!(
                 "{what}: {left} is what was logged beyond {} {unit}, in {beyond} of the samples, as where the log holds what a \
-                 controller asked for and the drive is at its limit. Nothing that was fitted is a constant of the machine. Log the force \
+                 controller asked for and the drive is at its limit. Log the force \
                  or current that the drive measures, or record with less acceleration, so that the drive stays below its limit",
                 four_digits(limit.force)
             )
@@ -387,21 +403,19 @@ fn message(
             let line = wave.map_or(String::new(), |wave| {
                 format!(", most of it {wave}. {to_do}")
             });
-            format!("{what}: {left}{line}. {counted}")
+            format!("{what}: {left}{line}")
         }
         Cause::SpringForce => misfit.spring_force.map_or_else(String::new, |found| {
             format!(
                 "{what}: {left} goes with it, {} {}/{} beside what the law has taken of it, as a cable chain, a bellows or a balancing \
-                 spring does. {counted}. {to_do}: a wave so long is straight over the stroke",
+                 spring does. {to_do}: a wave so long is straight over the stroke",
                 four_digits(found.stiffness),
                 log.force_unit,
                 symbols::length_unit(log.motion)
             )
         }),
         Cause::Shape => format!(
-            "{what}: {left} {}. {counted}, and what describes that shape is no constant of the machine.{} \
-                 Neither a load on a spring nor one behind a gap explains it surely; a force logged \
-                 late looks alike",
+            "{what}: {left} {}.{}",
             match misfit.by {
                 Divided::AfterReversals => "lies after reversals, beyond what is left elsewhere",
                 _ => "comes back with speed and travel after each reversal",

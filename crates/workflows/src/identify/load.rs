@@ -33,8 +33,6 @@ pub(super) struct Loaded {
     pub filter: Option<ForceFilter>,
     /// By how much the logs differ in that, in words, where no delay can be that of all.
     pub apart: Option<String>,
-    /// Whether the force was taken later since nothing else that was looked for explains more, by which little is left or much.
-    pub is_late_or_else: bool,
     /// What the axis file states and the log contradicts.
     pub contradicted: Option<Warning>,
 }
@@ -98,7 +96,6 @@ pub(super) fn load(
         late: 0.0,
         filter: None,
         apart: None,
-        is_late_or_else: false,
         contradicted: None,
     })
 }

@@ -6,7 +6,7 @@ use super::fit::fit;
 use super::friction;
 use super::heard::Heard;
 use super::judge::judge;
-use super::late::{aligned, doubted, realigned, unfiltered};
+use super::late::{aligned, realigned, unfiltered};
 use super::load::{Asked, Loaded, load};
 use super::method::Method;
 use super::options::{Files, Options};
@@ -16,6 +16,7 @@ use super::planned;
 use super::procedure::{static_map, step};
 use super::simulate;
 use super::stated;
+use super::weight;
 use crate::error::Error;
 use crate::source::{Source, Used, load_held_out, refuse_several, usage_at};
 use crate::wording::{Setting, TOGETHER_WITH};
@@ -190,7 +191,7 @@ fn beside_stamps(record: &Record) -> Option<Warning> {
             Code::Jitter,
             format!(
                 "the position was read beside the instants of its time stamps, by {} us rms ({:.0} % of a sample): noise that \
-                 grows with speed. The intervals count it; a log with the instants of the readings has smaller ones",
+                 grows with speed; a log with the instants of the readings has smaller intervals",
                 four_digits(1e6 * seconds),
                 100.0 * seconds / step
             ),
@@ -232,10 +233,13 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     if !heard.stopped && loaded.contradicted.is_none() && is_moved {
         loaded.contradicted = stated::named(asked, &loaded, &conditioned, heard);
     }
+    let weight = match heard.stopped {
+        true => None,
+        false => weight::taken(asked, &loaded, &mut conditioned, heard),
+    };
     let ranges = asked.axis.search_box(&loaded.sources[0].log)?;
     let fitted = fit(asked, &loaded, &conditioned, heard);
-    let mut fitted = fitted.map_err(|e| of_the_split(asked, &conditioned, e))?;
-    doubted(&loaded, &mut fitted.choice.estimate);
+    let fitted = fitted.map_err(|e| of_the_split(asked, &conditioned, e))?;
     let names = conditioned.unseen_names.iter().cloned();
     let validation: Vec<(String, Series)> = names
         .zip(&conditioned.unseen)
@@ -245,12 +249,17 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     let estimate = fitted.choice.estimate;
     let outside = outside::named(&ranges, &estimate, &loaded.sources[0].log);
     judged.warnings.extend(outside);
+    // Of one cause one warning.
+    judged
+        .warnings
+        .retain(|w| w.code != Code::Jitter || conditioned.record.timing_noise == 0.0);
     judged.warnings.extend(beside_stamps(&conditioned.record));
     let notes = conditioned.record.notes.iter().cloned();
     let mut result = assemble::result(Parts {
         asked,
         sources: &loaded.sources,
         conditioning: notes
+            .chain(weight)
             .chain(conditioned.note)
             .chain(assemble::correction_note(&estimate))
             .chain(assemble::counts_note(&estimate))

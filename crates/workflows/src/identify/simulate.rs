@@ -11,7 +11,6 @@ use super::mixed;
 use super::outcome::{Found, Outcome, Simulated};
 use super::procedure::break_away;
 use super::trust::{self, Evidence};
-use super::unfit;
 use crate::entries;
 use crate::error::Error;
 use crate::source::Source;
@@ -128,7 +127,6 @@ pub(super) fn run(
         unseen.push((name, one));
     }
 
-    let held_back = unfit::above_every_force(&found.fitted, sources);
     let odd = machine::unlikely(asked, &loaded, &found.fitted);
     let evidence = Evidence {
         law: &found.fitted,
@@ -138,7 +136,6 @@ pub(super) fn run(
         laws: &[],
         // The laws that the data choose among are fitted to the force: no way on from here.
         chosen: true,
-        held_back: held_back.as_deref(),
         better: None,
         held_out_rmse: None,
         validation: &[],

@@ -13,7 +13,7 @@ use stiction_files::Warning;
 use stiction_files::result::{BetterLaw, CauseEntry, Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
 use stiction_identify::procedure::StepFit;
-use stiction_identify::{Cause, Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
+use stiction_identify::{Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
 use stiction_identify::{NO_INTERVAL, Parameter};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
@@ -37,11 +37,6 @@ pub(super) const SIMPLER_LAW_WINS_FROM: f64 = 1.02;
 pub(super) const RICHER_LAW_WINS_BELOW: f64 = 0.8;
 /// The same ratio below which this law is not trusted, dimensionless: another law has less than half the error.
 const UNTRUSTED_BELOW: f64 = 0.5;
-/// Effective number of independent samples in the residual, as a part of all samples, below which the residual is
-/// called systematic, dimensionless; see `docs/codes/correlated-residual.md`.
-const SYSTEMATIC_BELOW_SHARE: f64 = 0.05;
-/// Part of the variance of a systematic residual from which a misfit explains it, dimensionless: half.
-const EXPLAINED_FROM: f64 = 0.5;
 /// Shift of a parameter by encoder, filters and noise, as a part of its value, above which a warning names it,
 /// dimensionless.
 const NAMED_SHIFT: f64 = 0.05;
@@ -78,7 +73,6 @@ impl Judged {
             other,
             few_levels,
             estimated_offset,
-            unexplained,
         }: Reasons,
         warnings: Vec<Warning>,
     ) -> Self {
@@ -94,7 +88,6 @@ impl Judged {
                 && !few_levels
                 && !held
                 && !assumed
-                && !unexplained
                 && law.fit.r2 >= LEAST_R2
                 && match motion {
                     Shown::Sliding => !law.stays_in_presliding(),
@@ -151,9 +144,8 @@ impl Judged {
             _ => evidence.clearly_better().cloned(),
         };
         if evidence.shows_friction() && !first.contains(&self.trust.next) {
-            let compared = evidence.chosen && !evidence.laws.is_empty();
             let own = lacking::weight(evidence)
-                .or_else(|| left::cause(evidence.law, evidence.sources, compared));
+                .or_else(|| left::cause(evidence.law, evidence.sources, evidence.laws));
             let between = disagree::cause(evidence.law);
             let levels = between
                 .as_ref()
@@ -196,8 +188,6 @@ pub(super) struct Reasons {
     few_levels: bool,
     /// Whether the offset between the clocks of two files was estimated, which a delay then makes up for.
     estimated_offset: bool,
-    /// Whether most of an autocorrelated residual has no cause that is known.
-    unexplained: bool,
 }
 
 impl Reasons {
@@ -246,8 +236,6 @@ pub(super) struct Evidence<'a> {
     pub motion: Motion,
     /// Whether the data chose the law.
     pub chosen: bool,
-    /// Why a compensator should not rely on the law.
-    pub held_back: Option<&'a str>,
     /// The best of the other laws that a compensator may rely on, where this one was asked for.
     pub better: Option<&'a BetterLaw>,
     /// Rms residual on held-out samples, where the law was fitted without them in turn.
@@ -562,15 +550,17 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     limited(law, reasons);
     no_machine(evidence.sources, reasons);
     another_wins(evidence, warnings, reasons);
-    if let Some(why) = evidence.held_back {
-        let text = format!("a compensator would rely on a guess: {why}");
-        reasons.push(text, evidence.another_law());
-    }
     // Causes first: what they leave open, and what else shows them, comes after.
     let weight = lacking::weight(evidence);
     let warned = weight.as_ref().filter(|_| !gravity).map(lacking::warned);
     let mut causes: Vec<Warning> = warned.into_iter().collect();
-    left::named(law, evidence.sources, &evidence.options, &mut causes);
+    left::named(
+        law,
+        evidence.sources,
+        evidence.laws,
+        &evidence.options,
+        &mut causes,
+    );
     // A weight on a lever repeats with the angle: cogging would take it up in part.
     causes.retain(|cause| !gravity || cause.code != Code::PositionRipple);
     // What a weight explains is of no other shape.
@@ -589,7 +579,6 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         false => warnings.len(),
     };
     warnings.splice(place..place, causes);
-    reasons.unexplained = systematic(evidence, warnings);
     shifted(law, warnings);
     static_at_rest(law, evidence.motion, warnings);
     unidentifiable(law, evidence.motion, warnings);
@@ -826,41 +815,6 @@ fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
     }
 }
 
-/// A residual that is autocorrelated over many samples is not noise; whether that may bias the parameters by more than the
-/// misfit of the force has widened their intervals: most of it is no misfit with a cause.
-fn systematic(evidence: &Evidence, warnings: &mut Vec<Warning>) -> bool {
-    let estimate = evidence.law;
-    let fit = &estimate.fit;
-    // What counts say is not from this residual.
-    if estimate.of_the_counts
-        || fit.effective_samples >= SYSTEMATIC_BELOW_SHARE * fit.samples as f64
-    {
-        return false;
-    }
-    let misfit = estimate.misfit.as_ref();
-    let explained = misfit.is_some_and(|misfit| {
-        !matches!(misfit.cause(), None | Some(Cause::Shape)) || misfit.share >= EXPLAINED_FROM
-    });
-    let unexplained = evidence.signal == "force" && !explained;
-    let worth = match (explained, unexplained) {
-        (true, _) => "the intervals count what comes back of it",
-        (_, true) => {
-            "it may bias the parameters by more than their intervals, so none of them is given as a constant"
-        }
-        (_, false) => "it may bias the parameters by more than their intervals",
-    };
-    warnings.push(Warning::new(
-        Code::CorrelatedResidual,
-        format!(
-            "the residual is strongly autocorrelated: {:.0} effective samples of {}. An effect that the \
-             law does not describe may be left (another law, cogging, gravity, force and position \
-             logged at different instants); {worth}",
-            fit.effective_samples, fit.samples
-        ),
-    ));
-    unexplained
-}
-
 /// An error of the logged force drives the simulated axis of an open loop like the force itself, is integrated twice
 /// on its way to the position, and so biases the parameters: whether by more than their intervals say.
 fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut Reasons) -> bool {
@@ -881,7 +835,6 @@ fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut R
          included",
         fit.effective_samples
     );
-    warnings.retain(|w| w.code != Code::CorrelatedResidual);
     warnings.push(Warning::new(
         Code::CorrelatedResidual,
         format!(

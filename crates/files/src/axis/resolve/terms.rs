@@ -33,7 +33,9 @@ impl Resolver {
             return Ok(());
         };
         axis.offset = table.flag("offset")?;
-        axis.terms.gravity = table.flag("gravity")?.unwrap_or(false);
+        let gravity = table.flag("gravity")?;
+        axis.gravity_is_stated = gravity.is_some();
+        axis.terms.gravity = gravity.unwrap_or(false);
         axis.terms.cogging = self.pitches(table.get("cogging"))?;
         axis.terms.quadratic_viscous = table.flag("quadratic_viscous")?.unwrap_or(false);
         axis.terms.dependences = self.dependences(&table)?;

@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use stiction_friction::LuGre;
 use stiction_identify::{
-    Conditioning, Estimate, IntervalKind, Law, LawKind, Mass, Optimum, Record, Samples, SearchBox,
+    Conditioning, Estimate, Law, LawKind, Mass, Optimum, Parameter, Record, Samples, SearchBox,
     Settings, Silent, Terms, condition, estimate, intervals, separable,
 };
 use stiction_servo::cascade::Cascade;
@@ -156,17 +156,27 @@ pub fn local(trial: &Trial, set: &Set) -> (Law, Optimum) {
     (law, found)
 }
 
-/// How often the intervals of one parameter held the truth.
+/// The interval of the same test again, now.
+pub fn at_once(p: &Parameter) -> Option<(f64, f64)> {
+    let half = p.half?.at_once;
+    Some(match p.name.quantity.allowed().is_never_negative() {
+        true => {
+            let factor = (half / p.value).exp();
+            (p.value / factor, p.value * factor)
+        }
+        false => (p.value - half, p.value + half),
+    })
+}
+
+/// How often the intervals of one parameter for the same test again held the truth.
 #[derive(Clone, Debug)]
 pub struct Tally {
     pub name: &'static str,
     pub truth: f64,
-    /// Runs in which the parameter was called identifiable.
+    /// Runs that know the parameter to 20 % of its value, or of one for what may be zero, when the same test is repeated at once.
     pub identifiable: usize,
     /// Runs whose interval held the truth.
     pub inside: usize,
-    /// Runs whose interval came from a profile.
-    pub profiled: usize,
     /// Estimates of all runs.
     pub values: Vec<f64>,
     /// Deviations of all runs, where there was one.
@@ -180,7 +190,6 @@ impl Tally {
             truth,
             identifiable: 0,
             inside: 0,
-            profiled: 0,
             values: Vec::new(),
             deviations: Vec::new(),
         }
@@ -200,12 +209,13 @@ impl Tally {
     pub fn add(&mut self, fitted: &Estimate) {
         let p = fitted.parameter(self.name).unwrap();
         self.values.push(p.value);
-        self.deviations.extend(p.std);
-        self.identifiable += usize::from(p.identifiable);
-        self.profiled += usize::from(p.interval == IntervalKind::Profile);
-        if let Some((low, high)) = p.ci95 {
-            self.inside += usize::from(low <= self.truth && self.truth <= high);
-        }
+        self.deviations
+            .extend(p.half.map(|half| half.at_once / 1.96));
+        let Some((low, high)) = at_once(p) else {
+            return;
+        };
+        self.identifiable += usize::from(high - low <= 0.4 * p.value.abs().max(1.0));
+        self.inside += usize::from(low <= self.truth && self.truth <= high);
     }
 }
 

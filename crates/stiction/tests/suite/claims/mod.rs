@@ -1,10 +1,11 @@
 //! What the default identification claims of a simulated log, and how much of it is true. Also for the example `worlds`.
 //!
 //! A value is claimed where a result may be used and lists it as a constant of the machine. A run is silent where a claimed
-//! value is off by more than half an interval and a whole one: its interval misses the truth by more than its own width.
+//! value is off by more than the width of its interval for another motion.
 
 use std::fmt;
 use stiction::Fit;
+use stiction::result::HalfWidthEntry;
 use stiction_testkit::worlds::Case;
 
 /// What a run claims, and what of it holds.
@@ -13,8 +14,8 @@ pub struct Run {
     pub refused: Option<String>,
     pub trusted: bool,
     pub law: String,
-    /// Every claimed value: name, error in parts of the truth, error in halves of its interval.
-    pub claims: Vec<(String, f64, f64)>,
+    /// Every claimed value.
+    pub claims: Vec<Claim>,
     /// Values that are listed as open.
     pub open: usize,
     pub codes: Vec<&'static str>,
@@ -22,10 +23,28 @@ pub struct Run {
     pub coupling: Option<(f64, f64)>,
 }
 
-impl Run {
-    /// Whether a claimed interval misses by more than its width.
+/// A claimed value: its error in parts of the truth, and in half widths of the intervals for the same test again, for another day and
+/// for another motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    pub name: String,
+    pub part: f64,
+    pub at_once: f64,
+    pub repeat: f64,
+    pub transfer: f64,
+}
+
+impl Claim {
+    /// Whether it is off by more than the width of the widest.
     pub fn is_silent(&self) -> bool {
-        self.claims.iter().any(|c| c.2.abs() > 3.0)
+        self.transfer.abs() > 2.0
+    }
+}
+
+impl Run {
+    /// Whether a claimed value is off by more than the width of its interval for another motion.
+    pub fn is_silent(&self) -> bool {
+        self.claims.iter().any(Claim::is_silent)
     }
 
     /// Whether a cause is named, or the result is refused or not to be used: a false alarm where nothing is to be named.
@@ -49,8 +68,12 @@ impl fmt::Display for Run {
                 "not trusted"
             }
         )?;
-        for (name, part, halves) in &self.claims {
-            let mark = if halves.abs() > 3.0 {
+        for claim in &self.claims {
+            let Claim {
+                name, part, repeat, ..
+            } = claim;
+            let halves = repeat;
+            let mark = if claim.is_silent() {
                 "!!"
             } else if halves.abs() > 1.0 {
                 "!"
@@ -106,10 +129,23 @@ pub fn judged_by(truths: &[(&'static str, f64)], fit: Result<Fit, stiction::Erro
         };
         let centre = 0.5 * (low + high);
         let claims = truths.iter().filter(|t| t.0 == base).map(|(_, truth)| {
-            let halves = (centre - truth) / (0.5 * (high - low));
-            (p.name().to_owned(), p.value() / truth - 1.0, halves)
+            let repeat = (centre - truth) / (0.5 * (high - low));
+            // Those of positive parameters are of logarithms.
+            let off = match truth * p.value() > 0.0 {
+                true => p.value() * (p.value() / truth).ln(),
+                false => p.value() - truth,
+            };
+            let half = p.half_widths();
+            let beside = |of: fn(HalfWidthEntry) -> f64| half.map_or(repeat, |half| off / of(half));
+            Claim {
+                name: p.name().to_owned(),
+                part: p.value() / truth - 1.0,
+                at_once: beside(|half| half.at_once),
+                repeat,
+                transfer: beside(|half| half.transfer),
+            }
         });
-        let least = claims.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
+        let least = claims.max_by(|a, b| a.repeat.abs().total_cmp(&b.repeat.abs()));
         run.claims.extend(least);
     }
     run
@@ -124,7 +160,7 @@ pub struct Figures {
     pub runs: usize,
     /// Runs that claim something false without a word.
     pub lies: usize,
-    /// Claimed values, and those whose interval holds the truth.
+    /// Claimed values, and those whose interval for the same test again holds the truth.
     pub claimed: usize,
     pub inside: usize,
     /// Runs in worlds where nothing is to be named, and those of them that name a cause, are refused or not to be used.
@@ -142,7 +178,7 @@ impl Figures {
             sum.runs += 1;
             sum.lies += usize::from(run.is_silent());
             sum.claimed += run.claims.len();
-            sum.inside += run.claims.iter().filter(|c| c.2.abs() <= 1.0).count();
+            sum.inside += run.claims.iter().filter(|c| c.at_once.abs() <= 1.0).count();
             if case.is_as_assumed {
                 sum.as_assumed += 1;
                 sum.named += usize::from(run.is_alarm());
