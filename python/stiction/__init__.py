@@ -11,7 +11,7 @@ The command line `stiction` in Python: the same names, defaults and bits. Guide:
 from ._drift import Course, Drift, drift
 from ._errors import StictionError, StictionWarning
 from ._export import Exported, export
-from ._fit import Covariance, Fit, Prediction
+from ._fit import Covariance, Fit, Friction, Prediction
 from ._identify import identify
 from ._law import Law
 from ._log import Check, Finding, Log, allow_memory, check, read_log, write_demo_log, write_procedure_logs
@@ -32,6 +32,7 @@ __all__ = [
     "Exported",
     "Finding",
     "Fit",
+    "Friction",
     "Law",
     "Log",
     "Parameter",

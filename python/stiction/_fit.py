@@ -58,6 +58,22 @@ class Prediction(NamedTuple):
     """How well it predicts: the keys of `fit` in docs/result.md."""
 
 
+class Friction(NamedTuple):
+    """Friction in steady sliding by speed, whatever the law: half of the sum of both directions, of a log with one direction its own,
+    with half widths of 95 % intervals."""
+
+    speed: NDArray[numpy.float64]
+    """Speed, m/s or rad/s."""
+    force: NDArray[numpy.float64]
+    """Force against the motion, in the unit of the log."""
+    at_once: NDArray[numpy.float64]
+    """Half width for the same test again, now."""
+    repeat: NDArray[numpy.float64]
+    """Half width for another day."""
+    transfer: NDArray[numpy.float64]
+    """Half width for another motion."""
+
+
 class Fit:
     """An identified law with everything that is known of it. Made by `identify`, or `Fit.load` from a folder."""
 
@@ -76,6 +92,18 @@ class Fit:
     def parameters(self) -> Parameters:
         """The parameters with units, intervals and flags."""
         return Parameters(self.result["parameters"])
+
+    @property
+    def friction(self) -> Friction | None:
+        """Friction by speed; None where the axis does not slide. Both directions apart: `friction_curve` in docs/result.md."""
+        import numpy
+
+        curve = self.result.get("friction_curve")
+        if curve is None:
+            return None
+        own = curve.get("both") or curve.get("forward") or curve["back"]
+        fields = ("force", "at_once", "repeat", "transfer")
+        return Friction(numpy.array(curve["speed"]), *(numpy.array(own[field]) for field in fields))
 
     @property
     def covariance(self) -> Covariance:

@@ -19,7 +19,7 @@ class Parameter(NamedTuple):
     unit: str
     """SI unit."""
     std: float | None
-    """Standard deviation; None where the data say nothing, or where the value was given."""
+    """Standard deviation of the same test on another day; None where the data say nothing, or where the value was given."""
     low: float | None
     """Lower end of the 95 % interval; None where the data do not bound the value there."""
     high: float | None
@@ -30,6 +30,12 @@ class Parameter(NamedTuple):
     """Why it is not identifiable."""
     advice: str
     """What to record so that it becomes identifiable."""
+    at_once: float | None
+    """Half width of the 95 % interval for the same test again, now; None where only one interval is known."""
+    repeat: float | None
+    """The same for another day, which `low` and `high` are the ends of."""
+    transfer: float | None
+    """The same for another motion."""
 
 
 COLUMNS = ("name", "symbol", "value", "unit", "std", "low", "high", "flag")
@@ -94,6 +100,7 @@ def _row(entry: dict[str, Any]) -> Parameter:
         flag=flag,
         reason=entry["reason"],
         advice=entry.get("advice", ""),
+        **_half_widths(entry),
     )
 
 
@@ -101,3 +108,8 @@ def _shown(value: object) -> str:
     if value is None:
         return ""
     return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def _half_widths(entry: dict[str, Any]) -> dict[str, float | None]:
+    half = entry.get("half_width") or {}
+    return {name: half.get(name) for name in ("at_once", "repeat", "transfer")}

@@ -186,3 +186,17 @@ def test_a_saved_fit_is_read_by_another_process(fit: stiction.Fit, tmp_path: Pat
     line = f"import stiction; print(stiction.load({str(tmp_path / 'fit')!r}).parameters['coulomb'].value.hex())"
     done = subprocess.run([sys.executable, "-c", line], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == fit.parameters["coulomb"].value.hex()
+
+
+def test_friction_by_speed_and_half_widths(fit: stiction.Fit) -> None:
+    friction = fit.friction
+    assert friction is not None
+    assert (numpy.diff(friction.speed) > 0.0).all()
+    assert (friction.force > 0.0).all()
+    assert (friction.at_once <= friction.repeat).all() and (friction.repeat <= friction.transfer).all()
+    coulomb = fit.parameters["coulomb"]
+    at_once, repeat, transfer = coulomb.at_once, coulomb.repeat, coulomb.transfer
+    assert at_once is not None
+    assert repeat is not None
+    assert transfer is not None
+    assert 0.0 < at_once <= repeat <= transfer
