@@ -140,7 +140,8 @@ def test_a_row_is_that_of_a_batch(fleet: Fleet, tmp_path: Path) -> None:
     first = found[fleet.paths.index(fleet.logs / "run000.csv")]
     assert (first["machine"], first["law"], first["error"]) == ("Z", LAW, None)
     named = {row["parameter"]: row for row in first["parameters"]}
-    assert 19.5 < named["coulomb"]["low"] < named["coulomb"]["value"] < named["coulomb"]["high"] < 20.5
+    assert 18.0 < named["coulomb"]["low"] < named["coulomb"]["value"] < named["coulomb"]["high"] < 22.0
+    assert abs(named["coulomb"]["value"] - 20.0) < 0.5
     assert [row["error"] for row in found if row["error"]] == ["log-format"] * 3 + ["log-io"]
 
 
