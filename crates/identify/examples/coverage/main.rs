@@ -51,7 +51,7 @@ fn main() {
 
 fn table(tallies: &[Tally]) {
     println!(
-        "  {:18} {:>12} {:>9} {:>9} {:>9} {:>9} {:>9}",
+        "  {:18} {:>12} {:>9} {:>9} {:>9} {:>9}",
         "", "identifiable", "hold", "bias %", "spread %", "stated %"
     );
     for t in tallies {
@@ -61,7 +61,7 @@ fn table(tallies: &[Tally]) {
         let spread = (t.values.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n).sqrt();
         let stated = t.deviations.iter().sum::<f64>() / t.deviations.len() as f64;
         println!(
-            "  {:18} {:12} {:9} {:7.1} % {:9.3} {:9.3} {:9.3}",
+            "  {:18} {:12} {:7.1} % {:9.3} {:9.3} {:9.3}",
             t.name,
             t.identifiable,
             100.0 * t.coverage(),
