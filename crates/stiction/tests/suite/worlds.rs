@@ -297,7 +297,7 @@ fn an_axis_as_assumed_has_no_such_cause_and_claims_what_is_true() {
     for axis in gate(1, ["stage", "joint"]) {
         let found = of(axis, Motion::Commissioning, World::Faithful);
         assert!(!found.is_alarm(), "{axis}: {found}");
-        assert!(found.claims.len() >= 6, "{axis}: {found}");
+        assert!(found.claims.len() >= 7, "{axis}: {found}");
         let outside = found
             .claims
             .iter()
