@@ -35,6 +35,8 @@ pub(super) struct Choice {
     pub held_out_rmse: Option<f64>,
     /// What of the law is left out, as written to `result.json`.
     pub without: Vec<String>,
+    /// Laws with fewer parameters that were fitted beside.
+    pub simpler: Vec<Estimate>,
 }
 
 impl Choice {
@@ -47,6 +49,7 @@ impl Choice {
             by: "user",
             better: None,
             held_out_rmse: None,
+            simpler: Vec::new(),
         }
     }
 }
@@ -86,6 +89,7 @@ fn beside(
     let law = estimate.law;
     let mut held_out_rmse = None;
     let mut better = None;
+    let mut simpler = Vec::new();
     let laws = if compare && optimum.status != Status::Interrupted {
         let others = fitted.iter().map(|(estimate, optimum)| (estimate, optimum));
         let known: Vec<_> = others.chain([(&estimate, &optimum)]).collect();
@@ -117,6 +121,8 @@ fn beside(
                 law: best.law.clone(),
                 asymmetric: best.asymmetric,
             });
+            let own = laws.iter().find(|own| own.reported);
+            simpler = climb.simpler_than(own.map_or(0, |own| own.parameters));
             laws
         }
     } else {
@@ -131,6 +137,7 @@ fn beside(
         better,
         held_out_rmse,
         without,
+        simpler,
     }
 }
 
@@ -189,6 +196,7 @@ pub(super) fn auto(
         laws[best].held_back = Some(SHOWN_BY_THE_COUNTS.into());
     }
     laws[at].reported = true;
+    let simpler = climb.simpler_than(laws[at].parameters);
     let Climb { mut rungs, stopped } = climb;
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     // Too few samples may be left to hold some out.
@@ -230,6 +238,7 @@ pub(super) fn auto(
         better: None,
         held_out_rmse,
         without,
+        simpler,
     })
 }
 

@@ -9,9 +9,9 @@ use stiction_identify::Series;
 use stiction_number::{Percent, counted};
 use stiction_parameters::Quantity;
 
-/// Largest part of the friction that a law may leave on samples that it was not fitted to, dimensionless: with half of it
-/// left, a compensator takes away the other half.
-const MOST_FRICTION_LEFT: f64 = 0.5;
+/// Largest part of the friction that a law may leave on samples that it was not fitted to, dimensionless: with a third left, what is
+/// wrong in the compensation is half of what is right.
+const MOST_FRICTION_LEFT: f64 = 1.0 / 3.0;
 /// Ratio of the error of a validation to that of the fit above which the law does not hold there, dimensionless: a choice.
 const VALIDATION_FAILS_ABOVE: f64 = 2.0;
 /// Part of the friction that a validation may leave whatever the fit left, dimensionless: a tenth is little for a
@@ -37,7 +37,7 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
         Some(rmse) => (rmse / friction, "held-out"),
         None => (fitted, "fitted"),
     };
-    for (name, series) in evidence.validation {
+    for (at, (name, series)) in evidence.validation.iter().enumerate() {
         let Some(there) = friction_rms(series) else {
             continue;
         };
@@ -45,7 +45,10 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
         if found > left || judged_on == "fitted" {
             (left, judged_on) = (found, "validation");
         }
-        if found > LITTLE_LEFT && found > VALIDATION_FAILS_ABOVE * fitted {
+        // Where every simpler law leaves more, nothing is lost with this one.
+        let simpler = evidence.simpler.get(at).copied().flatten();
+        let loses = simpler.is_none_or(|simpler| found >= simpler / there);
+        if found > LITTLE_LEFT && found > VALIDATION_FAILS_ABOVE * fitted && loses {
             let log = evidence.held_out.iter().find(|log| log.name() == *name);
             let turned = log.is_some_and(has_wrong_sign);
             // What is one part of a log is no log to type.
@@ -133,7 +136,7 @@ fn friction_rms(series: &Series) -> Option<f64> {
     Some(rms(&friction)).filter(|rms| *rms > 0.0 && rms.is_finite())
 }
 
-fn rms(x: &[f64]) -> f64 {
+pub(super) fn rms(x: &[f64]) -> f64 {
     (x.iter().map(|x| x * x).sum::<f64>() / x.len().max(1) as f64).sqrt()
 }
 

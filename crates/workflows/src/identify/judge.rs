@@ -1,5 +1,6 @@
 //! The fourth step: how far the fitted law may be trusted, and what to beware of.
 
+use super::compensation::rms;
 use super::condition::Conditioned;
 use super::disagree;
 use super::fit::Fitted;
@@ -12,7 +13,8 @@ use super::stated;
 use super::trust::{self, Judged};
 use stiction_codes::Code;
 use stiction_files::Warning;
-use stiction_identify::{Delay, Mass, Series, Source as Signal, Status};
+use stiction_identify as engine;
+use stiction_identify::{Delay, Mass, Record, Series, Source as Signal, Status};
 
 /// What is said of a delay at the end of its range.
 pub(super) const DELAY_OUT_OF_RANGE: &str = "the delay between force and motion would be more than four samples: one of \
@@ -50,6 +52,12 @@ pub(super) fn judge(
     let odd = machine::unlikely(asked, loaded, law);
     let stated = loaded.contradicted.as_ref().or(of_limits.as_ref());
     let contradicted = stated.or(odd.as_ref());
+    let left = |record: &Record| {
+        let laws = fitted.choice.simpler.iter();
+        let each = laws.map(|law| rms(&engine::predict(record, law).residual()));
+        each.reduce(f64::min)
+    };
+    let simpler: Vec<Option<f64>> = conditioned.unseen.iter().map(left).collect();
     let evidence = trust::Evidence {
         law,
         signal: "force",
@@ -64,6 +72,7 @@ pub(super) fn judge(
         better: fitted.choice.better.as_ref(),
         held_out_rmse: fitted.choice.held_out_rmse,
         validation,
+        simpler: &simpler,
         held_out: &loaded.held_out,
         options: disagree::options(asked),
         unscaled: mixed::cause(asked, &loaded.sources[0].log),

@@ -341,6 +341,15 @@ impl Climb {
         self
     }
 
+    /// Those with fewer parameters.
+    pub fn simpler_than(&self, parameters: usize) -> Vec<Estimate> {
+        let fewer = self
+            .rungs
+            .iter()
+            .filter(|rung| rung.score.parameters < parameters);
+        fewer.map(|rung| rung.estimate.clone()).collect()
+    }
+
     /// The table of the laws, and which of them is best.
     pub fn entries(&self) -> (Vec<LawEntry>, Option<usize>) {
         let standings = engine::choose(&self.scores(0..self.rungs.len()));

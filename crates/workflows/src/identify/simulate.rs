@@ -139,6 +139,7 @@ pub(super) fn run(
         better: None,
         held_out_rmse: None,
         validation: &[],
+        simpler: &[],
         held_out: &[],
         options: disagree::options(asked),
         unscaled: mixed::cause(asked, &sources[0].log),

@@ -242,6 +242,8 @@ pub(super) struct Evidence<'a> {
     pub held_out_rmse: Option<f64>,
     /// Signals of each validation, with its name.
     pub validation: &'a [(String, Series)],
+    /// Least rms residual of simpler laws on each of them; none where there are no simpler ones.
+    pub simpler: &'a [Option<f64>],
     /// The logs that those are of, unless they are of a part of the fitted ones.
     pub held_out: &'a [Source],
     /// The options of the run, as they are typed.
