@@ -115,7 +115,6 @@ codes! {
     SpringForce = "spring-force": "a force grows with the position, as that of a spring does",
     Resonance = "resonance": "motor and load vibrate against each other on a spring",
     Backlash = "backlash": "a gap lies between motor and load",
-    Gravity = "gravity": "the force follows the angle of a joint as that of a weight does",
     ClocksApart = "clocks-apart": "force and motion were stamped by two clocks that run apart",
     UnmodelledDynamics = "unmodelled-dynamics": "between force and motion are dynamics that the law does not have",
     LawShape = "law-shape": "friction or inertia has another shape than the law",

@@ -1,7 +1,7 @@
 //! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
 
+mod effects;
 mod friction;
-mod misfit;
 mod planned;
 mod procedure;
 mod searched;
@@ -9,8 +9,8 @@ mod seen;
 mod trust;
 
 use crate::error::Warning;
+pub use effects::{EffectEntry, SizeEntry};
 pub use friction::{BandEntry, FrictionAtEntry, FrictionCurveEntry, FrictionLineEntry, ValueEntry};
-pub use misfit::MisfitEntry;
 pub use planned::{PieceEntry, PlannedEntry, PlannedParameter};
 pub use procedure::{
     BreakAwayEntry, InversionEntry, PreslidingStepEntry, RejectedEntry, StaticMapEntry,
@@ -63,9 +63,9 @@ pub struct ResultFile {
     pub fit: FitEntry,
     /// The same near zero speed; absent where no sample is slow.
     pub low_speed: Option<LowSpeedEntry>,
-    /// What the law leaves systematically; absent where the residual shows no more than noise, encoder and filters explain.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub misfit: Option<MisfitEntry>,
+    /// What the residual shows, the largest first.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub effects: Vec<EffectEntry>,
     /// Fit on logs (or parts of them) that were not fitted.
     pub validation: Vec<ValidationEntry>,
     /// What was simulated, where the method simulates the axis.
@@ -506,9 +506,12 @@ pub struct LawEntry {
     /// range; `null` where it may.
     #[serde(default)]
     pub held_back: Option<String>,
-    /// Whether this is the simplest law whose held-out error is within its noise, or 1 %, of the
+    /// Whether this is the simplest law whose held-out error is within its noise, or 5 %, of the
     /// least.
     pub best: bool,
+    /// Whether its held-out error is within its noise, or 5 %, of the least.
+    #[serde(default)]
+    pub as_good: bool,
     /// Whether it is the law of the result.
     #[serde(default)]
     pub reported: bool,

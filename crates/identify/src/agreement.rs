@@ -4,9 +4,6 @@
 //! average it out. By how much the level of friction differs is measured, and takes the place of what is known of any machine in
 //! the interval of a repeat ([`scatter`](crate::scatter)). Parameters that logs surely have differently are named; filters and
 //! encoder make some of it, which the replicas of the fitted axis show.
-//!
-//! What is left when each log has linear unknowns of its own ([`Logs::within`]) is looked through for a
-//! [misfit](crate::misfit) of the law.
 
 mod levels;
 mod points;

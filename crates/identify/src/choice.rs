@@ -31,6 +31,8 @@ pub struct Standing {
     /// of the least, the one with the fewest parameters. Where one of the laws has no held-out error,
     /// because too few samples would be left to fit it, the one with the least BIC.
     pub best: bool,
+    /// Whether its held-out error is within its noise (or 5 %) of the least.
+    pub as_good: bool,
 }
 
 /// Compares laws that were fitted and scored on the same samples.
@@ -61,8 +63,12 @@ pub fn choose(scores: &[LawScore]) -> Vec<Standing> {
         })
         .collect();
     let [aic, bic] = information(scores);
+    let as_good: Vec<bool> = excess
+        .iter()
+        .map(|own| own.is_some_and(is_as_good))
+        .collect();
     let best = if excess.iter().all(Option::is_some) {
-        simplest(scores, &excess)
+        simplest(scores, &excess, &as_good)
     } else {
         bic.iter().position(|above| *above == Some(0.0))
     };
@@ -73,22 +79,23 @@ pub fn choose(scores: &[LawScore]) -> Vec<Standing> {
             aic: aic[i],
             bic: bic[i],
             best: best == Some(i),
+            as_good: as_good[i],
         })
         .collect()
 }
 
-/// The law with the fewest parameters among those as good as the best.
-fn simplest(scores: &[LawScore], excess: &[Option<(f64, f64)>]) -> Option<usize> {
+/// Whether an error above the least, as a logarithm with its standard error, is none.
+fn is_as_good((ratio, std): (f64, f64)) -> bool {
     let [least, most] = [AS_GOOD_RATIO, NEVER_EQUAL_RATIO].map(libm::log);
-    scores
-        .iter()
-        .zip(excess)
-        .enumerate()
-        .filter_map(|(i, (s, e))| {
-            let (ratio, std) = (*e)?;
-            let equal = (EQUAL_STANDARD_ERRORS * std).clamp(least, most);
-            (ratio <= equal).then_some((i, s.parameters, ratio))
-        })
+    ratio <= (EQUAL_STANDARD_ERRORS * std).clamp(least, most)
+}
+
+/// The law with the fewest parameters among those as good as the best.
+fn simplest(scores: &[LawScore], excess: &[Option<(f64, f64)>], as_good: &[bool]) -> Option<usize> {
+    let all = scores.iter().zip(excess).enumerate();
+    let equal = all.filter(|(i, _)| as_good[*i]);
+    equal
+        .filter_map(|(i, (s, e))| Some((i, s.parameters, (*e)?.0)))
         .min_by(|a, b| a.1.cmp(&b.1).then(a.2.total_cmp(&b.2)))
         .map(|(i, ..)| i)
 }

@@ -82,6 +82,18 @@ impl From<Estimate> for FittedLaw {
 }
 
 impl Estimate {
+    /// Counts in the half widths for another motion how far laws that predict as well have each parameter from this one.
+    #[must_use]
+    pub fn with_range_over(mut self, as_good: &[Estimate]) -> Self {
+        for own in &mut self.fitted.parameters {
+            let Some(half) = &mut own.half else { continue };
+            let others = as_good.iter().filter_map(|other| other.value(own.name));
+            let range = others.fold(0.0_f64, |most, value| most.max((value - own.value).abs()));
+            half.transfer = libm::hypot(half.transfer, range);
+        }
+        self
+    }
+
     /// The same estimate as one whose search was stopped early: its values are what was found until then, without intervals.
     #[must_use]
     pub fn interrupted(mut self) -> Self {
@@ -217,7 +229,7 @@ pub fn estimate(
             fit,
             low_speed,
             low_speed_bound,
-            misfit: None,
+            effects: Vec::new(),
             disagreements: Vec::new(),
             likelier_exponent: None,
             of_the_counts: false,

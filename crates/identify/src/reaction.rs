@@ -7,7 +7,6 @@
 
 use crate::conditioning::record::{Record, Segment};
 use crate::conditioning::shift::Shift;
-use crate::repeats::Repeats;
 use nalgebra::{SMatrix, SVector};
 use stiction_signal::Sos;
 
@@ -102,13 +101,8 @@ impl Reaction {
 
     /// The force that acted on the axis on a segment: the response to the readings, and the rest of the
     /// logged force (reference, integrator) without the noise of the force sensor, which does not act on
-    /// the axis. Where the motion `repeats`, that noise is averaged over its periods first, so that the force repeats too.
-    pub fn felt(
-        &self,
-        segment: &Segment,
-        logging: Logging,
-        repeats: Option<&Repeats>,
-    ) -> Option<Vec<f64>> {
+    /// the axis.
+    pub fn felt(&self, segment: &Segment, logging: Logging) -> Option<Vec<f64>> {
         let samples = 0..segment.drive.len();
         let answer: Vec<f64> = samples
             .clone()
@@ -118,10 +112,6 @@ impl Reaction {
             .clone()
             .map(|k| segment.drive[k] - logging.at(&answer, k))
             .collect();
-        let rest = match repeats {
-            Some(repeats) => repeats.mean(&rest),
-            None => rest,
-        };
         let smooth = without_noise(&rest)?;
         let earlier = Shift::earlier(-logging.late());
         Some(
@@ -373,7 +363,7 @@ mod tests {
                     "late by {late}: lag {lag}: {found:e}"
                 );
             }
-            let felt = reaction.felt(&record.segments[0], logging, None).unwrap();
+            let felt = reaction.felt(&record.segments[0], logging).unwrap();
             let middle = 200..felt.len() - 200;
             let square: f64 = middle.clone().map(|k| (felt[k] - held[k]).powi(2)).sum();
             let off = (square / middle.len() as f64).sqrt();

@@ -3,9 +3,9 @@
 use crate::agreement::Told;
 use crate::conditioning::record::Record;
 use crate::conditioning::{Conditioning, condition_as};
+use crate::effects::{self, Found};
 use crate::estimate::Estimate;
 use crate::estimate::uncertainty::unknowns;
-use crate::misfit::{Divisions, Energies, dynamics};
 use crate::replica::{Axis, Replica};
 use crate::scatter::Scatter;
 use crate::separable::descent::descend;
@@ -30,8 +30,8 @@ pub(crate) enum Asked<'a> {
     Unknowns,
     /// Also how sure they are.
     Scatter,
-    /// Also what comes back of the residual, and what the logs tell where there are several.
-    All(Option<&'a Logs>),
+    /// Also what the logs tell where there are several, and what the residual shows where that is asked for.
+    All(Option<&'a Logs>, bool),
 }
 
 /// Unknowns and coefficients that a fit of a replica finds, from its true values in Gauss-Newton steps: the errors are small, so
@@ -73,16 +73,14 @@ pub(crate) fn refitted(
         }
     }
     let scatter = matches!(asked, Asked::Scatter).then(|| unknowns(&objective, &at));
-    let all = match asked {
-        Asked::Unknowns | Asked::Scatter => None,
-        Asked::All(logs) => {
-            let left = logs.and_then(|logs| logs.within(&at));
-            let left = left.as_deref().unwrap_or(at.residual());
-            Some(All {
-                energies: Divisions::of(&objective, &at, &last.p).energies(left),
-                square: dynamics::square(&objective, (&at, &last.p), left),
-                told: logs.and_then(|logs| logs.told(&objective, &last.p, &at)),
-            })
+    let (told, effects) = match asked {
+        Asked::Unknowns | Asked::Scatter => (None, Vec::new()),
+        Asked::All(logs, effects) => {
+            let told = logs.and_then(|logs| logs.told(&objective, &last.p, &at));
+            let within = logs.and_then(|logs| logs.within(&at));
+            let left = within.as_deref().unwrap_or(at.residual());
+            let shows = || effects::sought(&objective, &replica.terms, (&at, &last.p), left);
+            (told, if effects { shows() } else { Vec::new() })
         }
     };
     let refit = Refit {
@@ -91,7 +89,8 @@ pub(crate) fn refitted(
         c: last.c,
         first,
         scatter,
-        all,
+        told,
+        effects,
     };
     let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
     (finite(&refit.p) && finite(&refit.c) && refit.square.is_finite()).then_some(refit)
@@ -190,8 +189,10 @@ pub(crate) struct Refit {
     pub first: Option<First>,
     /// How sure they are, where that was asked for.
     pub scatter: Option<Scatter>,
-    /// What else was asked for.
-    pub all: Option<All>,
+    /// What its logs tell, where that was asked for.
+    pub told: Option<Told>,
+    /// What its residual shows, where that was asked for.
+    pub effects: Vec<Found>,
     /// Mean square of the residual.
     square: f64,
 }
@@ -226,16 +227,6 @@ pub(crate) fn without_noise(
     let Stepped { p, c, .. } = stepped(&objective, &quiet.p, &at)?;
     let finite = p.iter().chain(&c).all(|x| x.is_finite());
     finite.then_some(Quiet { p, c })
-}
-
-/// What a fit of a replica says beside its unknowns.
-pub(crate) struct All {
-    /// What comes back of the residual.
-    pub energies: Energies,
-    /// The square of the time of dynamics between force and motion, samples; `None` where the delay is not fitted.
-    pub square: Option<f64>,
-    /// What its logs tell; `None` for a single one.
-    pub told: Option<Told>,
 }
 
 /// White noise of the logged force, from the residual of a fit: the part that a replica without force

@@ -14,8 +14,7 @@ use crate::drive::Drive;
 use crate::estimate::Estimate;
 use crate::law::terms::{Delay, FirstDelay, Terms};
 use crate::reaction::{AS_MEAN, Logging, Reaction, is_logged_as_mean};
-use crate::repeats::Repeats;
-use crate::state_space::rests_much;
+
 use beside::{Beside, Stepped};
 use std::borrow::Cow;
 use stiction_friction::{Damping, Direction, LuGre, Stribeck};
@@ -35,9 +34,6 @@ const TRACKING_FREQUENCY: f64 = 0.01;
 /// The same where the response of the controller keeps it there: a stiff spring with its damper would
 /// damp the motion that an encoder step causes.
 const ANSWERED_TRACKING_FREQUENCY: f64 = 0.0005;
-/// The same of an axis that repeats its motion from the first periods on: against the damping of a controller whose answer to a
-/// standing difference is not known, the softer spring takes several seconds.
-const REPEATED_TRACKING_FREQUENCY: f64 = 0.0015;
 
 /// Logs of a known axis.
 pub(crate) struct Replica {
@@ -83,8 +79,6 @@ pub(crate) struct Axis<'a> {
     others: Vec<Beside>,
     /// The response of the controller, and segment by segment the force that then acted on the axis.
     answered: Option<(Reaction, Vec<Vec<f64>>)>,
-    /// Whether it repeats its motion as the log does.
-    repeats: bool,
 }
 
 impl<'a> Axis<'a> {
@@ -95,30 +89,6 @@ impl<'a> Axis<'a> {
 
     /// The same with a force that is logged so many samples later than it was held.
     pub fn logged(record: &'a Record, fitted: &'a Estimate, late: f64) -> Option<Self> {
-        let none = record.segments.iter().map(|_| None).collect();
-        Self::driven(record, fitted, late, none)
-    }
-
-    /// The same as [`of`](Self::of), under a force that repeats where the log does, count for count. `None` where it does not,
-    /// where the answer of its controller is not known, and for an axis that rests much: what is left there is made by how it
-    /// creeps, on which a stiffer spring acts.
-    pub fn repeating(record: &'a Record, fitted: &'a Estimate) -> Option<Self> {
-        let count = record.resolution.unwrap_or(0.0);
-        let segments = record.segments.iter();
-        let repeats: Vec<_> = segments.map(|s| Repeats::of(&s.reading, count)).collect();
-        if repeats.iter().all(Option::is_none) || rests_much(record) {
-            return None;
-        }
-        let axis = Self::driven(record, fitted, late(record, fitted), repeats)?;
-        axis.answered.is_some().then_some(axis)
-    }
-
-    fn driven(
-        record: &'a Record,
-        fitted: &'a Estimate,
-        late: f64,
-        repeats: Vec<Option<Repeats>>,
-    ) -> Option<Self> {
         let first = plant(fitted)?;
         let plants = record.segments.iter();
         let plants = plants.map(|segment| of_log(first, fitted, segment.log));
@@ -141,8 +111,7 @@ impl<'a> Axis<'a> {
             .map(|(segment, plant)| Beside::of(segment, plant.law(), beside.clone()))
             .collect::<Option<_>>()?;
         let answered = Reaction::of(record, logging).and_then(|reaction| {
-            let felt = segments.iter().zip(&repeats);
-            let felt = felt.map(|(s, repeats)| reaction.felt(s, logging, repeats.as_ref()));
+            let felt = segments.iter().map(|s| reaction.felt(s, logging));
             Some((reaction, felt.collect::<Option<_>>()?))
         });
         Some(Self {
@@ -155,7 +124,6 @@ impl<'a> Axis<'a> {
             stroke: record.stroke(),
             others,
             answered,
-            repeats: repeats.iter().any(Option::is_some),
         })
     }
 
@@ -221,7 +189,6 @@ impl<'a> Axis<'a> {
         let mut axis = Stepped::new(plant, other, steps)?;
         let n = segment.position.len();
         let tracking = match answered {
-            Some(_) if self.repeats => REPEATED_TRACKING_FREQUENCY,
             Some(_) => ANSWERED_TRACKING_FREQUENCY,
             None => TRACKING_FREQUENCY,
         };
@@ -430,59 +397,6 @@ fn of_log(first: Plant, fitted: &Estimate, log: usize) -> Option<Plant> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::conditioning::{Conditioning, Cutoff, condition};
-    use crate::identify::fit_law;
-    use crate::law::{Law, LawKind};
-    use crate::separable::settings::Settings;
-    use stiction_search::Silent;
-    use stiction_testkit::worlds::{self, Machine, World};
-
-    /// A ball screw on a sine of 1 Hz at 2 kHz reads nine samples in ten as a period before. The noise of its logged force moves
-    /// a replica by a count from one period to the next.
-    #[test]
-    fn counts_come_back_in_replicas_whose_motion_repeats() {
-        let machine = Machine::screw(1);
-        let log = worlds::record(&machine, worlds::Motion::Sine, World::Faithful, 1);
-        let logged = log.position.clone().unwrap();
-        let samples = Samples {
-            time: log.time,
-            position: log.position,
-            force: log.force,
-            ..Samples::default()
-        };
-        let conditioning = Conditioning {
-            resolution: Some(machine.count),
-            source_cutoff: Cutoff::Hz(565.0),
-            common_cutoff: Cutoff::Hz(141.0),
-            ..Conditioning::default()
-        };
-        let record = condition(&[samples], &conditioning).unwrap();
-        let terms = Terms {
-            delay: Delay::Fitted,
-            ..Terms::default()
-        };
-        let law = Law::new(LawKind::LuGre);
-        let settings = Settings::default();
-        let (fitted, _) = fit_law(&record, law, &terms, 0.0, &settings, &mut Silent).unwrap();
-        // The sine grows and fades in the first and the last period.
-        let as_before = |position: &[f64]| {
-            let pairs = position[2000..12_000].iter().zip(&position[4000..]);
-            let same = pairs.filter(|(a, b)| (*a - *b).abs() < 0.5 * machine.count);
-            same.count() as f64 / 10_000.0
-        };
-        let of = |axis: &Axis| {
-            let replica = axis.replica(machine.noise, 1000).unwrap();
-            as_before(replica.logs[0].position.as_ref().unwrap())
-        };
-        let [log, repeating, other] = [
-            as_before(&logged),
-            of(&Axis::repeating(&record, &fitted).unwrap()),
-            of(&Axis::of(&record, &fitted).unwrap()),
-        ];
-        assert!(log > 0.9, "{log}");
-        assert!(repeating > 0.85, "{repeating}");
-        assert!(other < 0.5, "{other}");
-    }
 
     /// A fit of a short log hardly tells a force that was logged as it was held from the mean of two.
     #[test]

@@ -27,6 +27,15 @@ pub(crate) fn law_beside(entry: &LawEntry) -> String {
     name
 }
 
+/// The laws that predict as well as the one of the result; `None` where there are no others.
+pub(crate) fn as_good(laws: &[LawEntry]) -> Option<String> {
+    let others = laws
+        .iter()
+        .filter(|law| law.as_good && !law.reported && law.held_back.is_none());
+    let others: Vec<String> = others.map(law_beside).collect();
+    (!others.is_empty()).then(|| others.join("; "))
+}
+
 fn named(law: &str, asymmetric: bool, without: &[String]) -> String {
     let mut name = family(law).to_string();
     for held in without {
@@ -145,6 +154,7 @@ mod tests {
             determined: true,
             held_back: None,
             best: false,
+            as_good: false,
             reported: false,
         }
     }

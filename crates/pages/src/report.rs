@@ -24,7 +24,6 @@ use crate::trust::{compensation, constants, why_not};
 use std::path::Path;
 use stiction_files::compare_file::CompareFile;
 use stiction_files::result::{Input, Next, ResultFile};
-use stiction_identify::Divided;
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::drift::DriftOutcome;
@@ -388,29 +387,9 @@ fn sureness(outcome: &Outcome) -> String {
         true => "neighbouring residuals resemble each other, and the intervals count that",
         false => "neighbouring residuals do not resemble each other",
     };
-    let left = match &outcome.result.misfit {
-        None => String::new(),
-        Some(misfit) if misfit.load_percent.is_some() => {
-            ": what lies between motor and load explains part of it, and the intervals count that"
-                .into()
-        }
-        Some(misfit) => {
-            let after = misfit.by == Divided::AfterReversals.name();
-            format!(
-                ": {} of the residual {} {}, and the intervals count that",
-                Percent::error(misfit.share_percent).digits(2),
-                if after {
-                    "is more on"
-                } else {
-                    "comes back with"
-                },
-                misfit.by.replace("level over", "levels of friction over")
-            )
-        }
-    };
     format!(
         "The residual is worth about {} independent samples of {}: {resembles}. What is left outside the \
-         band in the autocorrelation is friction, cogging or dynamics that the law does not describe{left}.",
+         band in the autocorrelation is friction, cogging or dynamics that the law does not describe.",
         number::count(worth as u64),
         number::count(fit.samples as u64)
     )

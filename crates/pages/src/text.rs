@@ -16,8 +16,8 @@ mod table;
 use crate::deviation::Deviation;
 use crate::inputs;
 use crate::names::{
-    chosen_by, force_noise, is_of_the_counts, law_beside, law_of, parameters_shown, simulated_runs,
-    without_offset,
+    as_good, chosen_by, force_noise, is_of_the_counts, law_beside, law_of, parameters_shown,
+    simulated_runs, without_offset,
 };
 use crate::next;
 pub use crate::next::{axis_file, why};
@@ -70,6 +70,9 @@ pub fn outcome(outcome: &Outcome) -> String {
         law_of(result),
         chosen_by(&result.law_chosen_by)
     );
+    if let Some(others) = as_good(&result.laws) {
+        let _ = writeln!(out, "as good: {others}");
+    }
     let mut rows = vec![
         [
             "parameter",

@@ -62,7 +62,12 @@ pub(crate) fn constants(result: &ResultFile, called: impl Fn(&str) -> String) ->
         ),
         false => String::new(),
     };
-    let mixed = format!("{mixed}{}{}", pulled(result), unseen_rise(result));
+    let mixed = format!(
+        "{mixed}{}{}{}",
+        pulled(result),
+        unseen_rise(result),
+        assumed_exponent(result, &called)
+    );
     match (trust.constants.as_slice(), trust.open.as_slice()) {
         ([], []) => "none was identified".into(),
         ([], _) => "none: the log leaves every parameter open".into(),
@@ -81,6 +86,33 @@ fn unseen_rise(result: &ResultFile) -> &'static str {
         }
         false => "",
     }
+}
+
+/// That what describes the Stribeck curve holds for an exponent that was not fitted.
+fn assumed_exponent(result: &ResultFile, called: impl Fn(&str) -> String) -> String {
+    let own = result
+        .parameters
+        .iter()
+        .find(|p| p.name == "stribeck_exponent");
+    let of_curve = |name: &&String| name.starts_with("static") || name.starts_with("stribeck_v");
+    let names: Vec<String> = result
+        .trust
+        .constants
+        .iter()
+        .filter(of_curve)
+        .map(|name| called(name))
+        .collect();
+    if names.is_empty() || own.is_some_and(|p| p.origin == "identified") {
+        return String::new();
+    }
+    let exponent = own.map_or(2.0, |p| p.value);
+    let hold = if names.len() == 1 { "holds" } else { "hold" };
+    format!(
+        "; {} {hold} for {} = {}",
+        names.join(", "),
+        called("stribeck_exponent"),
+        short(exponent)
+    )
 }
 
 /// That levels of each direction have a constant force in them, where none is fitted beside them.

@@ -27,6 +27,14 @@ pub struct Lags {
 #[derive(Clone, Debug)]
 pub struct Spectrum(Vec<Complex>);
 
+impl Spectrum {
+    /// The square of each frequency, from none to half of one a sample.
+    pub fn power(&self) -> Vec<f64> {
+        let half = self.0.iter().take(self.0.len() / 2);
+        half.map(|(re, im)| re * re + im * im).collect()
+    }
+}
+
 impl Lags {
     /// For signals of these lengths, each at least 1.
     pub fn new(first: usize, second: usize) -> Self {

@@ -2,7 +2,7 @@
 //!
 //! A short log of a simulated axis is written to a temporary folder; what [`counted`] does with it is what
 //! `stiction identify LOG --out DIR` does: reading, conditioning with the choice of cut-offs, search, intervals, the other
-//! laws beside it, the files with the report. On one thread.
+//! laws beside it, the files with the report. On one thread. The same of the demo and of measured recordings, where there are.
 
 use std::fmt::Write;
 use std::hint::black_box;
@@ -49,25 +49,46 @@ fn log() -> String {
     text
 }
 
+/// A recording with its axis file.
+fn measured(log: &str, axis: &str) -> Files {
+    let data = stiction_testkit::recordings().expect("recordings");
+    Files {
+        logs: vec![data.join(log)],
+        axis: Some(data.join(format!("axes/{axis}.toml"))),
+        ..Files::default()
+    }
+}
+
 fn main() {
     let what = std::env::args().nth(1).unwrap_or_default();
-    let law = match what.as_str() {
-        "command-identify" => Some(LawKind::LuGre),
-        "command-auto" => None,
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let mut options = Options::default();
+    let files = match what.as_str() {
+        "command-identify" | "command-auto" => {
+            options.law = (what == "command-identify").then_some(LawKind::LuGre);
+            let file = folder.path().join("log.csv");
+            std::fs::write(&file, log()).expect("a log on disk");
+            Files {
+                logs: vec![file],
+                ..Files::default()
+            }
+        }
+        "command-demo" => {
+            let file = folder.path().join("demo.csv");
+            stiction::demo::write_log(&file, 1).expect("a log on disk");
+            Files {
+                logs: vec![file],
+                ..Files::default()
+            }
+        }
+        "command-emps" => measured("emps/DATA_EMPS.mat", "emps"),
+        "command-servo" => measured("servo/sliding_1.txt", "servo"),
+        "command-tribometer" => measured("tribometer/presliding.tsv", "tribometer"),
         _ => {
-            eprintln!("usage: whole_commands command-identify|command-auto");
+            eprintln!("usage: whole_commands command-identify|auto|demo|emps|servo|tribometer");
             std::process::exit(2);
         }
     };
-    let folder = tempfile::tempdir().expect("a temporary folder");
-    let file = folder.path().join("log.csv");
-    std::fs::write(&file, log()).expect("a log on disk");
-    let files = Files {
-        logs: vec![file],
-        ..Files::default()
-    };
-    let mut options = Options::default();
-    options.law = law;
     let one = rayon::ThreadPoolBuilder::new().num_threads(1);
     one.build().expect("a thread").install(|| {
         counted(&mut || {

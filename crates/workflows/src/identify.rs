@@ -7,13 +7,10 @@
 mod assemble;
 mod beside;
 mod choice;
-mod clocks;
 mod compensation;
 mod condition;
 mod conditioning;
-mod coupled;
 mod disagree;
-mod dynamics;
 mod fit;
 mod friction;
 mod heard;

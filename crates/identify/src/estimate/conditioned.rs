@@ -9,10 +9,10 @@
 use crate::agreement::Told;
 use crate::conditioning::condition;
 use crate::conditioning::record::Record;
+use crate::effects;
 use crate::estimate::Estimate;
 use crate::estimate::windows::Windows;
 use crate::law::physical::physical;
-use crate::misfit::Energies;
 use crate::parameter::physical::Physical;
 use crate::refit::{Asked, Refit, force_noise, refitted, without_noise};
 use crate::replica::{Axis, Replica};
@@ -23,6 +23,8 @@ use stiction_search::{Control, Counts};
 
 /// First seed of these replicas; they differ from those that the cut-offs were chosen on.
 const FIRST_SEED: u64 = 1000;
+/// Replicas whose residual is looked through.
+const SHOWN: u64 = 3;
 /// Seeds of the replicas of replicas begin here.
 const FIRST_SECOND_SEED: u64 = 2000;
 
@@ -37,12 +39,10 @@ pub(super) struct Shift {
     change: Vec<f64>,
     /// Variance that other cut-offs show and the replicas do not.
     windows: Vec<f64>,
-    /// What comes back of the residuals of the replicas.
-    pub energies: Vec<Energies>,
-    /// The squares of the times of dynamics between force and motion that they show, samples.
-    pub squares: Vec<f64>,
     /// What the logs of each replica tell, where there are several.
     pub told: Vec<Told>,
+    /// What the residuals of some of them show, where that was asked for.
+    pub effects: Vec<effects::Found>,
 }
 
 impl Shift {
@@ -68,13 +68,11 @@ pub(super) fn shift(
     record: &Record,
     fitted: &Estimate,
     raw: &[Physical],
-    logs: Option<&Logs>,
+    (logs, shows): (Option<&Logs>, bool),
     watch: &mut Watch,
 ) -> Option<Shift> {
     let conditioning = record.conditioning?;
     let axis = Axis::of(record, fitted)?;
-    // Noise under which a simulated axis moves smears what its counts leave; where those of the log come back, so must they.
-    let repeating = Axis::repeating(record, fitted);
     let noise = force_noise(record, &axis, &conditioning, fitted, &mut watch.counts)?;
     asked(watch)?;
     let mut windows = Windows::of(record, fitted, raw, &mut watch.counts);
@@ -83,27 +81,19 @@ pub(super) fn shift(
     // Those of the first without noise and to first order, which is all that is asked of the second.
     let mut alike = Shifts::default();
     let mut second = Shifts::default();
-    let (mut energies, mut told) = (Vec::new(), Vec::new());
-    let mut squares = Vec::new();
+    let (mut told, mut shown) = (Vec::new(), Vec::new());
     for i in 0..REPLICA_COUNT {
         let (found, replica) = once(
             record,
             fitted,
             &axis,
             noise,
-            (FIRST_SEED + i, Asked::All(logs)),
+            (FIRST_SEED + i, Asked::All(logs, shows && i < SHOWN)),
             watch,
         )?;
         asked(watch)?;
-        let all = found.refit.all.as_ref()?;
-        let returns = repeating.as_ref().and_then(|axis| {
-            let seed = FIRST_SEED + i;
-            comes_back(record, fitted, axis, noise, (seed, logs), watch)
-        });
-        asked(watch)?;
-        energies.push(returns.unwrap_or(all.energies));
-        squares.extend(all.square);
-        told.extend(all.told.clone());
+        told.extend(found.refit.told.clone());
+        shown.extend(found.refit.effects.iter().cloned());
         let of = (record, fitted);
         let quiet = replica.without_noise();
         let still = Still::of(&quiet, of, &found, &mut watch.counts);
@@ -142,25 +132,9 @@ pub(super) fn shift(
         scatter: all.clone().map(|i| first.variance(i)).collect(),
         change: all.map(|i| second.change(&alike, i)).collect(),
         windows: windows.variance(raw.len()),
-        energies,
-        squares,
         told,
+        effects: shown,
     })
-}
-
-/// What comes back of the residual of a replica whose motion repeats; `None` where there is no such replica, or the observer
-/// stops it.
-fn comes_back(
-    record: &Record,
-    fitted: &Estimate,
-    repeating: &Axis,
-    noise: f64,
-    (seed, logs): (u64, Option<&Logs>),
-    watch: &mut Watch,
-) -> Option<Energies> {
-    let what = (seed, Asked::All(logs));
-    let (found, _) = once(record, fitted, repeating, noise, what, watch)?;
-    Some(found.refit.all?.energies)
 }
 
 /// Whether to go on: `None` if the observer stops it.

@@ -2,7 +2,7 @@
 
 use crate::conditioning::record::Record;
 use crate::law::Law;
-use crate::misfit::reversals;
+use crate::scatter::strokes::Strokes;
 
 /// Variance, s^2, that the delay of a law without bristles has beyond what noise leaves: its friction jumps between two samples,
 /// wherever between them the axis turned back.
@@ -10,5 +10,6 @@ pub(super) fn of_jumps(record: &Record, law: &Law) -> f64 {
     if law.kind.has_bristle() {
         return 0.0;
     }
-    record.step().powi(2) / (12.0 * reversals(record).max(1) as f64)
+    let turns = Strokes::of(record).length.len().saturating_sub(1);
+    record.step().powi(2) / (12.0 * turns.max(1) as f64)
 }

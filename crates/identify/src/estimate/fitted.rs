@@ -3,13 +3,13 @@
 
 use crate::agreement::Disagreement;
 use crate::conditioning::record::extent;
+use crate::effects::Found;
 use crate::estimate::series::Series;
 use crate::estimate::sliding::is_presliding;
 use crate::fit::Fit;
 use crate::gms::score::ElementsScore;
 use crate::law::Law;
 use crate::law::terms::Terms;
-use crate::misfit::Misfit;
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use stiction_parameters::{Name, ParameterSet, Quantity};
@@ -32,8 +32,8 @@ pub struct FittedLaw {
     pub low_speed: Option<Fit>,
     /// That bound, m/s or rad/s.
     pub low_speed_bound: f64,
-    /// What the law leaves systematically, where more than noise, encoder and filters explain; known once intervals are.
-    pub misfit: Option<Misfit>,
+    /// What its residual shows, the largest first; known once intervals are.
+    pub effects: Vec<Found>,
     /// Parameters that logs have differently; known once intervals are.
     pub disagreements: Vec<Disagreement>,
     /// The Stribeck exponent that the counts of an axis that rests are likelier with, where that of the law is doubted.

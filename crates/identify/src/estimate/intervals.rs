@@ -1,6 +1,7 @@
 //! From linear intervals to those that a result states: with what the conditioning shifts, and what another motion changes.
 
 use crate::conditioning::record::Record;
+use crate::effects::{self, Found};
 use crate::estimate::conditioned::shift;
 use crate::estimate::delayed::of_jumps;
 use crate::estimate::filtered::flag_what_a_filter_hides;
@@ -11,7 +12,6 @@ use crate::held_delay;
 use crate::lag;
 use crate::law::physical::physical;
 use crate::law::transmitted::flag_parts_of_an_open_weight;
-use crate::misfit::{Cause, Divisions, Misfit, dynamics};
 use crate::parameter::physical::Physical;
 use crate::parameter::{Added, NORMAL_Q95};
 use crate::scatter::Variances;
@@ -51,7 +51,10 @@ pub fn intervals(
     let more = of_the_force(&objective, optimum, &raw, estimate, observer);
     // Counts say more than the force of the one axis that the law describes; of another they are as wrong, and surer. A shape that
     // is not that of the law may be what filters make of rests, which the counts then tell.
-    let cause = estimate.misfit.as_ref().and_then(Misfit::cause);
+    let other_force = estimate
+        .effects
+        .iter()
+        .any(|found| !found.effect.is_a_shape());
     match before {
         Some(_) if !estimate.disagreements.is_empty() => {
             state_space::flag_what_rests_spoil(estimate, "are not those of one axis")
@@ -59,7 +62,7 @@ pub fn intervals(
         Some(_) if estimate.law.kind.has_elements() => {
             state_space::flag_what_rests_spoil(estimate, "are simulated for LuGre alone")
         }
-        Some(before) if matches!(cause, None | Some(Cause::Shape)) => {
+        Some(before) if !other_force => {
             of_the_counts(record, before, &more, estimate, observer);
         }
         _ => {}
@@ -69,6 +72,17 @@ pub fn intervals(
     sliding::flag_yields_of_open_elements(&mut fitted.parameters);
     flag_parts_of_an_open_weight(&fitted.terms, &mut fitted.parameters);
     advice::explain(&mut fitted.parameters, &fitted.covariance);
+}
+
+/// What the residual of a fit shows, the largest first.
+pub fn effects(record: &Record, optimum: &Optimum, estimate: &Estimate) -> Vec<Found> {
+    let objective = Objective::new(record, estimate.law, &estimate.terms);
+    let at = &optimum.evaluation;
+    let logs = Logs::of(record);
+    // Levels that logs have differently are no effect within them; they are counted beside it.
+    let within = logs.as_ref().and_then(|logs| logs.within(at));
+    let left = within.as_deref().unwrap_or(at.residual());
+    effects::sought(&objective, &estimate.terms, (at, &optimum.p), left)
 }
 
 /// Asks the counts of an axis that rests: states what they say, starting from the estimate `before` its intervals, or flags
@@ -95,8 +109,7 @@ fn of_the_counts(
         };
         state_space::flag_what_rests_spoil(estimate, why);
     };
-    let misfit = estimate.fitted.misfit.as_ref();
-    let other_shape = misfit.is_some_and(|misfit| misfit.cause().is_some());
+    let other_shape = !estimate.effects.is_empty();
     match counts {
         Counts::Stated => {
             for p in &mut before.fitted.parameters {
@@ -106,8 +119,6 @@ fn of_the_counts(
                     before.fitted.covariance.widen(p.name, variance);
                 }
             }
-            let misfit = estimate.fitted.misfit.take();
-            before.fitted.misfit = misfit.filter(|_| !other_shape);
             before.fitted.counts = estimate.fitted.counts;
             *estimate = before;
             estimate.fitted.of_the_counts = true;
@@ -156,27 +167,13 @@ fn conditioned(
     let mut watch = Watch::new(observer, Stage::Calibration);
     let at = &optimum.evaluation;
     let logs = Logs::of(objective.record());
-    let divisions = Divisions::of(objective, at, &optimum.p);
-    let shift = shift(objective.record(), estimate, raw, logs.as_ref(), &mut watch);
+    let shows = effects(objective.record(), optimum, estimate);
+    let asked = (logs.as_ref(), !shows.is_empty());
+    let shift = shift(objective.record(), estimate, raw, asked, &mut watch);
     estimate.fitted.counts.add(&watch.counts);
-    let (energies, squares, replicas) = match &shift {
-        Some(shift) => (&shift.energies[..], &shift.squares[..], &shift.told[..]),
-        None => (&[][..], &[][..], &[][..]),
-    };
-    // Levels that logs have differently are no misfit of the law; they are counted beside it.
-    let within = logs.as_ref().and_then(|logs| logs.within(at));
-    let left = within.as_deref().unwrap_or(at.residual());
-    let misfit = divisions.misfit(left, energies);
-    let fit = (at, &optimum.p[..]);
-    let misfit = divisions.waved(misfit, objective, &estimate.terms, at, left);
-    let misfit = divisions.coupled(misfit, objective, &estimate.terms, fit, left);
-    let misfit = divisions.clocked(misfit, objective, at, left);
-    let dynamics = dynamics::sought(objective, fit, left, squares);
-    let misfit = divisions.dynamic(misfit, dynamics, left);
-    let misfit = divisions.limited(misfit, (objective, &estimate.terms), at, left);
-    let misfit = divisions.held(misfit, (objective, &estimate.terms), at, &optimum.p);
-    let misfit = divisions.swung(misfit, objective, at, left);
-    estimate.fitted.misfit = misfit;
+    let by_conditioning = shift.as_ref().map_or(&[][..], |shift| &shift.effects);
+    estimate.fitted.effects = effects::beyond(shows, by_conditioning);
+    let replicas = shift.as_ref().map_or(&[][..], |shift| &shift.told);
     let pressed = pressed::spread(objective, at, raw, estimate.unknowns.at_once());
     let jumps = of_jumps(objective.record(), &estimate.fitted.law);
     let strokes: Vec<Variances> = raw.iter().map(|p| estimate.unknowns.of(p)).collect();
@@ -197,12 +194,6 @@ fn conditioned(
     {
         let optimum = (objective, &optimum.p[..], at);
         estimate.fitted.disagreements = logs.disagreements(optimum, &own, replicas);
-    }
-    if let Some(misfit) = &mut estimate.fitted.misfit
-        && !estimate.fitted.disagreements.is_empty()
-    {
-        // A spring or a gap is told from what one and the same axis leaves.
-        misfit.coupling = None;
     }
     let mut more = Added::default();
     // Counts are read behind the same lag.

@@ -13,10 +13,10 @@
 //! Why these two: decision 0014.
 
 use crate::conditioning::record::Record;
+use crate::effects;
 use crate::estimate::autoregression::{Autoregression, segments};
 use crate::law::prior::Prior;
 use crate::law::terms::Terms;
-use crate::misfit;
 use crate::scatter::strokes::Strokes;
 use crate::scatter::{Fitted, Scatter};
 use crate::separable::linear::dot;
@@ -74,7 +74,7 @@ pub(crate) fn beside(
     is_free: impl Fn(usize) -> bool,
 ) -> Scatter {
     let free = Free::of(at, is_free);
-    let friction = misfit::friction(objective, at);
+    let friction = effects::friction(objective, at);
     let logs = Logs::of(objective.record());
     let logs = logs.as_ref().map_or(&[][..], |logs| logs.ranges());
     let fit = Fitted {

@@ -193,7 +193,7 @@ pub(crate) fn describe(
         fit: position,
         low_speed: None,
         low_speed_bound: 0.02 * top,
-        misfit: None,
+        effects: Vec::new(),
         disagreements: Vec::new(),
         likelier_exponent: None,
         of_the_counts: false,

@@ -40,7 +40,7 @@ fn fitted_law(
         fit,
         low_speed: None,
         low_speed_bound: 0.0,
-        misfit: None,
+        effects: Vec::new(),
         disagreements: Vec::new(),
         likelier_exponent: None,
         of_the_counts: false,

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 use stiction_files::symbols;
-use stiction_identify::{Between, Coupling, Divided, Series};
+use stiction_identify::{Effect, Series};
 use stiction_parameters::SteadyCurve;
 use stiction_report::{Axis, Color, Dash, Figure, Heatmap, Layer, Panel, Text};
 use stiction_signal::autocorrelation as correlate;
@@ -362,61 +362,47 @@ pub(super) fn autocorrelation(outcome: &Outcome) -> Figure {
         .half()
 }
 
-/// The course of what the law leaves systematically, where its cause is named.
+/// The course of the strongest effect that the residual shows.
 pub(super) fn left(outcome: &Outcome) -> Option<Figure> {
-    let misfit = outcome.law().misfit.as_ref()?;
-    misfit.cause()?;
+    let found = outcome.law().effects.first()?;
     let length = symbols::length_unit(outcome.motion);
-    if let Some(coupling) = &misfit.coupling {
-        return Some(coupled(coupling, length));
-    }
-    let along = match misfit.shown_by {
-        Divided::LevelOverTime => Axis::new("Time", "s"),
-        Divided::LevelOverPosition | Divided::Position => Axis::new("Position", length),
-        Divided::LevelOverLoad => Axis::new("Load", outcome.load_unit.as_str()),
-        Divided::LevelOverTemperature => Axis::new("Temperature", "K"),
-        Divided::Speed => velocity_axis(outcome),
-        Divided::Acceleration => {
-            Axis::new("Acceleration", symbols::acceleration_unit(outcome.motion))
+    let explained = Axis::new("Explained of what the law leaves", "%");
+    let force = Axis::new("Mean residual", outcome.force_unit.as_str());
+    let level = Axis::new("Level of friction about its mean", "%");
+    let (along, across, scale) = match found.effect {
+        Effect::Drift(_) => (Axis::new("Time", "s"), level, 100.0),
+        Effect::Position(..) | Effect::LevelWave(_) => {
+            (Axis::new("Position", length), level, 100.0)
         }
-        Divided::Travel
-        | Divided::TravelAndSpeed
-        | Divided::TravelAndPosition
-        | Divided::AfterReversals => Axis::new("Travel since the last reversal", length),
+        Effect::Load(_) => (Axis::new("Load", outcome.load_unit.as_str()), level, 100.0),
+        Effect::Temperature(_) => (Axis::new("Temperature", "K"), level, 100.0),
+        Effect::Ripple(_) | Effect::SpringForce(_) => (Axis::new("Position", length), force, 1.0),
+        Effect::Clocks(_) => (Axis::new("Time", "s"), force, 1.0),
+        Effect::Curve => (velocity_axis(outcome), force, 1.0),
+        Effect::Resonance { .. } => {
+            let along = Axis::new("Frequency of the load on its spring", "Hz");
+            (along.log(), explained, 100.0)
+        }
+        Effect::Backlash { .. } => {
+            let along = Axis::new("Lost motion between motor and load", length);
+            (along.log(), explained, 100.0)
+        }
+        Effect::Dynamics(_)
+        | Effect::Limit(..)
+        | Effect::Brake(..)
+        | Effect::Mass(_)
+        | Effect::Delay(_)
+        | Effect::Bristles => return None,
     };
-    let level = misfit.shown_by.is_a_level();
-    let scale = if level { 100.0 } else { 1.0 };
-    let across = match level {
-        true => Axis::new("Level of friction about its mean", "%"),
-        false => Axis::new("Mean residual", outcome.force_unit.as_str()),
-    };
-    let (x, y): (Vec<f64>, Vec<f64>) = misfit.course.iter().map(|(x, y)| (*x, scale * y)).unzip();
+    let course = found.course.iter();
+    let (x, y): (Vec<f64>, Vec<f64>) = course.map(|(x, y)| (*x, scale * y)).unzip();
+    if x.is_empty() {
+        return None;
+    }
     let panel = Panel::new(along, across)
         .layer(Layer::line(x.clone(), y.clone()).color(Color::Vermilion))
         .layer(Layer::points(x, y).color(Color::Vermilion));
-    Some(Figure::new("What the law leaves systematically").panel(panel))
-}
-
-/// How much of what the law leaves a spring or a gap between motor and load explains, over its frequency or width.
-fn coupled(coupling: &Coupling, length: &str) -> Figure {
-    let (along, at) = match coupling.between {
-        Between::Spring { frequency, .. } => (
-            Axis::new("Frequency of the load on its spring", "Hz"),
-            frequency,
-        ),
-        Between::Gap { width } => (
-            Axis::new("Lost motion between motor and load", length),
-            width,
-        ),
-    };
-    let across = Axis::new("Explained of what the law leaves", "%");
-    let course = coupling.course.iter();
-    let (x, y): (Vec<f64>, Vec<f64>) = course.map(|(x, y)| (*x, 100.0 * y)).unzip();
-    let panel = Panel::new(along.log(), across)
-        .layer(Layer::line(x.clone(), y.clone()).color(Color::Vermilion))
-        .layer(Layer::points(x, y).color(Color::Vermilion))
-        .layer(Layer::points(vec![at], vec![100.0 * coupling.share]).color(Color::Blue));
-    Figure::new("What the law leaves systematically").panel(panel)
+    Some(Figure::new("What the residual shows").panel(panel))
 }
 
 /// Relative residual over evaluations.

@@ -143,26 +143,39 @@ fn beside(
 
 /// Fits the laws that can be exported, each with what it holds, and takes the best that a compensator may rely on.
 ///
-/// In rounds, so that only laws are fitted that may turn out best: the symmetric ones, each with and without quadratic viscous
-/// friction; what these leave open held at nothing, and asymmetric laws of the families that hold best; the same of the best
-/// asymmetric one; the best of all with its Stribeck exponent fitted. A law that leaves more than the same with something held is fitted again from there after each
-/// round.
+/// In rounds, so that only laws are fitted that may turn out best: Coulomb and viscous friction, which cost next to nothing, say
+/// whether the directions differ by so much that only laws with parameters for each are asked; then the other families, each with
+/// and without quadratic viscous friction; what these leave open held at nothing, and asymmetric laws of the families that hold
+/// best; the same of the best asymmetric one; the best of all with its Stribeck exponent fitted. A law that leaves more than the
+/// same with something held is fitted again from there after each round.
 pub(super) fn auto(
     base: Law,
     ladder: &Ladder,
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Choice, engine::Error> {
-    let first: Vec<Candidate> = ladder::symmetric(base, &FAMILIES)
-        .into_iter()
-        .map(|law| ladder.usual(law))
-        .collect();
-    let mut climb = ladder.climb(&first, &[], settings, observer);
+    let linear = ladder::symmetric(base, &FAMILIES[..1])[0];
+    let bristles = ladder::symmetric(base, &FAMILIES[1..]);
+    let fitted = |laws: &[Law], observer: &mut dyn Observer| {
+        let laws: Vec<Candidate> = laws.iter().map(|law| ladder.usual(*law)).collect();
+        ladder.climb(&laws, &[], settings, observer)
+    };
+    let mut climb = fitted(&[linear, linear.asymmetric()], observer);
+    if !climb.stopped {
+        let directed = directions_differ(&climb);
+        let next = bristles.iter().map(|law| match directed {
+            true => law.asymmetric(),
+            false => *law,
+        });
+        let next: Vec<Law> = next.collect();
+        climb = climb.and(fitted(&next, observer));
+    }
     for round in [bent, second, third] {
         if climb.stopped {
             break;
         }
-        let next = round(&climb, ladder);
+        let mut next = round(&climb, ladder);
+        next.retain(|candidate| !climb.has(candidate));
         let more = ladder.climb(&next, &[], settings, observer);
         climb = caught_up(climb.and(more), ladder, settings, observer);
     }
@@ -201,6 +214,11 @@ pub(super) fn auto(
     let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
     // Too few samples may be left to hold some out.
     let by = if held_out { "cross-validation" } else { "bic" };
+    let as_good: Vec<bool> = (laws.iter())
+        .map(|law| law.as_good && law.held_back.is_none() && !law.reported)
+        .collect();
+    let others = rungs.iter().zip(as_good).filter(|(_, as_good)| *as_good);
+    let others: Vec<Estimate> = others.map(|(rung, _)| rung.estimate.clone()).collect();
     let rung = rungs.swap_remove(at);
     let held_out_rmse = rung.cross_validated_rmse(ladder);
     let without = laws[at].without.clone();
@@ -211,6 +229,7 @@ pub(super) fn auto(
         Some((_, estimate)) => estimate,
         None => stated(ladder, &optimum, estimate, observer),
     };
+    estimate = estimate.with_range_over(&others);
     if !stopped && shape_is_left(&estimate) {
         let kind = match estimate.law.has_stribeck() {
             true => LawKind::Gms,
@@ -224,6 +243,7 @@ pub(super) fn auto(
         let entries = more.entries().0.into_iter();
         laws.extend(entries.map(|entry| LawEntry {
             best: false,
+            as_good: false,
             ..entry
         }));
     }
@@ -244,10 +264,11 @@ pub(super) fn auto(
 
 /// Whether what a law with one bristle leaves looks like friction of another shape.
 fn shape_is_left(estimate: &Estimate) -> bool {
-    let cause = estimate.misfit.as_ref().and_then(engine::Misfit::cause);
+    let mut effects = estimate.effects.iter();
+    let bends = effects.any(|found| found.effect == engine::Effect::Bristles);
     let kind = estimate.law.kind;
     let bristle = kind.has_bristle() && !kind.has_elements();
-    bristle && cause == Some(engine::Cause::Shape) && estimate.terms.dependences.is_empty()
+    bristle && bends && estimate.terms.dependences.is_empty()
 }
 
 /// Whether a law is another one with less held: micro-damping, the Stribeck curve or its exponent. Dahl is LuGre that holds all
@@ -271,9 +292,26 @@ fn holds_less(law: &Law, than: &Law) -> bool {
         && parts().any(|(own, other)| other && !own)
 }
 
-/// The symmetric laws with quadratic viscous friction: without it a Stribeck curve bends a viscous line that is none.
+/// Whether Coulomb and viscous friction of each direction hold clearly better than those of both.
+fn directions_differ(climb: &Climb) -> bool {
+    let of = |asymmetric: bool| {
+        let own = climb
+            .rungs
+            .iter()
+            .find(|rung| rung.estimate.law.asymmetric == asymmetric);
+        own.map_or(f64::INFINITY, Rung::held_out_error)
+    };
+    of(true) < RICHER_LAW_WINS_BELOW * of(false)
+}
+
+/// The laws so far with quadratic viscous friction: without it a Stribeck curve bends a viscous line that is none. A Stribeck curve of
+/// each direction beside viscous friction that bends leaves no level that is known.
 fn bent<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
-    let rungs = climb.rungs.iter();
+    let is_known = |rung: &&Rung| {
+        let law = &rung.estimate.law;
+        !(law.asymmetric && law.has_stribeck())
+    };
+    let rungs = climb.rungs.iter().filter(is_known);
     let bent = |rung: &Rung| Some(ladder.bent(rung.estimate.law)?.from(&[rung]));
     rungs.filter_map(bent).collect()
 }
@@ -286,13 +324,16 @@ fn second<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
     let least = errors.fold(f64::INFINITY, f64::min);
     let close = |rung: &&Rung| RICHER_LAW_WINS_BELOW * rung.held_out_error() <= least;
     // Coulomb and viscous friction stays linear, so it costs next to nothing.
-    // A Stribeck curve of each direction beside viscous friction that bends leaves no level that is known.
     let wanted = |rung: &&Rung| match rung.estimate.law.kind {
         LawKind::CoulombViscous => true,
         LawKind::Dahl => close(rung),
         _ => close(rung) && !rung.estimate.terms.quadratic_viscous,
     };
-    for rung in climb.rungs.iter().filter(wanted) {
+    let symmetric = climb
+        .rungs
+        .iter()
+        .filter(|rung| !rung.estimate.law.asymmetric);
+    for rung in symmetric.filter(wanted) {
         let candidate = ladder.as_beside(rung.estimate.law.asymmetric(), rung);
         next.push(candidate.from(&[rung]));
     }

@@ -45,12 +45,12 @@ pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compe
         if found > left || judged_on == "fitted" {
             (left, judged_on) = (found, "validation");
         }
+        let log = evidence.held_out.iter().find(|log| log.name() == *name);
+        let turned = log.is_some_and(has_wrong_sign);
         // Where every simpler law leaves more, nothing is lost with this one.
         let simpler = evidence.simpler.get(at).copied().flatten();
-        let loses = simpler.is_none_or(|simpler| found >= simpler / there);
+        let loses = turned || simpler.is_none_or(|simpler| found >= simpler / there);
         if found > LITTLE_LEFT && found > VALIDATION_FAILS_ABOVE * fitted && loses {
-            let log = evidence.held_out.iter().find(|log| log.name() == *name);
-            let turned = log.is_some_and(has_wrong_sign);
             // What is one part of a log is no log to type.
             let is_whole = log.is_some_and(|log| log.part.is_none());
             let text = format!(

@@ -4,9 +4,8 @@
 use super::trust::{Evidence, LEAST_R2, Reasons};
 use crate::source::Source;
 use stiction_codes::Code;
-use stiction_files::Warning;
-use stiction_files::result::{CauseEntry, Cure, Next};
-use stiction_identify::{Misfit, Swing, explained_by_gravity};
+use stiction_files::result::Next;
+use stiction_identify::{Swing, explained_by_gravity};
 use stiction_log::Motion;
 use stiction_number::Percent;
 use stiction_parameters::Quantity;
@@ -29,14 +28,6 @@ const MUCH_LEFT_PERCENT: f64 = 25.0;
 const BEYOND_BRISTLES: f64 = 0.1;
 /// Part of what friction and inertia leave that follows gravity from which it is named there.
 const LIKE_BRISTLES: f64 = 0.3;
-/// The same where friction explains the force well, but another in each direction, or something else is left: friction that differs
-/// with the direction makes up for much of a weight.
-const LIKE_DIRECTIONS: f64 = 0.7;
-/// The same of what a law leaves, beyond all that its parameters take up of a weight: a law of another shape leaves other than that.
-const LIKE_A_WEIGHT: f64 = 0.7;
-/// Stroke of a joint, rad, from which gravity is no constant force.
-const BEYOND_A_CONSTANT: f64 = 1.0;
-
 /// Names what the axis file lacks where a law explains little, or nothing of it makes sense: the wrap of the position, the sign of
 /// the force, or gravity. Whether it is gravity.
 pub(super) fn named(evidence: &Evidence, reasons: &mut Reasons) -> bool {
@@ -90,55 +81,6 @@ fn all_negative(evidence: &Evidence) -> bool {
     [Quantity::Mass, Quantity::Coulomb, Quantity::Sigma2]
         .into_iter()
         .all(none)
-}
-
-/// Gravity as the cause of friction that is another in each direction, or of what is left, where a law explains the force well.
-pub(super) fn weight(evidence: &Evidence) -> Option<CauseEntry> {
-    let law = evidence.law;
-    let left = law.misfit.as_ref().and_then(Misfit::cause);
-    if !(law.law.asymmetric || left.is_some()) || !swings(evidence, BEYOND_BRISTLES) {
-        return None;
-    }
-    // What a position that is held hides of the motion follows the angle too.
-    let held = |source: &Source| {
-        let mut findings = source.log.findings.iter();
-        findings.any(|finding| finding.code == Code::HeldPosition)
-    };
-    if evidence.sources.iter().any(held) {
-        return None;
-    }
-    let beside = like_gravity(evidence);
-    let by_law = law.misfit.as_ref().map(|misfit| misfit.swings);
-    let by_law = by_law.filter(|part| beside.is_some() && *part > LIKE_A_WEIGHT);
-    let far = swings(evidence, BEYOND_A_CONSTANT);
-    let part = beside.filter(|part| far && *part > LIKE_DIRECTIONS);
-    let size = match (part, by_law) {
-        (Some(part), _) => of_what_is_left(part),
-        (None, Some(part)) => format!(
-            "{} of what the law leaves",
-            Percent::error(100.0 * part).digits(2)
-        ),
-        (None, None) => return None,
-    };
-    Some(CauseEntry {
-        code: Code::Gravity,
-        text: "the force follows the angle as that of a weight does".into(),
-        size,
-        cure: Some(Cure::Line {
-            table: "terms".into(),
-            line: LINE.into(),
-            replaces: false,
-        }),
-    })
-}
-
-/// The same as a warning.
-pub(super) fn warned(cause: &CauseEntry) -> Warning {
-    let message = format!(
-        "{}, in {}; without it friction comes out as another in each direction, or of another shape. Set {LINE} under [terms] in the axis file",
-        cause.text, cause.size
-    );
-    Warning::new(cause.code, message)
 }
 
 fn of_what_is_left(part: f64) -> String {

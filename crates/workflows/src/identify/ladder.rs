@@ -307,6 +307,7 @@ impl Rung {
             determined: self.determined(),
             held_back: self.held_back(),
             best: standing.best,
+            as_good: standing.as_good,
             reported: false,
         }
     }
@@ -339,6 +340,11 @@ impl Climb {
             )
         });
         self
+    }
+
+    /// Whether a law with these terms was fitted already.
+    pub fn has(&self, candidate: &Candidate) -> bool {
+        self.rungs.iter().any(|rung| candidate.is(&rung.estimate))
     }
 
     /// Those with fewer parameters.

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 use stiction_files::axis::MOST_PITCHES;
 use stiction_files::symbols;
-use stiction_identify::{FittedLaw, Repeats, Ripple, SpringForce};
+use stiction_identify::{FittedLaw, Wave};
 use stiction_log::Motion;
-use stiction_number::{Percent, four_digits, shortest};
+use stiction_number::shortest;
 
 /// Deviations of a 95 % interval.
 const QUANTILE: f64 = 1.96;
@@ -21,15 +21,41 @@ const BENT: f64 = 2.0;
 const FEWEST_DIGITS: usize = 2;
 const MOST_DIGITS: usize = 9;
 
-/// The line with the waves of the fit and a found one, and whether the axis file has it already; `None` where it has as many as
-/// it may.
-pub(super) fn line(ripple: &Ripple, law: &FittedLaw, motion: Motion) -> Option<(String, bool)> {
-    let (key, mut pitches) = match ripple.what {
-        Repeats::Force => ("cogging", law.terms.cogging.clone()),
-        Repeats::Level => ("coulomb_pitch", law.terms.level_pitches()),
+/// A wave and how surely its pitch is known.
+struct Ripple {
+    pitch: f64,
+    /// Standard deviation of the pitch, m or rad.
+    deviation: f64,
+    stroke: f64,
+}
+
+impl Ripple {
+    /// By what part of a wave another pitch is off at one end of the stroke where it is right at the other.
+    fn off_by(&self, pitch: f64) -> f64 {
+        self.stroke * (1.0 / pitch - 1.0 / self.pitch).abs()
+    }
+}
+
+/// The line of a key with the waves of the fit and a found one, whose pitch has this relative deviation, and whether the axis file
+/// has it already; `None` where it has as many as it may.
+pub(super) fn line(
+    key: &str,
+    wave: &Wave,
+    deviation: f64,
+    law: &FittedLaw,
+    motion: Motion,
+) -> Option<(String, bool)> {
+    let mut pitches = match key {
+        "cogging" => law.terms.cogging.clone(),
+        _ => law.terms.level_pitches(),
+    };
+    let ripple = &Ripple {
+        pitch: wave.pitch,
+        deviation: deviation.min(1.0) * wave.pitch,
+        stroke: wave.stroke,
     };
     let replaces = !pitches.is_empty();
-    match ripple.replaces.and_then(|place| pitches.get_mut(place)) {
+    match wave.replaces.and_then(|place| pitches.get_mut(place)) {
         Some(own) => *own = instead_of(*own, ripple, motion),
         None => pitches.push(rounded(ripple, motion)),
     }
@@ -37,19 +63,15 @@ pub(super) fn line(ripple: &Ripple, law: &FittedLaw, motion: Motion) -> Option<(
 }
 
 /// The same with a wave that is straight over the stroke, with which goes that no constant force is fitted: the wave has it too.
-pub(super) fn straight(
-    found: &SpringForce,
-    law: &FittedLaw,
-    motion: Motion,
-) -> Option<(String, bool)> {
+pub(super) fn straight(stroke: f64, law: &FittedLaw, motion: Motion) -> Option<(String, bool)> {
     let mut pitches = law.terms.cogging.clone();
     // A second one would be the same.
-    if pitches.iter().any(|pitch| *pitch >= BENT * found.stroke) {
+    if pitches.iter().any(|pitch| *pitch >= BENT * stroke) {
         return None;
     }
     let replaces = !pitches.is_empty();
     // Nothing follows from how long it is.
-    let pitch = STRAIGHT * found.stroke;
+    let pitch = STRAIGHT * stroke;
     pitches.push(format!("{pitch:.1e}").parse().unwrap_or(pitch));
     // Levels for each direction stand for a constant force, which the law that follows may have again.
     let without = match law.terms.offset || law.law.asymmetric {
@@ -66,16 +88,6 @@ fn of(key: &str, pitches: &[f64], motion: Motion) -> Option<String> {
         .map(|pitch| format!("\"{}\"", written(*pitch, motion)))
         .collect();
     (pitches.len() <= MOST_PITCHES).then(|| format!("{key} = [{}]", pitches.join(", ")))
-}
-
-/// A found pitch with its interval.
-pub(super) fn found(ripple: &Ripple, motion: Motion) -> String {
-    let about = Percent::error(100.0 * QUANTILE * ripple.deviation / ripple.pitch).digits(2);
-    let unit = symbols::length_unit(motion);
-    format!(
-        "a pitch of {} {unit} (± {about})",
-        four_digits(ripple.pitch)
-    )
 }
 
 /// A pitch that takes the place of another one: rounded, unless that is the one that was off.
@@ -133,13 +145,9 @@ mod tests {
 
     fn ripple(pitch: f64, deviation: f64, stroke: f64) -> Ripple {
         Ripple {
-            what: Repeats::Force,
             pitch,
             deviation,
-            amplitude: 1.0,
-            share: 0.9,
             stroke,
-            replaces: None,
         }
     }
 

@@ -1,42 +1,53 @@
-//! The part of a log in which a level of friction has settled.
+//! The part of a log in which what changes with time hardly does: a level of friction that has settled, clocks that have not come apart.
 
 use crate::source::Source;
 use stiction_files::result::Cure;
-use stiction_identify::{Divided, FittedLaw, Misfit};
+use stiction_identify::Found;
+use stiction_log::Log;
 use stiction_number::short;
 
 /// Part of the whole change of the level that may be left in what counts as settled.
 const LEFT: f64 = 0.25;
 /// Least part of the log that has to be settled: of a level that goes on changing half is never left with a quarter of the change.
 const LEAST_PART: f64 = 0.5;
-
 /// The shortest part of a log that is worth fitting by itself, s.
-pub(super) const SHORTEST: f64 = 3.0;
+const SHORTEST: f64 = 3.0;
+/// Growth of a delay over a part of the log that hardly matters, samples.
+const HARDLY: f64 = 1.0;
 
-/// The line of the axis file that keeps the settled part of a log; `None` where there is none, where there are several logs, or
-/// where a part was chosen already.
-pub(super) fn part(misfit: &Misfit, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
+/// The only log, unless a part of it was chosen already.
+fn whole(sources: &[Source]) -> Option<&Log> {
     let [source] = sources else { return None };
-    let log = &source.log;
-    let chosen = log.mapping.crop.is_some() || source.part.is_some();
-    if chosen || misfit.shown_by != Divided::LevelOverTime {
-        return None;
-    }
-    let levels: Vec<f64> = misfit.course.iter().map(|(_, level)| *level).collect();
-    let first = settled_from(&levels)?;
-    let times = &law.series.time;
-    let from = *times.get(first * times.len() / levels.len())?;
-    let to = *log.time.last()?;
-    if to - from < SHORTEST {
-        return None;
-    }
-    // In tenths of a second, the end not cut off.
-    let tenth = |x: f64| short((10.0 * x).ceil() / 10.0);
-    Some(Cure::Line {
+    let chosen = source.log.mapping.crop.is_some() || source.part.is_some();
+    (!chosen).then_some(&source.log)
+}
+
+fn crop(from: f64, to: f64) -> Cure {
+    Cure::Line {
         table: "log".into(),
-        line: format!("crop = [\"{} s\", \"{} s\"]", tenth(from), tenth(to + 0.05)),
+        line: format!("crop = [\"{} s\", \"{} s\"]", short(from), short(to)),
         replaces: false,
-    })
+    }
+}
+
+/// The line of the axis file that keeps the settled part of a log; `None` where there is none.
+pub(super) fn part(drift: &Found, sources: &[Source]) -> Option<Cure> {
+    let log = whole(sources)?;
+    let levels: Vec<f64> = drift.course.iter().map(|(_, level)| *level).collect();
+    let first = settled_from(&levels)?;
+    let (begin, to) = (*log.time.first()?, *log.time.last()?);
+    let from = begin + (to - begin) * first as f64 / levels.len() as f64;
+    // In tenths of a second, the end not cut off.
+    let tenth = |x: f64| (10.0 * x).ceil() / 10.0;
+    (to - from >= SHORTEST).then(|| crop(tenth(from), tenth(to + 0.05)))
+}
+
+/// The part at the beginning of the log within which a delay that grows so fast (s/s) hardly does; `None` where it is too short.
+pub(super) fn before_the_clocks_part(drift: f64, sources: &[Source]) -> Option<Cure> {
+    let log = whole(sources)?;
+    let (first, last) = (*log.time.first()?, *log.time.last()?);
+    let part = (HARDLY / log.rate_hz / drift.abs()).floor();
+    (part >= SHORTEST && part < last - first).then(|| crop(first, first + part))
 }
 
 /// From which of the means in order of time on the level has settled.

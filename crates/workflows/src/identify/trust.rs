@@ -13,7 +13,7 @@ use stiction_files::Warning;
 use stiction_files::result::{BetterLaw, CauseEntry, Compensation, LawEntry, Next, Trust};
 use stiction_files::symbols;
 use stiction_identify::procedure::StepFit;
-use stiction_identify::{Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
+use stiction_identify::{Effect, Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
 use stiction_identify::{NO_INTERVAL, Parameter};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
@@ -96,10 +96,7 @@ impl Judged {
                 };
             // What an estimated offset is off is part of the delay, and no interval of the fit counts it.
             let of_clocks = |p: &Parameter| estimated_offset && p.name == Quantity::Delay;
-            // On a sine a weight that is not asked for passes for a mass.
-            let weighed = warnings.iter().any(|w| w.code == Code::Gravity);
-            let of_weight = |p: &Parameter| weighed && p.name == Quantity::Mass;
-            let known = |p: &Parameter| p.identifiable && holds && !of_clocks(p) && !of_weight(p);
+            let known = |p: &Parameter| p.identifiable && holds && !of_clocks(p);
             // What one log has more than another may be open, but is none of the machine's.
             // With one level for both directions, what they differ by passes for half of a constant force.
             let mixed = |p: &Parameter| p.name == Quantity::Offset && !law.law.asymmetric;
@@ -144,8 +141,7 @@ impl Judged {
             _ => evidence.clearly_better().cloned(),
         };
         if evidence.shows_friction() && !first.contains(&self.trust.next) {
-            let own = lacking::weight(evidence)
-                .or_else(|| left::cause(evidence.law, evidence.sources, evidence.laws));
+            let own = left::cause(evidence.law, evidence.sources, evidence.laws);
             let between = disagree::cause(evidence.law);
             let levels = between
                 .as_ref()
@@ -553,20 +549,10 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     no_machine(evidence.sources, reasons);
     another_wins(evidence, warnings, reasons);
     // Causes first: what they leave open, and what else shows them, comes after.
-    let weight = lacking::weight(evidence);
-    let warned = weight.as_ref().filter(|_| !gravity).map(lacking::warned);
-    let mut causes: Vec<Warning> = warned.into_iter().collect();
-    left::named(
-        law,
-        evidence.sources,
-        evidence.laws,
-        &evidence.options,
-        &mut causes,
-    );
+    let mut causes = Vec::new();
+    left::named(law, evidence.sources, evidence.laws, &mut causes);
     // A weight on a lever repeats with the angle: cogging would take it up in part.
     causes.retain(|cause| !gravity || cause.code != Code::PositionRipple);
-    // What a weight explains is of no other shape.
-    causes.retain(|cause| weight.is_none() || cause.code != Code::LawShape);
     causes.extend(disagree::named(
         &law.disagreements,
         evidence.sources,
@@ -661,11 +647,15 @@ fn saturation(sources: &[Source], reasons: &mut Reasons) {
 
 /// Refuses what was fitted to force that the drive did not give.
 fn limited(law: &FittedLaw, reasons: &mut Reasons) {
-    let limit = law.misfit.as_ref().and_then(|misfit| misfit.limit);
-    if let Some(limit) = limit {
+    let mut effects = law.effects.iter();
+    let limit = effects.find_map(|found| match found.effect {
+        Effect::Limit(_, beyond) => Some(beyond),
+        _ => None,
+    });
+    if let Some(beyond) = limit {
         let text = format!(
             "{} of the samples hold more force than the drive gave",
-            Percent::error(100.0 * limit.beyond).digits(2)
+            Percent::error(100.0 * beyond).digits(2)
         );
         reasons.push(text, Next::Check);
     }

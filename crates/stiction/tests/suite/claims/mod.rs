@@ -19,6 +19,8 @@ pub struct Run {
     /// Values that are listed as open.
     pub open: usize,
     pub codes: Vec<&'static str>,
+    /// Effects that the residual shows: code, percent that it explains, and percent to which its size is known.
+    pub effects: Vec<(&'static str, f64, f64)>,
     /// Frequency (Hz) or width (m, rad) of what lies between motor and load, and its standard deviation, percent.
     pub coupling: Option<(f64, f64)>,
 }
@@ -83,6 +85,9 @@ impl fmt::Display for Run {
             write!(f, ", {name} {:+.1} % ({halves:+.1}){mark}", 100.0 * part)?;
         }
         write!(f, "; {} open; {}", self.open, self.codes.join(" "))?;
+        for (code, explains, std) in &self.effects {
+            write!(f, "; {code} {explains:.0} % (std {std:.1} %)")?;
+        }
         match self.coupling {
             Some((value, std)) => write!(f, "; coupled at {value:.3e} (std {std:.1} %)"),
             None => Ok(()),
@@ -107,10 +112,16 @@ pub fn judged_by(truths: &[(&'static str, f64)], fit: Result<Fit, stiction::Erro
         trusted: fit.is_trustworthy(),
         law: fit.law_kind().name().to_owned(),
         open: trust.open.len(),
-        coupling: fit.result().misfit.as_ref().and_then(|misfit| {
-            let value = misfit.frequency_hz.or(misfit.lost_motion)?;
-            Some((value, misfit.coupling_std_percent?))
+        coupling: fit.result().effects.iter().find_map(|effect| {
+            let value = effect.size("frequency").or(effect.size("lost_motion"))?;
+            Some((value, effect.std_percent?))
         }),
+        effects: (fit.result().effects.iter())
+            .map(|own| {
+                let std = own.std_percent.unwrap_or(f64::NAN);
+                (own.code.as_str(), own.explains_percent, std)
+            })
+            .collect(),
         codes: fit.warnings().iter().map(|w| w.code.as_str()).collect(),
         ..Run::default()
     };

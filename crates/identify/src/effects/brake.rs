@@ -3,7 +3,8 @@
 //! Bristles let the axis follow the force that they take up: a force that changes by so much moves it by that over their stiffness.
 //! Where the force of a rest goes by far more without a count of motion, no friction holds the axis.
 
-use crate::conditioning::record::Record;
+use super::{Candidate, Effect, Fitted};
+use crate::conditioning::shift::Shift;
 
 /// Shortest rest that is looked at, s, and the part of it over which a force is averaged.
 const SHORTEST: f64 = 0.03;
@@ -16,40 +17,51 @@ const FARTHER: f64 = 4.0;
 const PART: f64 = 0.5;
 const FEWEST: usize = 3;
 
-/// Rests in which something else than friction holds the axis.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
-    /// How many there are, and how many rests were looked at.
-    pub rests: [usize; 2],
-    /// By how much the force goes there, at most, in its unit.
-    pub force: f64,
-}
-
-/// Looks for them, `stiffness` being that of the bristles; `None` where friction holds the axis, or its counts are too coarse to tell.
-pub(super) fn sought(record: &Record, stiffness: f64) -> Option<Held> {
+/// What the force of such rests does, as it would not beside bristles; `None` where friction holds the axis, or its counts are too
+/// coarse to tell.
+pub(super) fn candidate(fitted: &Fitted) -> Option<Candidate> {
+    let record = fitted.objective.record();
+    let kappa = fitted.objective.law().layout().kappa?;
     let count = record.resolution.filter(|count| *count > 0.0)?;
-    let mut found = Held {
-        rests: [0, 0],
-        force: 0.0,
-    };
+    let level = fitted
+        .level
+        .iter()
+        .fold(0.0_f64, |most, f| most.max(f.abs()));
+    let bent = FARTHER * STILL * count * level * libm::exp(fitted.p[kappa]);
+    let (mut rests, mut force) = ([0, 0], 0.0_f64);
+    let mut all = Vec::with_capacity(record.segments.len());
     for segment in &record.segments {
         let least = (SHORTEST / segment.step) as usize;
+        let mut column = vec![0.0; segment.drive.len()];
         for rest in still(&segment.reading, STILL * count) {
             if rest.len() < least.max(4 * BLOCKS) {
                 continue;
             }
-            let Some(went) = went(&segment.drive[rest]) else {
+            let own = &segment.drive[rest.clone()];
+            let Some(went) = went(own) else {
                 continue;
             };
-            found.rests[1] += 1;
-            if went > FARTHER * STILL * count * stiffness {
-                found.rests[0] += 1;
-                found.force = found.force.max(went);
+            rests[1] += 1;
+            if went > bent {
+                rests[0] += 1;
+                force = force.max(went);
+                let mean = own.iter().sum::<f64>() / own.len() as f64;
+                let inside = column[rest].iter_mut().zip(own);
+                inside.for_each(|(x, u)| *x = u - mean);
             }
         }
+        all.push(column);
     }
-    let [held, all] = found.rests;
-    (held >= FEWEST && held as f64 >= PART * all as f64).then_some(found)
+    let [held, looked_at] = rests;
+    (held >= FEWEST && held as f64 >= PART * looked_at as f64).then_some(())?;
+    record.filter(&mut all);
+    let mut column = Vec::with_capacity(fitted.level.len());
+    for (segment, full) in record.segments.iter().zip(&all) {
+        record.thin(segment, full, Shift::NONE, &mut column);
+    }
+    Some(Candidate::new(vec![column], move |c| {
+        (c[0] > 0.0).then_some(Effect::Brake(rests, force))
+    }))
 }
 
 /// Ranges over which a reading stays within a distance.

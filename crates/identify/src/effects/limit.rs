@@ -1,19 +1,17 @@
 //! A drive that gave less than the force that was logged, where that was large.
 //!
 //! A log may hold what a controller asked for, and the drive at its limit gives no more than that. Beyond the limit the force is
-//! one that the axis never felt: as for a [`coupling`](super::coupling), what exceeds it is one more column, with a factor of 1.
+//! one that the axis never felt: what exceeds it is one more column, with a factor of 1.
 
-use super::coupling::beside::Beside;
+use super::beside::Beside;
+use super::{Candidate, Effect, Fitted};
 use crate::conditioning::record::Record;
 use crate::conditioning::shift::Shift;
-use crate::separable::objective::Evaluation;
 
 /// Limits that are tried, in parts of the largest force that was logged.
 const TRIED: std::ops::Range<u32> = 12..49;
 const STEP: f64 = 0.02;
-/// Part of the residual that a limit explains, beyond all that a law can take up, from which it is the cause, and the factors of
-/// what exceeds it that make it so: other laws leave only a part of a force that is large.
-const SHARE: f64 = 0.8;
+/// Factors of what exceeds a limit that make it one: other laws leave only a part of a force that is large.
 const FACTORS: std::ops::Range<f64> = 0.8..1.2;
 /// Largest part of the samples beyond a limit: an axis whose drive gives less more often than that does not move as it is asked.
 const MOST_BEYOND: f64 = 0.2;
@@ -22,50 +20,39 @@ const MOST_BEYOND: f64 = 0.2;
 const TOGETHER: f64 = 0.8;
 const FEWEST_TOGETHER: usize = 5;
 
-/// The most that a drive gave.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Limit {
-    /// Force, either way, in its unit.
-    pub force: f64,
-    /// Part of the samples of the log beyond it, 0 to 1.
-    pub beyond: f64,
-    /// Part of the variance of the residual that it explains, 0 to 1.
-    pub share: f64,
-}
-
-/// Looks for a limit; `None` where none explains much of the residual.
-pub(super) fn sought(record: &Record, at: &Evaluation, residual: &[f64]) -> Option<Limit> {
+/// The limit that explains most, where one does.
+pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
+    let record = fitted.objective.record();
     let forces = || record.segments.iter().flat_map(|s| &s.drive);
     let largest = forces().fold(0.0_f64, |most, u| most.max(u.abs()));
     if largest.is_nan() || largest <= 0.0 {
         return None;
     }
-    let beside = Beside::new(&at.jacobian(), residual);
-    let found = |force: f64| {
-        let mut beyond: Vec<Vec<f64>> = record
-            .segments
-            .iter()
-            .map(|s| s.drive.iter().map(|u| u - u.clamp(-force, force)).collect())
-            .collect();
+    let column = |force: f64| {
+        let beyond = record.segments.iter().map(|s| {
+            let each = s.drive.iter().map(|u| u - u.clamp(-force, force));
+            each.collect::<Vec<f64>>()
+        });
+        let mut beyond: Vec<Vec<f64>> = beyond.collect();
         record.filter(&mut beyond);
-        let mut column = Vec::with_capacity(residual.len());
+        let mut column = Vec::with_capacity(fitted.level.len());
         for (segment, full) in record.segments.iter().zip(&beyond) {
             record.thin(segment, full, Shift::NONE, &mut column);
         }
-        (force, beside.explained(&column))
+        column
     };
-    let tried = TRIED.map(|i| found(STEP * f64::from(i) * largest));
-    let (force, explained) = tried.max_by(|a, b| a.1.share.total_cmp(&b.1.share))?;
+    let tried = TRIED.map(|i| STEP * f64::from(i) * largest);
+    let tried = tried.map(|force| (force, column(force)));
+    let share = |tried: &(f64, Vec<f64>)| beside.explained(&tried.1).share;
+    let (force, column) = tried.max_by(|a, b| share(a).total_cmp(&share(b)))?;
     let count = forces().count() as f64;
     let beyond = forces().filter(|u| u.abs() > force).count() as f64 / count;
-    let is_one = explained.share >= SHARE
-        && FACTORS.contains(&explained.coefficient)
-        && beyond <= MOST_BEYOND
-        && stays(record, force);
-    is_one.then_some(Limit {
-        force,
-        beyond,
-        share: explained.share,
+    (beyond <= MOST_BEYOND && stays(record, force)).then(|| {
+        Candidate::new(vec![column], move |c| {
+            FACTORS
+                .contains(&c[0])
+                .then_some(Effect::Limit(force, beyond))
+        })
     })
 }
 
@@ -74,10 +61,8 @@ fn stays(record: &Record, limit: f64) -> bool {
     let long = (5 * record.decimate / 4).max(FEWEST_TOGETHER);
     let (mut all, mut together) = (0_usize, 0_usize);
     for segment in &record.segments {
-        for run in segment
-            .drive
-            .chunk_by(|a, b| (a.abs() > limit) == (b.abs() > limit))
-        {
+        let alike = |a: &f64, b: &f64| (a.abs() > limit) == (b.abs() > limit);
+        for run in segment.drive.chunk_by(alike) {
             if run[0].abs() > limit {
                 all += run.len();
                 together += if run.len() >= long { run.len() } else { 0 };

@@ -6,7 +6,7 @@ use crate::separable::linear::dot;
 const ROUNDING: f64 = 1e-10;
 
 /// A residual, and the columns that were fitted.
-pub(in crate::misfit) struct Beside {
+pub(super) struct Beside {
     residual: Vec<f64>,
     /// Sum of its squares.
     square: f64,
@@ -16,7 +16,7 @@ pub(in crate::misfit) struct Beside {
 
 /// What a column explains.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::misfit) struct Explained {
+pub(super) struct Explained {
     /// Part of the sum of squares.
     pub share: f64,
     /// Its coefficient.
@@ -107,18 +107,6 @@ impl Beside {
     pub fn residual(&self) -> &[f64] {
         &self.residual
     }
-
-    /// Sum of squares of what is left.
-    pub fn square(&self) -> f64 {
-        self.square
-    }
-
-    /// Standard deviation of a relative change of an unknown that changes the model by `column`, in a fit to `ways` samples of
-    /// what is left.
-    pub fn deviation(&self, column: &[f64], ways: f64) -> f64 {
-        let outside = self.outside(column);
-        (self.square / (ways * dot(&outside, &outside))).sqrt()
-    }
 }
 
 #[cfg(test)]
@@ -139,7 +127,7 @@ mod tests {
         assert!((found.coefficient - 3.0).abs() < 0.03, "{found:?}");
         assert_eq!(beside.explained(&a).share, 0.0);
         let rest = beside.with(&b);
-        assert!((rest.square() / beside.square() - 0.1).abs() < 0.01);
+        assert!((rest.square / beside.square - 0.1).abs() < 0.01);
         assert!((rest.explained(&c).share - 1.0).abs() < 1e-6);
         // Hardly anything of a column that is known but for rounding.
         let twice: Vec<f64> = b.iter().map(|b| 2.0 * b).collect();
