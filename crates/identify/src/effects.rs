@@ -22,6 +22,7 @@ mod waves;
 use self::beside::Beside;
 use self::held_out::{HeldOut, Score};
 use self::measures::Measures;
+use crate::conditioning::record::extent;
 use crate::law::terms::{ColumnKind, Terms};
 use crate::scatter::strokes::Strokes;
 use crate::separable::objective::{Evaluation, Objective};
@@ -34,6 +35,9 @@ const SURE: f64 = 1.4;
 /// Largest relative deviation of a pitch, a frequency, a width or a factor that is known: on the *tuning* axes what is less known was
 /// wrong in five of six.
 const KNOWN: f64 = 0.12;
+/// Part of the squares of a column that the columns of the law have to leave for it to be another effect than they: errors of a few per
+/// cent in an acceleration leave as much of a position that goes with it, as on one sine.
+const APART: f64 = 0.05;
 /// Part of what a general effect explains that a special one has to explain to be the cause: dynamics and shapes follow many motions.
 const SPECIAL: f64 = 0.5;
 /// How much more an effect explains than in replicas of the fitted axis, whose encoder and filters make some of it.
@@ -141,6 +145,11 @@ impl Effect {
         !(levels || self.is_a_shape() || matches!(self, Effect::SpringForce(_)))
     }
 
+    /// Whether it is as a mass on a motion of one frequency.
+    fn goes_with_the_mass(&self) -> bool {
+        matches!(self, Effect::SpringForce(_) | Effect::Resonance { .. })
+    }
+
     /// Whether two are of one kind.
     fn is_like(&self, other: &Effect) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
@@ -160,6 +169,22 @@ struct Fitted<'a> {
     level: Vec<f64>,
     /// Moving mass, kg or kg m^2; 0 where there is none.
     mass: f64,
+}
+
+/// Fewest lengths of the bristles in a stroke along which something is said to change: on a shorter one friction itself goes with the
+/// position.
+const FEWEST_LENGTHS: f64 = 50.0;
+
+impl Fitted<'_> {
+    /// Least and largest position, m or rad; `None` where the stroke is no longer than a few bristles.
+    fn stroke(&self) -> Option<(f64, f64)> {
+        let (low, high) = extent(&self.measures.position);
+        let kappa = self.objective.law().layout().kappa;
+        let length = kappa.map_or(0.0, |i| libm::exp(-self.p[i]));
+        let stroke = high - low;
+        (stroke > FEWEST_LENGTHS * length && stroke > 0.0 && stroke.is_finite())
+            .then_some((low, high))
+    }
 }
 
 /// What an effect is with some coefficients; `None` where these are none of such an effect.
@@ -232,7 +257,9 @@ pub(crate) fn sought(
             let score = held_out.score(&candidate.columns);
             let effect = (candidate.effect)(&score.coefficients)?;
             let is_new = found.iter().all(|own| !own.effect.is_like(&effect));
-            (is_new && is_sure(&score, all)).then_some((candidate, score, effect))
+            let apart = |column: &Vec<f64>| beside.part_outside(column) >= APART;
+            let is_apart = !effect.goes_with_the_mass() || candidate.columns.iter().all(apart);
+            (is_new && is_sure(&score, all) && is_apart).then_some((candidate, score, effect))
         });
         let judged: Vec<_> = judged.collect();
         let most = |general: bool| {
@@ -301,7 +328,7 @@ fn course(candidate: &Candidate, fitted: &Fitted, residual: &[f64]) -> Vec<(f64,
     if candidate.along.is_empty() {
         return candidate.course.clone();
     }
-    let (low, high) = crate::conditioning::record::extent(&candidate.along);
+    let (low, high) = extent(&candidate.along);
     let mut sums = [[0.0; 4]; PLACES];
     for (i, x) in candidate.along.iter().enumerate() {
         let weight = if candidate.is_of_level {

@@ -142,7 +142,7 @@ impl Parameter {
             _ if p.is_positive() => (value.abs(), "its value"),
             Dimension::Time => (
                 value.abs().max(KNOWN_DELAY / IDENTIFIABLE * level),
-                "its value",
+                "its value or of two and a half samples",
             ),
             _ => (value.abs().max(level), "its value or of the Coulomb level"),
         };

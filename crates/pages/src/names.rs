@@ -9,7 +9,12 @@ const WORSE: f64 = 1.001;
 
 /// The law of a result, as it stands in a heading.
 pub(crate) fn law_of(result: &ResultFile) -> String {
-    named(&result.law, result.asymmetric, &result.without)
+    let mut name = named(&result.law, result.asymmetric, &result.without);
+    let mut parameters = result.parameters.iter();
+    if parameters.any(|p| p.name.starts_with("quadratic_viscous")) {
+        name.push_str(" + v|v|");
+    }
+    name
 }
 
 /// A law of a comparison, with a constant force named where that is not usual.

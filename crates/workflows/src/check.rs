@@ -7,6 +7,7 @@ mod tracking;
 
 pub use init::{Started, init, names};
 pub use motion::{Motion, speeds};
+pub(crate) use shows::ANGLE_FOR_GRAVITY;
 pub use shows::Shows;
 pub use tracking::{Peak, Tracking, TrackingChange};
 

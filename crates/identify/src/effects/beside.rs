@@ -73,6 +73,12 @@ impl Beside {
         out
     }
 
+    /// Part of the squares of a column that the others do not have.
+    pub fn part_outside(&self, column: &[f64]) -> f64 {
+        let outside = self.outside(column);
+        dot(&outside, &outside) / dot(column, column)
+    }
+
     /// What a column explains of what is left.
     pub fn explained(&self, column: &[f64]) -> Explained {
         let outside = self.outside(column);

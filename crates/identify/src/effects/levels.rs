@@ -22,7 +22,9 @@ pub(super) fn candidates(fitted: &Fitted) -> Vec<Candidate> {
             Effect::Drift(levels)
         }));
     }
-    out.extend(smooth(fitted, &measures.position, Effect::Position));
+    if fitted.stroke().is_some() {
+        out.extend(smooth(fitted, &measures.position, Effect::Position));
+    }
     let load = Dependence::CoulombLoad(0.0).name();
     if !measures.load.is_empty() && !has(load) {
         out.extend(straight(fitted, &measures.load, Effect::Load));

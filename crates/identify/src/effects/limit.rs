@@ -4,6 +4,7 @@
 //! one that the axis never felt: what exceeds it is one more column, with a factor of 1.
 
 use super::beside::Beside;
+use super::waves::highest;
 use super::{Candidate, Effect, Fitted};
 use crate::conditioning::record::Record;
 use crate::conditioning::shift::Shift;
@@ -11,6 +12,8 @@ use crate::conditioning::shift::Shift;
 /// Limits that are tried, in parts of the largest force that was logged.
 const TRIED: std::ops::Range<u32> = 12..49;
 const STEP: f64 = 0.02;
+/// Steps of the search beside the best of them.
+const STEPS: usize = 8;
 /// Factors of what exceeds a limit that make it one: other laws leave only a part of a force that is large.
 const FACTORS: std::ops::Range<f64> = 0.8..1.2;
 /// Largest part of the samples beyond a limit: an axis whose drive gives less more often than that does not move as it is asked.
@@ -41,19 +44,27 @@ pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
         }
         column
     };
-    let tried = TRIED.map(|i| STEP * f64::from(i) * largest);
-    let tried = tried.map(|force| (force, column(force)));
-    let share = |tried: &(f64, Vec<f64>)| beside.explained(&tried.1).share;
-    let (force, column) = tried.max_by(|a, b| share(a).total_cmp(&share(b)))?;
+    let share = |part: f64| beside.explained(&column(part * largest)).share;
+    let tried = TRIED.map(|i| (i, share(STEP * f64::from(i))));
+    let (best, _) = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    // One below all that were tried is not known.
+    (best > TRIED.start).then_some(())?;
+    let force = largest * highest(STEP * f64::from(best), STEP, STEPS, share);
+    let own = column(force);
+    let small = 0.5 * STEP;
+    let [low, high] = [1.0 - small, 1.0 + small].map(|part| column(part * force));
+    let slope = high.iter().zip(&low).map(|(h, l)| (h - l) / (2.0 * small));
+    let slope = slope.collect();
     let count = forces().count() as f64;
     let beyond = forces().filter(|u| u.abs() > force).count() as f64 / count;
-    (beyond <= MOST_BEYOND && stays(record, force)).then(|| {
-        Candidate::new(vec![column], move |c| {
-            FACTORS
-                .contains(&c[0])
-                .then_some(Effect::Limit(force, beyond))
-        })
-    })
+    (beyond <= MOST_BEYOND && stays(record, force)).then_some(())?;
+    let mut candidate = Candidate::new(vec![own], move |c| {
+        FACTORS
+            .contains(&c[0])
+            .then_some(Effect::Limit(force, beyond))
+    });
+    candidate.slope = Some(slope);
+    Some(candidate)
 }
 
 /// Whether a force that is beyond a limit stays there.

@@ -5,8 +5,6 @@ use crate::conditioning::record::extent;
 use crate::law::terms::{Delay, Mass, Terms};
 use crate::separable::objective::Objective;
 
-/// Fewest lengths of the bristles in a stroke: on a shorter one they are a spring themselves.
-const FEWEST_LENGTHS: f64 = 50.0;
 /// Least growth of a delay over the log, samples, and fewest reversals, each of which shows it at one instant.
 const LEAST_GROWTH: f64 = 0.1;
 const FEWEST_REVERSALS: usize = 4;
@@ -23,10 +21,7 @@ pub(super) fn candidates(fitted: &Fitted) -> Vec<Candidate> {
 /// A force that changes smoothly with the position, as that of a spring, a cable chain or a weight does.
 fn spring_force(fitted: &Fitted) -> Option<Candidate> {
     let position = &fitted.measures.position;
-    let (low, high) = extent(position);
-    let kappa = fitted.objective.law().layout().kappa;
-    let length = kappa.map_or(0.0, |i| libm::exp(-fitted.p[i]));
-    (high - low > FEWEST_LENGTHS * length && high > low).then_some(())?;
+    let (low, high) = fitted.stroke()?;
     let middle = 0.5 * (low + high);
     let way = |power: i32| position.iter().map(|x| (x - middle).powi(power)).collect();
     let mut candidate = Candidate::new(vec![way(1), way(2)], |c| Some(Effect::SpringForce(c[0])));

@@ -5,7 +5,6 @@
 
 use super::beside::Beside;
 use super::{Candidate, Effect, Fitted, Wave};
-use crate::conditioning::record::extent;
 use crate::separable::objective::{Evaluation, Objective};
 use std::f64::consts::TAU;
 use stiction_parameters::{Quantity, Wave as Part};
@@ -31,14 +30,13 @@ const STRAIGHT: f64 = 4.0;
 
 pub(super) fn candidates(fitted: &Fitted, beside: &Beside) -> Vec<Candidate> {
     let mut out = Vec::new();
+    let Some((low, high)) = fitted.stroke() else {
+        return out;
+    };
+    let stroke = high - low;
     let ones = vec![1.0; fitted.level.len()];
     for (is_of_level, weight) in [(false, &ones), (true, &fitted.level)] {
         let position = &fitted.measures.position;
-        let (low, high) = extent(position);
-        let stroke = high - low;
-        if !(stroke > 0.0 && stroke.is_finite()) {
-            return out;
-        }
         let along = Along {
             position,
             weight,
@@ -173,7 +171,7 @@ impl Along<'_> {
         let explained = |waves: f64| beside.pair(&self.wave(self.stroke / waves)).0;
         let step = 1.0 / FINE as f64;
         let found = highest(waves(near), step, STEPS, explained);
-        Some(self.stroke / found.max(0.5 * step))
+        (found >= FEWEST).then_some(self.stroke / found)
     }
 }
 

@@ -28,7 +28,7 @@ const SAMPLES_FOR_DAMPING: f64 = 20.0;
 /// Least rms acceleration over its error.
 const ACCELERATION: f64 = 5.0;
 /// Least angle over which sin q and cos q are neither constant nor a straight line, rad.
-const ANGLE_FOR_GRAVITY: f64 = 1.0;
+pub(crate) const ANGLE_FOR_GRAVITY: f64 = 1.0;
 /// Least ratio of the share of samples of the rarer direction to that of the other for levels of their own.
 const BALANCED: f64 = 0.3;
 

@@ -147,7 +147,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             .flatten(),
         fit: fit_entry(&estimate.fit),
         low_speed: estimate.low_speed.as_ref().map(low_entry),
-        effects: left::entries(estimate, motion, force_unit),
+        effects: left::entries(estimate, &parts.laws, motion, force_unit),
         validation,
         simulation: None,
         laws: parts.laws,

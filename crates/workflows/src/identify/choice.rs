@@ -244,6 +244,11 @@ pub(super) fn auto(
         laws.extend(entries.map(|entry| LawEntry {
             best: false,
             as_good: false,
+            // Of the elements alone they say nothing beside the others.
+            held_out_excess_percent: None,
+            held_out_excess_std_percent: None,
+            aic_difference: None,
+            bic_difference: None,
             ..entry
         }));
     }

@@ -2,6 +2,7 @@
 
 use super::trust::RICHER_LAW_WINS_BELOW;
 use super::{pitch, settled};
+use crate::check::ANGLE_FOR_GRAVITY;
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::result::{CauseEntry, Cure, EffectEntry, LawEntry, SizeEntry};
@@ -20,17 +21,24 @@ const ANOTHER_CURVE: &str = "friction falls off over the speed in another way th
 const FIT_EXPONENT: &str = "stribeck_exponent = \"fit\"";
 
 /// What goes into the result.
-pub(super) fn entries(law: &FittedLaw, motion: Motion, force_unit: &str) -> Vec<EffectEntry> {
+pub(super) fn entries(
+    law: &FittedLaw,
+    laws: &[LawEntry],
+    motion: Motion,
+    force_unit: &str,
+) -> Vec<EffectEntry> {
     let entry = |found: &Found| {
         let deviation = 100.0 * found.deviation;
+        let sizes = sizes(&found.effect, motion, force_unit);
+        let known = deviation.is_finite() && !sizes.is_empty();
         EffectEntry {
             code: code(&found.effect),
             explains_percent: 100.0 * found.explains,
-            std_percent: deviation.is_finite().then_some(deviation),
-            sizes: sizes(&found.effect, motion, force_unit),
+            std_percent: known.then_some(deviation),
+            sizes,
         }
     };
-    law.effects.iter().map(entry).collect()
+    shown(law, laws).map(entry).collect()
 }
 
 fn code(effect: &Effect) -> Code {
@@ -107,9 +115,8 @@ fn sizes(effect: &Effect, motion: Motion, force_unit: &str) -> Vec<SizeEntry> {
             size("rests", held as f64, ""),
             size("all_rests", all as f64, ""),
         ],
-        Effect::Mass(mass) => vec![size("mass", mass, "")],
-        Effect::Delay(delay) => vec![size("delay", delay, "s")],
-        Effect::Bristles | Effect::Curve => Vec::new(),
+        // What a fit with the other value says stands in the message.
+        Effect::Mass(_) | Effect::Delay(_) | Effect::Bristles | Effect::Curve => Vec::new(),
     }
 }
 
@@ -291,16 +298,16 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
         }
         Effect::Load(_) => of_level(Dependence::CoulombLoad(0.0)),
         Effect::Temperature(_) => of_level(Dependence::CoulombTemperature(0.0)),
-        // On less than a quarter turn a spring is as a weight.
-        Effect::SpringForce(_) if log.motion == Motion::Rotary => {
-            (!law.terms.gravity).then(|| of_terms(("gravity = true".into(), false)))
-        }
         Effect::SpringForce(_) => {
             let (low, high) = log.position.iter().flatten().fold(
                 (f64::INFINITY, f64::NEG_INFINITY),
                 |(low, high): (f64, f64), x| (low.min(*x), high.max(*x)),
             );
-            pitch::straight(high - low, law, log.motion).map(of_terms)
+            // On less a spring and a weight are alike, and sine and cosine are hardly two.
+            match log.motion == Motion::Rotary && high - low >= ANGLE_FOR_GRAVITY {
+                true => (!law.terms.gravity).then(|| of_terms(("gravity = true".into(), false))),
+                false => pitch::straight(high - low, law, log.motion).map(of_terms),
+            }
         }
         Effect::Bristles if law.terms.dependences.is_empty() => {
             let law = match law.law.has_stribeck() {
