@@ -8,7 +8,7 @@ use stiction_codes::Code;
 pub struct EffectEntry {
     /// What it is, as the code of its warning.
     pub code: Code,
-    /// Part of the squares of what the law and the effects before it leave on strokes that were not fitted, percent.
+    /// Part of the squares of what the law leaves on strokes that were not fitted which is gone with it, percent.
     pub explains_percent: f64,
     /// Standard deviation of the first of `sizes`, percent; absent where it has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]

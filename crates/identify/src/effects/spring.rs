@@ -48,7 +48,7 @@ fn behind_the_motor(
     acceleration: &[Vec<f64>],
     beside: &Beside,
 ) -> Option<Candidate> {
-    let top = most(fitted.objective.record());
+    let top = highest_tried(fitted.objective.record());
     let ratio = libm::pow(DOWN, 1.0 / (TRIED - 1) as f64);
     let column = |frequency: f64, damping: f64| {
         let segments = fitted.objective.record().segments.iter().zip(acceleration);
@@ -92,7 +92,8 @@ fn behind_the_motor(
     Some(candidate)
 }
 
-fn most(record: &Record) -> f64 {
+/// Highest frequency that is tried, Hz.
+fn highest_tried(record: &Record) -> f64 {
     let rate = 1.0 / record.step();
     match record.common_hz {
         Some(cutoff) => (OF_CUTOFF * cutoff).min(MOST_OF_RATE * rate),

@@ -5,6 +5,7 @@
 
 use super::beside::Beside;
 use super::{Candidate, Effect, Fitted, Wave};
+use crate::law::terms::Terms;
 use crate::separable::objective::{Evaluation, Objective};
 use std::f64::consts::TAU;
 use stiction_parameters::{Quantity, Wave as Part};
@@ -117,7 +118,8 @@ impl Along<'_> {
         [sine, cosine]
     }
 
-    /// Root mean square over the phase of what a relative change of the pitch does to a wave of amplitude 1.
+    /// What a relative change of the pitch does to a wave of amplitude 1, as far as its phase, which is taken to be that in the middle of
+    /// the stroke, does not matter.
     fn slope(&self, pitch: f64) -> Vec<f64> {
         let middle = self.low + 0.5 * self.stroke;
         let both = self.position.iter().zip(self.weight);
@@ -205,12 +207,7 @@ struct Given {
 }
 
 /// The waves of a fit, those of an asymmetric level in the mean of both directions.
-fn given(
-    objective: &Objective,
-    at: &Evaluation,
-    terms: &crate::law::terms::Terms,
-    is_of_level: bool,
-) -> Vec<Given> {
+fn given(objective: &Objective, at: &Evaluation, terms: &Terms, is_of_level: bool) -> Vec<Given> {
     let factor = |quantity: Quantity| {
         let both = objective.linear().iter().zip(&at.solution.coefficients);
         let own = both.filter(|(term, _)| term.name.quantity == quantity);

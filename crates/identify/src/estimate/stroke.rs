@@ -6,7 +6,7 @@ use crate::law::dependence::Dependence;
 use crate::parameter::NORMAL_Q95;
 use stiction_parameters::{Name, Quantity, Side};
 
-/// Places at which the level is stated: the ends of the sixteen parts in which a misfit along the stroke is looked for.
+/// Places at which the level is stated: the ends of sixteen equal parts of the stroke.
 const PLACES: usize = 17;
 
 /// The Coulomb level along the stroke, in one direction of motion or both.

@@ -140,7 +140,10 @@ fn words(effect: &Effect) -> &'static str {
         Effect::SpringForce(_) => {
             "a force changes with the position, as that of a spring, a cable chain or a weight does"
         }
-        Effect::Resonance { .. } => "motor and load vibrate against each other",
+        Effect::Resonance { read_at_load, .. } => match read_at_load {
+            true => "motor and load vibrate against each other, the encoder on the load",
+            false => "motor and load vibrate against each other, the encoder on the motor",
+        },
         Effect::Backlash { .. } => "a gap lies between motor and load",
         Effect::Dynamics(square) if *square < 0.0 => {
             "between force and motion are dynamics that a rigid mass does not have, as of a filter of the logged force, a spring or a gap"

@@ -12,7 +12,7 @@ use stiction_identify::{
     Delay, Effect, Law, LawKind, Mass, Observer, Parameter, Settings, Status, Terms,
 };
 use stiction_number::{Percent, four_digits, full};
-use stiction_parameters::Quantity;
+use stiction_parameters::{Name, Quantity};
 
 /// Distance of a fitted Stribeck exponent from another one, of logarithms, that filters and encoder may have made: on simulated axes up to
 /// 0.14 (decision 0064).
@@ -47,65 +47,89 @@ pub(super) fn named(
     };
     let (held, optimum) = fit(law, terms)?;
     let effect = engine::effects(record, &optimum, &held).first()?.effect;
-    let mut open = terms.clone();
-    let (code, law, quantity, scale) = match effect {
+    let open = terms.clone();
+    let unit = symbols::unit(
+        Name::from(Quantity::Mass).dimension(),
+        log.motion,
+        &log.force_unit,
+        "",
+    );
+    let has_curve = |law: LawKind| law.has_stribeck() && !law.has_elements();
+    let stated = match (effect, terms.mass, terms.delay, axis.stribeck_exponent) {
         // Of a force in amperes it is the scale that is not known.
-        Effect::Mass(_) if log.force_unit == symbols::force_unit(log.motion) => {
-            open.mass = Mass::Fitted;
-            (Code::MassDisagrees, law, Quantity::Mass, 1.0)
+        (Effect::Mass(_), Mass::Given(mass), ..)
+            if log.force_unit == symbols::force_unit(log.motion) =>
+        {
+            Stated {
+                code: Code::MassDisagrees,
+                law,
+                open: Terms {
+                    mass: Mass::Fitted,
+                    ..open
+                },
+                quantity: Quantity::Mass,
+                scale: 1.0,
+                what: format!("a mass of {} {unit}", four_digits(mass)),
+                unit: format!(" {unit}"),
+                to_do: "Write mass = \"fit\" in its place in the axis file; a mass that is known surely is a force in another scale or unit",
+            }
         }
-        Effect::Delay(_) => {
-            open.delay = Delay::Fitted;
-            (Code::DelayDisagrees, law, Quantity::Delay, 1e3)
+        (Effect::Delay(_), _, Delay::Given(delay), _) => Stated {
+            code: Code::DelayDisagrees,
+            law,
+            open: Terms {
+                delay: Delay::Fitted,
+                ..open
+            },
+            quantity: Quantity::Delay,
+            scale: 1e3,
+            what: format!("a delay of {} ms", four_digits(1e3 * delay)),
+            unit: " ms".into(),
+            to_do: "Write delay = \"fit\" in its place under [terms] in the axis file",
+        },
+        (Effect::Curve, _, _, Some(exponent)) if asked.options.law.is_none_or(has_curve) => {
+            Stated {
+                code: Code::ExponentDisagrees,
+                law: law.with_fitted_exponent(),
+                open,
+                quantity: Quantity::StribeckExponent,
+                scale: 1.0,
+                what: format!("a Stribeck exponent of {}", full(exponent)),
+                unit: String::new(),
+                to_do: "Write stribeck_exponent = \"fit\" in its place under [terms] in the axis file",
+            }
         }
-        Effect::Curve if axis.stribeck_exponent.is_some() => (
-            Code::ExponentDisagrees,
-            law.with_fitted_exponent(),
-            Quantity::StribeckExponent,
-            1.0,
-        ),
         _ => return None,
     };
-    let has_none = |law: LawKind| law.has_elements() || !law.has_stribeck();
-    if code == Code::ExponentDisagrees && asked.options.law.is_some_and(has_none) {
-        return None;
-    }
-    let (free, _) = fit(law, &open)?;
-    let found = free.parameter(quantity)?;
+    let (free, _) = fit(stated.law, &stated.open)?;
+    let found = free.parameter(stated.quantity)?;
     let (low, high) = found.ci95?;
-    let [value, low, high] = [found.value, low, high].map(|x| four_digits(scale * x));
-    let unit = match code {
-        Code::MassDisagrees => {
-            let unit = symbols::unit(found.name.dimension(), log.motion, &log.force_unit, "");
-            format!(" {unit}")
-        }
-        Code::DelayDisagrees => " ms".into(),
-        _ => String::new(),
-    };
-    let stated = match (code, terms.mass, terms.delay) {
-        (Code::MassDisagrees, Mass::Given(mass), _) => {
-            format!("a mass of {}{unit}", four_digits(mass))
-        }
-        (Code::DelayDisagrees, _, Delay::Given(delay)) => {
-            format!("a delay of {}{unit}", four_digits(1e3 * delay))
-        }
-        _ => format!("a Stribeck exponent of {}", full(axis.exponent())),
-    };
+    let [value, low, high] = [found.value, low, high].map(|x| four_digits(stated.scale * x));
     let left = Percent::error(100.0 * (free.fit.rmse / held.fit.rmse).powi(2)).digits(2);
-    let line = match code {
-        Code::MassDisagrees => {
-            "Write mass = \"fit\" in its place in the axis file; a mass that is known surely is a force in another scale or unit"
-        }
-        Code::DelayDisagrees => "Write delay = \"fit\" in its place under [terms] in the axis file",
-        _ => "Write stribeck_exponent = \"fit\" in its place under [terms] in the axis file",
-    };
+    let Stated {
+        what, unit, to_do, ..
+    } = stated;
     Some(Warning::new(
-        code,
+        stated.code,
         format!(
-            "the axis file states {stated}, and the log shows {value}{unit} ({low} to {high}): with that {left} of what the law leaves beside the \
-             stated one is left. {line}"
+            "the axis file states {what}, and the log shows {value}{unit} ({low} to {high}): with that {left} of what the law leaves beside the \
+             stated one is left. {to_do}"
         ),
     ))
+}
+
+/// What an axis file states and a log contradicts.
+struct Stated {
+    code: Code,
+    /// The law and the terms with which it is fitted instead.
+    law: Law,
+    open: Terms,
+    quantity: Quantity,
+    /// From SI to the unit of the message, and that.
+    scale: f64,
+    unit: String,
+    what: String,
+    to_do: &'static str,
 }
 
 /// How many times larger or smaller than `limits.mass` what moves may be (docs/axis.md).
