@@ -12,10 +12,10 @@ use crate::law::terms::{Delay, Side, Terms};
 use crate::law::{Law, LawKind};
 use crate::scatter::strokes::Strokes;
 use crate::scatter::{Fitted, HalfWidths, Scatter};
+use crate::separable::follow;
 use crate::separable::logs::Logs;
 use crate::separable::objective::Evaluation;
 use crate::separable::settings::Settings;
-use crate::separable::{follow, separable};
 use nalgebra::DVector;
 use stiction_search::{Observer, Status};
 
@@ -150,11 +150,9 @@ pub fn friction_curve(
         .layout()
         .kappa
         .filter(|_| !fitted.law.kind.has_elements());
-    let start = kappa.and_then(|at| fitted.unknowns().get(at)).copied();
-    let optimum = match start {
-        Some(start) => follow(&[start], record, law, &terms, settings, observer)?,
-        None => separable(record, law, &terms, settings, observer)?,
-    };
+    let length = kappa.and_then(|at| fitted.unknowns().get(at)).copied();
+    let start = length.unwrap_or_else(|| Prior::of(record, &strokes, 0.0).kappa().0);
+    let optimum = follow(&[start], record, law, &terms, settings, observer)?;
     if optimum.status == Status::Interrupted {
         return Ok(None);
     }
@@ -228,7 +226,7 @@ fn stated(
     }
     let jacobian = at.jacobian();
     let mut prior = vec![0.0; jacobian.len()];
-    let known = Prior::of(record, strokes, 0.0).length_deviation();
+    let known = Prior::of(record, strokes, 0.0).kappa().1;
     prior[..nonlinear].fill(1.0 / (known * known));
     let logs = Logs::of(record);
     let logs = logs.as_ref().map_or(&[][..], |logs| logs.ranges());

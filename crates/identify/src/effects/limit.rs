@@ -44,19 +44,22 @@ pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
         }
         column
     };
+    let count = forces().count() as f64;
+    let beyond = |force: f64| forces().filter(|u| u.abs() > force).count() as f64 / count;
     let share = |part: f64| beside.explained(&column(part * largest)).share;
-    let tried = TRIED.map(|i| (i, share(STEP * f64::from(i))));
+    let tried = TRIED.skip_while(|i| beyond(STEP * f64::from(*i) * largest) > MOST_BEYOND);
+    let first = tried.clone().next()?;
+    let tried = tried.map(|i| (i, share(STEP * f64::from(i))));
     let (best, _) = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
     // One below all that were tried is not known.
-    (best > TRIED.start).then_some(())?;
+    (best > first).then_some(())?;
     let force = largest * highest(STEP * f64::from(best), STEP, STEPS, share);
     let own = column(force);
     let small = 0.5 * STEP;
     let [low, high] = [1.0 - small, 1.0 + small].map(|part| column(part * force));
     let slope = high.iter().zip(&low).map(|(h, l)| (h - l) / (2.0 * small));
     let slope = slope.collect();
-    let count = forces().count() as f64;
-    let beyond = forces().filter(|u| u.abs() > force).count() as f64 / count;
+    let beyond = beyond(force);
     (beyond <= MOST_BEYOND && stays(record, force)).then_some(())?;
     let mut candidate = Candidate::new(vec![own], move |c| {
         FACTORS

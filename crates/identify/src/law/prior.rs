@@ -51,9 +51,9 @@ impl Prior {
         }
     }
 
-    /// Deviation of the logarithm of the presliding length.
-    pub(crate) fn length_deviation(&self) -> f64 {
-        self.kappa.1
+    /// Mean and deviation of the logarithm of the inverse of the presliding length.
+    pub(crate) fn kappa(&self) -> (f64, f64) {
+        self.kappa
     }
 
     /// What is known of each nonlinear unknown of a law: its place, mean and deviation.
