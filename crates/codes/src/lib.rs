@@ -120,7 +120,6 @@ codes! {
     LawShape = "law-shape": "friction or inertia has another shape than the law",
     CorrelatedResidual = "correlated-residual": "the residual of a simulated open loop has too few independent samples",
     ForceLate = "force-late": "the force was logged much later than the motion it belongs to",
-    HeldAtRest = "held-at-rest": "something else than friction holds the axis where it rests",
     ForceNotGiven = "force-not-given": "the drive gave less than the force that was logged",
     ForceFiltered = "force-filtered": "the force was logged behind a low-pass or as a mean over rows",
     MotionLate = "motion-late": "the motion was logged much later than the force it belongs to",

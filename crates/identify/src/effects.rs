@@ -8,7 +8,6 @@
 //! It is a diagnosis: no effect enters an interval.
 
 pub(crate) mod beside;
-mod brake;
 mod gap;
 mod held_out;
 mod levels;
@@ -102,8 +101,6 @@ pub enum Effect {
     Clocks(f64),
     /// A drive that gave no more than this, and the part of the samples with more.
     Limit(f64, f64),
-    /// Something else than friction that holds the axis at rest: in how many rests of how many, and the force there.
-    Brake([usize; 2], f64),
     /// A stated mass that is another one, kg or kg m^2.
     Mass(f64),
     /// A stated delay that is another one, s.
@@ -248,8 +245,7 @@ pub(crate) fn sought(
     let all = held_out.left();
     let fixed = stated::candidates(&fitted).into_iter();
     let fixed = fixed.chain(levels::candidates(&fitted));
-    let fixed = fixed.chain(other_shape::candidates(&fitted));
-    let fixed: Vec<Candidate> = fixed.chain(brake::candidate(&fitted)).collect();
+    let fixed: Vec<Candidate> = fixed.chain(other_shape::candidates(&fitted)).collect();
     while found.len() < MOST {
         let sized = waves::candidates(&fitted, &beside).into_iter();
         let sized = sized.chain(limit::candidate(&fitted, &beside));

@@ -389,7 +389,6 @@ pub(super) fn left(outcome: &Outcome) -> Option<Figure> {
         }
         Effect::Dynamics(_)
         | Effect::Limit(..)
-        | Effect::Brake(..)
         | Effect::Mass(_)
         | Effect::Delay(_)
         | Effect::Bristles => return None,

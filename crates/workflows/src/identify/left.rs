@@ -54,7 +54,6 @@ fn code(effect: &Effect) -> Code {
         Effect::Dynamics(_) => Code::UnmodelledDynamics,
         Effect::Clocks(_) => Code::ClocksApart,
         Effect::Limit(..) => Code::ForceNotGiven,
-        Effect::Brake(..) => Code::HeldAtRest,
         Effect::Mass(_) => Code::MassDisagrees,
         Effect::Delay(_) => Code::DelayDisagrees,
         Effect::Bristles | Effect::Curve => Code::LawShape,
@@ -110,11 +109,6 @@ fn sizes(effect: &Effect, motion: Motion, force_unit: &str) -> Vec<SizeEntry> {
             size("force", force, force_unit),
             size("beyond", 100.0 * beyond, "%"),
         ],
-        Effect::Brake([held, all], force) => vec![
-            size("force", force, force_unit),
-            size("rests", held as f64, ""),
-            size("all_rests", all as f64, ""),
-        ],
         // What a fit with the other value says stands in the message.
         Effect::Mass(_) | Effect::Delay(_) | Effect::Bristles | Effect::Curve => Vec::new(),
     }
@@ -153,9 +147,6 @@ fn words(effect: &Effect) -> &'static str {
         }
         Effect::Clocks(_) => "force and motion were stamped by two clocks that run apart",
         Effect::Limit(..) => "the drive gave less than the force that was logged",
-        Effect::Brake(..) => {
-            "something else than friction, such as a brake, holds the axis where it rests"
-        }
         Effect::Mass(_) => "the mass is another one than the axis file states",
         Effect::Delay(_) => "the delay is another one than the axis file states",
         Effect::Bristles => "friction after a reversal has another shape than this law",
@@ -327,7 +318,6 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
         | Effect::Backlash { .. }
         | Effect::Dynamics(_)
         | Effect::Limit(..)
-        | Effect::Brake(..)
         | Effect::Mass(_)
         | Effect::Delay(_)
         | Effect::Bristles
@@ -378,9 +368,6 @@ fn by_hand(effect: &Effect) -> String {
         Effect::Dynamics(_) => "Log the force that acts, unfiltered, such as the measured current",
         Effect::Clocks(_) => "Record both with one clock",
         Effect::Limit(..) => "Log the measured current, or record with less acceleration",
-        Effect::Brake(..) => {
-            "Leave the rests out by a column that says when the axis is enabled ([columns] enable), or record without rests"
-        }
         Effect::Mass(_) => "Write mass = \"fit\" in its place in the axis file",
         Effect::Delay(_) => "Write delay = \"fit\" in its place under [terms] in the axis file",
         Effect::Ripple(_) | Effect::SpringForce(_) | Effect::Bristles | Effect::Curve => {
