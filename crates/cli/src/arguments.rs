@@ -26,6 +26,9 @@ pub struct Common {
     /// Print errors only.
     #[arg(long, global = true, display_order = 101)]
     pub quiet: bool,
+    /// Print all that was found: laws side by side, warnings in full, what was left out.
+    #[arg(long, global = true, display_order = 101)]
+    pub verbose: bool,
     /// Threads to use [default: one a core]; results do not depend on it.
     #[arg(long, global = true, display_order = 102, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,

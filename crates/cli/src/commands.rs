@@ -165,7 +165,10 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
     if common.json {
         output::json(&outcome.result)?;
     } else if !common.quiet {
-        let text = stiction::commands::text::outcome(outcome);
+        let text = match common.verbose {
+            true => stiction::commands::text::outcome(outcome),
+            false => stiction::commands::text::brief(outcome),
+        };
         let next = match outcome.result.trust.next {
             next @ (Next::Again | Next::Finish) => {
                 let arguments = std::env::args_os().skip(1);
@@ -178,10 +181,14 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
             _ => {
                 let is_study = |path: &&PathBuf| path.ends_with("study.toml");
                 let study = written.iter().find(is_study).map(PathBuf::as_path);
-                stiction::commands::text::next(&outcome.result, dir, study)
+                match common.verbose {
+                    true => stiction::commands::text::next(&outcome.result, dir, study),
+                    false => stiction::commands::text::next_in_short(&outcome.result, dir, study),
+                }
             }
         };
-        output::print(&format!("{text}\n{}{next}", written_to(dir, &written)))?;
+        let gap = if common.verbose { "\n" } else { "" };
+        output::print(&format!("{text}{gap}{}{next}", written_to(dir, &written)))?;
     }
     // An interrupt may also have come while laws were compared, after the search had converged.
     if interrupt::stopped() {

@@ -2,7 +2,7 @@
 
 use stiction_files::result::{ParameterEntry, ResultFile};
 use stiction_identify::IDENTIFIABLE;
-use stiction_number::{Percent, short};
+use stiction_number::{Percent, sig};
 use stiction_parameters::{Dimension, Name, Quantity};
 
 /// 97.5 % quantile of the normal distribution.
@@ -28,7 +28,7 @@ impl Deviation {
     pub fn cell(self, unit: &str) -> String {
         match self {
             Self::Given => "given".into(),
-            Self::Absolute(half) => format!("± {} {unit}", short(half)),
+            Self::Absolute(half) => format!("± {} {unit}", sig(half, 3)),
             Self::Relative(part) => format!("± {}", part.digits(2)),
             Self::Unknown => String::new(),
             Self::Unbounded => "not bounded".into(),

@@ -63,20 +63,20 @@ pub(crate) fn unsettled(axis: &ResolvedAxis) -> Option<String> {
     ))
 }
 
+/// Which units were assumed; nothing where all are given.
+pub(crate) fn assumed_units(input: &Input) -> Option<String> {
+    let units = input.assumed.iter();
+    let units = units.map(|a| format!("{} in {}", a.column, unit(&a.unit)));
+    let units: Vec<String> = units.collect();
+    (!units.is_empty()).then(|| units.join(", "))
+}
+
 /// Which units were assumed, and the lines that settle them; nothing where all are given.
 pub(crate) fn assumed(input: &Input) -> Option<(String, Vec<&str>)> {
-    let units: Vec<String> = input
-        .assumed
-        .iter()
-        .map(|a| format!("{} in {}", a.column, unit(&a.unit)))
-        .collect();
-    if units.is_empty() {
-        return None;
-    }
+    let units = assumed_units(input)?;
     let text = format!(
-        "units assumed, given neither in the file nor in an axis file: {} [{}]; in other units every number below is another. \
+        "units assumed, given neither in the file nor in an axis file: {units} [{}]; in other units every number below is another. \
          To settle them, in the axis file under [columns]:",
-        units.join(", "),
         Code::UnitAssumed
     );
     Some((

@@ -42,11 +42,23 @@ pub(crate) struct Cured {
     /// Why, and what to do.
     pub what: String,
     /// The line to write into the axis file; none where another law is to be tried.
-    pub line: Option<String>,
+    pub line: Option<Line>,
     /// The command that then takes it in.
     pub command: String,
     /// Whether all that is worth a try has been tried, and the command is the one that uses the law.
     pub ends: bool,
+}
+
+/// A line of an axis file.
+pub(crate) struct Line {
+    /// The file, as a shell takes it.
+    pub file: String,
+    /// The table that it belongs to.
+    pub table: String,
+    /// The line.
+    pub text: String,
+    /// Whether it takes the place of the line with its key.
+    pub replaces: bool,
 }
 
 /// What is worth a try before a law is used: a law that holds better, which leaves something else, or what takes the cause of what
@@ -138,8 +150,13 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                     cause.text,
                     aim(table, cause.code)
                 ),
-                line: Some(line.clone()),
                 command: format!("stiction identify{logs} --axis {file}{law} --out {out}"),
+                line: Some(Line {
+                    file,
+                    table: table.clone(),
+                    text: line.clone(),
+                    replaces: *replaces,
+                }),
                 ends: false,
             }
         }

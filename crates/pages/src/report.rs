@@ -296,7 +296,7 @@ fn next_step(result: &ResultFile, folder: &Path) -> Text {
         return Text::from(format!("Next: {as_it_is}")).code(command_as_it_is);
     };
     let line = cured.line.map_or(String::new(), |line| {
-        format!(" {}", line.replace('\n', " and "))
+        format!(" {}", line.text.replace('\n', " and "))
     });
     let ends = cured.ends;
     let cured = Text::from(format!(

@@ -2,6 +2,7 @@
 
 mod against_plan;
 mod batch;
+mod brief;
 mod check;
 mod comparison;
 mod drift;
@@ -23,7 +24,8 @@ use crate::next;
 pub use crate::next::{axis_file, why};
 use crate::trust::{cause, compensation, constants, why_not};
 pub use batch::batch;
-pub use check::{check, started};
+pub use brief::brief;
+pub use check::{check, check_in_short, started};
 pub use comparison::{announced_comparison, comparison};
 pub use drift::drift;
 pub use export::exported;
@@ -36,12 +38,12 @@ use stiction_files::result::{
     FrictionCurveEntry, LawEntry, LevelAlongEntry, Next, ResultFile, SimulationEntry,
 };
 use stiction_files::symbols;
-use stiction_number::{Percent, four_digits as short, r_squared, unit};
+use stiction_number::{Percent, four_digits as short, quantity, r_squared, sig, unit};
 use stiction_workflows::identify::Outcome;
 pub use study::{announced, started_study, study};
 use table::table;
 
-/// The outcome of an identification.
+/// The outcome of an identification in full.
 pub fn outcome(outcome: &Outcome) -> String {
     let result = &outcome.result;
     let mut out = String::new();
@@ -201,6 +203,12 @@ pub fn outcome(outcome: &Outcome) -> String {
     out
 }
 
+/// The first sentence of a message.
+fn first_sentence(message: &str) -> &str {
+    let ends = [". ", "; "].into_iter().filter_map(|end| message.find(end));
+    &message[..ends.min().unwrap_or(message.len())]
+}
+
 /// What the result may be used for, as compensation and as constants.
 fn verdicts(result: &ResultFile) -> String {
     let trust = &result.trust;
@@ -266,7 +274,7 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
         Some(cured) => {
             let _ = writeln!(out, "{}", cured.what);
             if let Some(line) = cured.line {
-                for line in line.lines() {
+                for line in line.text.lines() {
                     let _ = writeln!(out, "    {line}");
                 }
                 let _ = writeln!(out, "and");
@@ -287,6 +295,28 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
     out
 }
 
+/// The same in short: the line to write and the command to type.
+pub fn next_in_short(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
+    let study = study.filter(|_| result.trust.next == Next::Export);
+    let simulate = study.map_or(String::new(), |study| {
+        format!("to simulate it first: {}\n", next::simulate(study, dir))
+    });
+    match next::to_try(result, dir) {
+        None => format!("{simulate}next: {}\n", next::command(result, dir)),
+        Some(cured) => {
+            let line = cured.line.map_or(String::new(), |line| {
+                let write = match line.replaces {
+                    true => "change",
+                    false => "add",
+                };
+                let text = line.text.replace('\n', "; ");
+                format!("{write} in {} under [{}]: {text}\n", line.file, line.table)
+            });
+            format!("{line}next: {}\n", cured.command)
+        }
+    }
+}
+
 /// Coulomb and viscous friction with the mass, as simulators take them; `None` where they are not known.
 fn line(result: &ResultFile) -> Option<String> {
     let curve = result.friction_curve.as_ref()?;
@@ -294,8 +324,8 @@ fn line(result: &ResultFile) -> Option<String> {
     let stated = |value: f64, half: Option<f64>, of: &str| {
         let part = half.map(|half| Percent::deviation(100.0 * half / value.abs()));
         match part.filter(|part| part.is_bounded()) {
-            Some(part) => format!("{} {} ± {}", short(value), unit(of), part.digits(2)),
-            None => format!("{} {}", short(value), unit(of)),
+            Some(part) => format!("{} {} ± {}", sig(value, 3), unit(of), part.digits(2)),
+            None => format!("{} {}", sig(value, 3), unit(of)),
         }
     };
     let mass = result.parameters.iter().find(|p| p.name == "mass");
@@ -321,13 +351,13 @@ const DETERMINED: f64 = 0.2;
 fn friction(curve: &FrictionCurveEntry) -> String {
     let at = curve.at.iter().map(|at| {
         let part = at.repeat / at.force.abs();
-        let speed = format!("at {} {}", short(at.speed), curve.speed_unit);
+        let speed = format!("at {}", quantity(at.speed, &curve.speed_unit));
         match part <= DETERMINED {
             true => format!(
                 "{} {} ± {} {speed}",
-                short(at.force),
+                sig(at.force, 3),
                 unit(&curve.unit),
-                Percent::deviation(100.0 * part).short()
+                Percent::deviation(100.0 * part).digits(2)
             ),
             false => format!("not determined {speed}"),
         }

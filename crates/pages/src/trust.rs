@@ -1,7 +1,7 @@
 //! What a result may be used for, in words that reports and the terminal share.
 
 use stiction_files::result::{CauseEntry, Compensation, Next, ResultFile, Trust};
-use stiction_number::{Percent, four_digits as short};
+use stiction_number::{Percent, counted, four_digits as short, quantity};
 
 /// How well the law predicts friction, and on which motion that was seen.
 pub(crate) fn compensation(seen: &Compensation, result: &ResultFile) -> String {
@@ -28,6 +28,28 @@ pub(crate) fn compensation(seen: &Compensation, result: &ResultFile) -> String {
         n => format!(", {n} reversals"),
     });
     out
+}
+
+/// The held-out error and the range of motion that it was seen on.
+pub(crate) fn range(seen: &Compensation, result: &ResultFile) -> String {
+    let [length, speed] = match result.axis.kind.as_str() {
+        "rotary" => ["rad", "rad/s"],
+        _ => ["m", "m/s"],
+    };
+    let on = match seen.judged_on.as_str() {
+        "held-out" => "held-out error",
+        "validation" => "validation error",
+        _ => "fit error",
+    };
+    let stroke = seen.stroke.map_or(String::new(), |stroke| {
+        format!(" over {}", quantity(stroke, length))
+    });
+    format!(
+        "{on} {} of friction; valid up to {}{stroke} ({})",
+        Percent::error(seen.friction_left_percent).digits(3),
+        quantity(seen.top_speed, speed),
+        counted(seen.reversals, "reversal")
+    )
 }
 
 /// Why a law may not be used: what it leaves and why first, since a cure begins there.

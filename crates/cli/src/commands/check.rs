@@ -23,7 +23,10 @@ pub fn run(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
     if common.json {
         output::json(&found)?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::check(&found))?;
+        output::print(&match common.verbose {
+            true => stiction::commands::text::check(&found),
+            false => stiction::commands::text::check_in_short(&found),
+        })?;
     }
     Ok(found.verdict().into())
 }

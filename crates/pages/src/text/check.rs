@@ -1,7 +1,10 @@
 //! The outcome of a check, and what an axis file was begun with.
 
+mod brief;
+
 use super::table::table;
 use crate::next::ANOTHER_LOG;
+pub use brief::check_in_short;
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::result::Cure;
@@ -16,25 +19,30 @@ pub fn check(check: &Check) -> String {
     let kind = check.logs.first().map_or("", |log| log.kind.as_str());
     let logs = check.logs.iter().map(|log| log_check(log, axis));
     let changes = check.tracking.iter().map(|change| tracking(change, kind));
+    // What changed is what several logs are given for; what each shows by itself comes after.
+    changes
+        .chain(silent(check))
+        .chain(logs)
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+/// Which logs cannot be compared with the first, and why.
+fn silent(check: &Check) -> impl Iterator<Item = String> {
     // Where one log has a reference, whoever gives several compares them.
     let has_reference = |log: &LogCheck| {
         let mut roles = log.columns.iter().map(|c| c.role.as_deref());
         roles.any(|role| role == Some("reference"))
     };
     let compares = check.logs.len() > 1 && check.logs.iter().any(has_reference);
-    let silent = check.logs.iter().filter(|_| compares).filter_map(|log| {
+    let logs = check.logs.iter().filter(move |_| compares);
+    logs.filter_map(|log| {
         let why = log.not_tracked.as_ref()?;
         Some(format!(
             "the following error of {} is not compared: {why}\n",
             shown(&log.input.path)
         ))
-    });
-    // What changed is what several logs are given for; what each shows by itself comes after.
-    changes
-        .chain(silent)
-        .chain(logs)
-        .collect::<Vec<_>>()
-        .join("\n")
+    })
 }
 
 /// What changed in how a reference is followed.

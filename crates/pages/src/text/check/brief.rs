@@ -1,0 +1,125 @@
+//! A check in short: the columns, what is wrong, what the log determines, and what to do next.
+
+use super::{next, silent, tracking};
+use crate::text::first_sentence;
+use crate::text::table::table;
+use std::fmt::Write;
+use std::path::Path;
+use stiction_files::shell::shown;
+use stiction_files::symbols;
+use stiction_number::{counted, sig, unit};
+use stiction_workflows::check::{Check, Finding, LogCheck, ParameterCheck};
+
+/// Findings that are shown of a log.
+const MOST_FINDINGS: usize = 5;
+
+/// The outcome of a check in short: what [`check`](super::check) says in full.
+pub fn check_in_short(check: &Check) -> String {
+    let axis = check.axis.as_deref();
+    let kind = check.logs.first().map_or("", |log| log.kind.as_str());
+    let mut out: String = check.tracking.iter().map(|c| tracking(c, kind)).collect();
+    out.extend(silent(check));
+    // How several logs follow their reference is what they are given for.
+    let compared = !out.is_empty();
+    for log in &check.logs {
+        let separator = if out.is_empty() || compared { "" } else { "\n" };
+        out.push_str(separator);
+        match compared {
+            true => out.extend(refused(log)),
+            false => out.push_str(&one(log, axis)),
+        }
+    }
+    out
+}
+
+fn one(log: &LogCheck, axis: Option<&Path>) -> String {
+    let mut out = format!(
+        "{}: {} axis, {}, {} s at {} Hz\n",
+        shown(&log.input.path),
+        log.kind,
+        counted(log.input.samples, "sample"),
+        sig(log.seconds, 3),
+        sig(log.input.rate_hz, 3)
+    );
+    out.push_str(&columns(log));
+    out.push_str(&findings(&log.findings));
+    out.push_str(&parameters(log));
+    out.extend(refused(log));
+    for line in next(log, axis) {
+        let _ = writeln!(out, "{line}");
+    }
+    out
+}
+
+fn refused(log: &LogCheck) -> Option<String> {
+    let why = log.refused.as_ref()?;
+    let path = shown(&log.input.path);
+    Some(format!("{path} cannot be trusted: {why}\n"))
+}
+
+/// The columns that are used.
+fn columns(log: &LogCheck) -> String {
+    let used = log.columns.iter().filter_map(|column| {
+        let role = column.role.clone()?;
+        Some(vec![
+            format!("  {role}"),
+            column.column.clone(),
+            unit(&column.unit),
+        ])
+    });
+    let rows: Vec<Vec<String>> = used.collect();
+    let unused = log.columns.len() - rows.len();
+    let mut out = table(&rows, &[]);
+    if unused > 0 {
+        let _ = writeln!(out, "  {} not used", counted(unused, "column"));
+    }
+    out
+}
+
+/// The findings that matter most, a sentence each.
+fn findings(all: &[Finding]) -> String {
+    let is_warning = |f: &&Finding| f.severity == "warning";
+    let warnings = all.iter().filter(is_warning);
+    let notes = all.iter().filter(|f| !is_warning(f));
+    let mut out = String::new();
+    for f in warnings.chain(notes).take(MOST_FINDINGS) {
+        let text = shown(first_sentence(&f.message));
+        let _ = writeln!(out, "{} [{}] {text}", f.severity, f.code);
+    }
+    let more = all.len().saturating_sub(MOST_FINDINGS);
+    if more > 0 {
+        let _ = writeln!(out, "{}: --verbose", counted(more, "more finding"));
+    }
+    out
+}
+
+/// What the log determines, by a fit where there is one, a line each.
+fn parameters(log: &LogCheck) -> String {
+    let motion_for = |p: &ParameterCheck| {
+        let shows = log.shows.iter().find(|s| p.name.starts_with(&s.name));
+        let record = shows.map_or("", |s| s.record.as_str());
+        match record.is_empty() {
+            true => p.reason.clone(),
+            false => format!("record {record}"),
+        }
+    };
+    let of_fit = log.parameters.iter().map(|p| {
+        let verdict = match p.identifiable {
+            true => format!("determined, about {} {}", sig(p.value, 3), unit(&p.unit)),
+            false => format!("not determined: {}", motion_for(p)),
+        };
+        vec![format!("  {}", p.name), symbols::symbol(&p.name), verdict]
+    });
+    let of_motion = log.shows.iter().map(|s| {
+        let why = match s.record.is_empty() {
+            true => s.because.clone(),
+            false => format!("record {}", s.record),
+        };
+        vec![format!("  {}", s.meaning), format!("{}: {why}", s.shown)]
+    });
+    let rows: Vec<Vec<String>> = match log.parameters.is_empty() {
+        true => of_motion.collect(),
+        false => of_fit.collect(),
+    };
+    table(&rows, &[])
+}
