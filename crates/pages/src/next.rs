@@ -59,6 +59,8 @@ pub(crate) struct Line {
     pub text: String,
     /// Whether it takes the place of the line with its key.
     pub replaces: bool,
+    /// Whether the file is still to be begun.
+    pub begins: bool,
 }
 
 /// What is worth a try before a law is used: a law that holds better, which leaves something else, or what takes the cause of what
@@ -156,6 +158,7 @@ fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
                     table: table.clone(),
                     text: line.clone(),
                     replaces: *replaces,
+                    begins: result.axis.file.is_none(),
                 }),
                 ends: false,
             }

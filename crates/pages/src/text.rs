@@ -203,8 +203,14 @@ pub fn outcome(outcome: &Outcome) -> String {
     out
 }
 
-/// The first sentence of a message.
+/// Characters of a message that is shown whole.
+const SHORT_MESSAGE: usize = 160;
+
+/// A message, of a long one the first sentence.
 fn first_sentence(message: &str) -> &str {
+    if message.chars().count() <= SHORT_MESSAGE {
+        return message;
+    }
     let ends = [". ", "; "].into_iter().filter_map(|end| message.find(end));
     &message[..ends.min().unwrap_or(message.len())]
 }
@@ -301,20 +307,36 @@ pub fn next_in_short(result: &ResultFile, dir: &Path, study: Option<&Path>) -> S
     let simulate = study.map_or(String::new(), |study| {
         format!("to simulate it first: {}\n", next::simulate(study, dir))
     });
-    match next::to_try(result, dir) {
+    let next = match next::to_try(result, dir) {
         None => format!("{simulate}next: {}\n", next::command(result, dir)),
         Some(cured) => {
-            let line = cured.line.map_or(String::new(), |line| {
-                let write = match line.replaces {
-                    true => "change",
-                    false => "add",
-                };
-                let text = line.text.replace('\n', "; ");
-                format!("{write} in {} under [{}]: {text}\n", line.file, line.table)
-            });
-            format!("{line}next: {}\n", cured.command)
+            let line = cured.line.map_or(String::new(), written);
+            let rest = match result.trust.trustworthy && !cured.ends {
+                true => format!("or use it as it is: {}\n", next::command(result, dir)),
+                false => String::new(),
+            };
+            format!("{line}next: {}\n{rest}", cured.command)
         }
-    }
+    };
+    let planned = next::planned(result, dir);
+    let planned =
+        planned.map(|command| format!("to plan the motion for what is open: {command}\n"));
+    format!("{next}{}", planned.unwrap_or_default())
+}
+
+/// How a line gets into its file.
+fn written(line: next::Line) -> String {
+    let next::Line {
+        file, table, text, ..
+    } = &line;
+    let key = text.split(' ').next().unwrap_or_default();
+    let place = match (line.begins, line.replaces) {
+        (true, _) => format!("write a new file {file}:\n    [{table}]"),
+        (false, true) => format!("in {file}, in place of the line {key}, write"),
+        (false, false) => format!("in {file}, under [{table}], write"),
+    };
+    let lines = text.lines().map(|line| format!("    {line}\n"));
+    format!("{place}\n{}", lines.collect::<String>())
 }
 
 /// Coulomb and viscous friction with the mass, as simulators take them; `None` where they are not known.

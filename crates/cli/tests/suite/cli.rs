@@ -597,7 +597,7 @@ fn the_demo_finds_the_truth() {
     let bench = Bench::new();
     let (code, out, err) = bench.run(&["demo"]);
     assert_eq!((code, err.as_str()), (0, ""), "{out}");
-    assert!(out.contains("against the truth"));
+    assert!(out.contains("  true"), "{out}");
     let mut files = bench.names("stiction-demo");
     files.retain(|name| !["demo.csv", "study.toml"].contains(&name.as_str()));
     assert_eq!(files, FOUR);

@@ -774,7 +774,7 @@ fn a_counter_that_overflows_is_not_trusted() {
         assert!(format!("{out}{err}").contains(line), "{out}{err}");
         let (_, out, _) = bench.run(&["check", "counts.csv", "--axis", "my.toml"]);
         assert!(
-            out.contains("  correct my.toml as said above, then\n  next: stiction "),
+            out.contains("correct my.toml as said above, then\nnext: stiction "),
             "{out}"
         );
     }

@@ -33,13 +33,10 @@ impl Lead {
     fn of(out: &str) -> Self {
         let (said, next) = out.rsplit_once("\nnext: stiction ").unwrap();
         let above: Vec<&str> = said.lines().rev().take(3).collect();
-        let line = match above[0] {
-            "and" => above[1].strip_prefix("    "),
-            _ => None,
-        };
+        let line = above[0].strip_prefix("    ");
         Self {
             command: next.lines().next().unwrap().to_owned(),
-            line: line.map(|line| (line.to_owned(), above[2].contains("in place of the line"))),
+            line: line.map(|line| (line.to_owned(), above[1].contains("in place of the line"))),
         }
     }
 

@@ -91,7 +91,7 @@ fn a_log_that_is_only_validated_on_leads_to_all_that_are_listed() {
     std::fs::write(at.join("alone.toml"), alone).unwrap();
     let (_, out, _) = run(at, "check --axis alone.toml");
     assert!(
-        out.contains("  leave validate = \"all\" out of [[log]]"),
+        out.contains("leave validate = \"all\" out of [[log]]"),
         "{out}"
     );
     let (code, _, err) = run(at, "identify --axis alone.toml --out alone");

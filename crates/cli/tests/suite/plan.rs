@@ -593,6 +593,7 @@ fn a_log_is_put_beside_its_plan() {
             "stribeck",
             "--out",
             "out",
+            "--verbose",
         ];
         run(at, &all)
     };

@@ -43,7 +43,7 @@ fn rows_of_another_mode_are_not_fitted() {
     log(&dir.join("log.csv"), 4000);
     let axis = "[columns]\nenable = { column = \"Mode\", equals = 8 }\n";
     std::fs::write(dir.join("axis.toml"), axis).unwrap();
-    let identify = "identify log.csv --axis axis.toml --law coulomb-viscous --out a";
+    let identify = "identify log.csv --axis axis.toml --law coulomb-viscous --out a --verbose";
     let (_, out, err) = run(dir, identify);
     assert!(
         out.contains("not fitted: 1000 of 4000 rows, by column 4 \"Mode\""),
@@ -86,7 +86,7 @@ fn parts_of_listed_logs() {
         "{out}{err}"
     );
     for name in ["logs/a.csv, 2.5 to 4 s", "logs/b.csv"] {
-        assert!(out.contains(&format!("rms on {name}")), "{out}");
+        assert!(out.contains(&format!("% on {name}")), "{out}");
     }
     let result = std::fs::read_to_string(dir.join("a/result.json")).unwrap();
     let result: serde_json::Value = serde_json::from_str(&result).unwrap();

@@ -104,7 +104,9 @@ fn wrapped_logs_are_compared() {
         "{out}"
     );
     assert!(
-        first(&out).ends_with("exit code 1, since that is half of them or more"),
+        first(&out)
+            .trim_end()
+            .ends_with("exit code 1, since that is half of them or more"),
         "{out}"
     );
     let (code, out, _) = run(

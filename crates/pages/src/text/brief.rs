@@ -1,10 +1,12 @@
 //! An identification in about twenty lines: what was read, the law, its parameters, what it may be used for.
 
-use super::{first_sentence, friction, line, procedure, searched, table::table};
+use super::{
+    against_plan, first_sentence, friction, level_along, line, procedure, searched, table::table,
+};
 use crate::deviation::Deviation;
 use crate::inputs;
 use crate::names::{as_good, chosen_by, law_of, parameters_shown};
-use crate::trust::{cause, range};
+use crate::trust::{cause, constants, range};
 use std::fmt::Write;
 use stiction_codes::Code;
 use stiction_files::Warning;
@@ -43,12 +45,16 @@ pub fn brief(outcome: &Outcome) -> String {
     if let Some(line) = line(result) {
         let _ = writeln!(out, "simulators  {line}");
     }
+    for along in &result.level_along {
+        let _ = writeln!(out, "stroke      {}", level_along(along, outcome));
+    }
     for v in &result.validation {
         let error = Percent::error(v.fit.relative_error_percent).digits(3);
         let _ = writeln!(out, "validation  error {error} on {}", v.path);
     }
     out.push_str(&searched::sections(result));
     out.push_str(&procedure::sections(result));
+    out.push_str(&against_plan::section(result.planned.as_ref()));
     out.push('\n');
     out.push_str(&verdict(result));
     out.push_str(&warnings(result));
@@ -176,6 +182,11 @@ fn verdict(result: &ResultFile) -> String {
     let mut out = format!("for compensation  {use_it}\n");
     if let Some(seen) = &trust.compensation {
         let _ = writeln!(out, "                  {}", range(seen, result));
+    }
+    // Flags of single parameters do not say that none of them holds.
+    if trust.constants.is_empty() {
+        let why = constants(result, str::to_string);
+        let _ = writeln!(out, "as constants      {why}");
     }
     out
 }

@@ -20,7 +20,7 @@ pub fn check_in_short(check: &Check) -> String {
     let mut out: String = check.tracking.iter().map(|c| tracking(c, kind)).collect();
     out.extend(silent(check));
     // How several logs follow their reference is what they are given for.
-    let compared = !out.is_empty();
+    let compared = !check.tracking.is_empty();
     for log in &check.logs {
         let separator = if out.is_empty() || compared { "" } else { "\n" };
         out.push_str(separator);
@@ -76,14 +76,18 @@ fn columns(log: &LogCheck) -> String {
     out
 }
 
-/// The findings that matter most, a sentence each.
+/// The findings that matter most, and what to do about those that are warnings.
 fn findings(all: &[Finding]) -> String {
     let is_warning = |f: &&Finding| f.severity == "warning";
     let warnings = all.iter().filter(is_warning);
     let notes = all.iter().filter(|f| !is_warning(f));
     let mut out = String::new();
     for f in warnings.chain(notes).take(MOST_FINDINGS) {
-        let text = shown(first_sentence(&f.message));
+        let text = match is_warning(&f) {
+            true => f.message.as_str(),
+            false => first_sentence(&f.message),
+        };
+        let text = shown(text);
         let _ = writeln!(out, "{} [{}] {text}", f.severity, f.code);
     }
     let more = all.len().saturating_sub(MOST_FINDINGS);
