@@ -114,6 +114,11 @@ const TASKS: &[Task] = &[
         run: peers::run,
     },
     Task {
+        name: "policy",
+        help: "print every threshold of a verdict with its value, unit, meaning and source",
+        run: policy,
+    },
+    Task {
         name: "instructions",
         help: "count the instructions of kernels and identification, compare with bench/instructions.txt",
         run: instructions::compare,
@@ -140,6 +145,12 @@ fn setup() -> shell::Outcome {
 fn validation() -> shell::Outcome {
     shell::run(shell::cargo(
         "run --release --quiet -p stiction --example validation",
+    ))
+}
+
+fn policy() -> shell::Outcome {
+    shell::run(shell::cargo(
+        "run --quiet -p stiction-policy --example table",
     ))
 }
 

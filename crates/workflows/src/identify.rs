@@ -15,7 +15,6 @@ mod fit;
 mod friction;
 mod heard;
 mod judge;
-mod lacking;
 mod ladder;
 mod late;
 mod left;
@@ -43,6 +42,7 @@ mod trust;
 mod turn;
 mod turned;
 mod unfit;
+mod verdict;
 mod weight;
 
 pub(crate) use condition::record_of;

@@ -1,121 +1,78 @@
 //! How well a law predicts friction on motion like that of its logs, and what motion that was.
 
 use super::logs::has_wrong_sign;
-use super::trust::{Evidence, Reasons};
+use super::trust::Evidence;
+use super::verdict::{HeldOut, Validation};
 use crate::source::Source;
 use crate::turns::turns;
 use stiction_files::result::{Compensation, Next};
 use stiction_identify::Series;
-use stiction_number::{Percent, counted};
-use stiction_parameters::Quantity;
-
-/// Largest part of the friction that a law may leave on samples that it was not fitted to, dimensionless: with a third left, what is
-/// wrong in the compensation is half of what is right.
-const MOST_FRICTION_LEFT: f64 = 1.0 / 3.0;
-/// Ratio of the error of a validation to that of the fit above which the law does not hold there, dimensionless: a choice.
-const VALIDATION_FAILS_ABOVE: f64 = 2.0;
-/// Part of the friction that a validation may leave whatever the fit left, dimensionless: a tenth is little for a
-/// compensator.
-const LITTLE_LEFT: f64 = 0.1;
+use stiction_say::On;
 
 /// Speed of a record over the top speed of the fitted ones up to which it counts as rest, and part of its samples that has to move
 /// faster each way for anything to be identified from it, dimensionless.
 const SLOW: f64 = 0.01;
 const MOVING_EACH_WAY: f64 = 0.05;
-/// Fewest reversals on which a law is relied on that leaves its Coulomb level open: the third may confirm what the first two
-/// suggest.
-const FEWEST_REVERSALS: usize = 3;
-
-/// What the law leaves of the friction and where that was seen, with the reasons against it; `None` without a force that
-/// friction is a part of.
-pub(super) fn judged(evidence: &Evidence, reasons: &mut Reasons) -> Option<Compensation> {
+/// What the law leaves of the friction and where that was seen, as it is stated and as a verdict depends on it; `None` without a force
+/// that friction is a part of.
+pub(super) fn held_out(evidence: &Evidence) -> Option<(Compensation, HeldOut)> {
     let law = evidence.law;
     let own = &law.series;
     let friction = friction_rms(own)?;
     let fitted = law.fit.rmse / friction;
-    let (mut left, mut judged_on) = match evidence.held_out_rmse {
-        Some(rmse) => (rmse / friction, "held-out"),
-        None => (fitted, "fitted"),
+    let (mut error, mut on) = match evidence.held_out_rmse {
+        Some(rmse) => (rmse / friction, On::HeldOut),
+        None => (fitted, On::Fitted),
     };
+    let mut validations = Vec::new();
     for (at, (name, series)) in evidence.validation.iter().enumerate() {
         let Some(there) = friction_rms(series) else {
             continue;
         };
         let found = rms(&series.residual()) / there;
-        if found > left || judged_on == "fitted" {
-            (left, judged_on) = (found, "validation");
+        if found > error || on == On::Fitted {
+            (error, on) = (found, On::Validation);
         }
         let log = evidence.held_out.iter().find(|log| log.name() == *name);
-        let turned = log.is_some_and(has_wrong_sign);
-        // Where every simpler law leaves more, nothing is lost with this one.
+        let inverted = log.is_some_and(has_wrong_sign);
         let simpler = evidence.simpler.get(at).copied().flatten();
-        let loses = turned || simpler.is_none_or(|simpler| found >= simpler / there);
-        if found > LITTLE_LEFT && found > VALIDATION_FAILS_ABOVE * fitted && loses {
+        let next = match log {
             // What is one part of a log is no log to type.
-            let is_whole = log.is_some_and(|log| log.part.is_none());
-            let text = format!(
-                "on {name} the law leaves {} of the friction, where it was fitted {}: {}",
-                percent(found),
-                percent(fitted),
-                match turned {
-                    true => "its force has the wrong sign",
-                    false => "friction, load or motion differ there",
-                }
-            );
-            let next = match evidence.held_out.is_empty() {
-                _ if !is_whole => Next::Check,
-                true => Next::Check,
-                // Nor is one that the axis file never fits.
-                false if log.is_some_and(|log| log.never_fitted) => Next::CheckTheOther,
-                false if !turned && shows_friction(series, top_speed(own)) => {
-                    Next::IdentifyTheOther
-                }
-                false => Next::CheckTheOther,
-            };
-            reasons.push_elsewhere(text, next, name);
-        }
-    }
-    if left.is_nan() || left > MOST_FRICTION_LEFT {
-        let samples = match judged_on {
-            "held-out" => "held-out samples",
-            "validation" => "the validation data",
-            _ => "the samples it was fitted to",
+            None => Next::Check,
+            Some(log) if log.part.is_some() => Next::Check,
+            // Nor is one that the axis file never fits.
+            Some(log) if log.never_fitted || inverted => Next::CheckTheOther,
+            Some(_) if shows_friction(series, top_speed(own)) => Next::IdentifyTheOther,
+            Some(_) => Next::CheckTheOther,
         };
-        let text = format!(
-            "the law leaves {} of the friction on {samples}; at most {} may be left to compensate with it",
-            percent(left),
-            percent(MOST_FRICTION_LEFT)
-        );
-        reasons.push(text, evidence.where_no_law_predicts());
+        validations.push(Validation {
+            log: name.clone(),
+            error: found,
+            simpler: simpler.map(|rmse| rmse / there),
+            inverted,
+            next,
+        });
     }
-    if judged_on == "fitted" && evidence.chosen {
-        let text = "the log is too short to hold samples out: nothing shows what the law predicts";
-        reasons.push(text, evidence.where_no_law_predicts());
-    }
-    let reversals = reversals(evidence.sources);
-    let coulomb = law.parameters.iter();
-    let mut coulomb = coulomb.filter(|p| p.name.quantity == Quantity::Coulomb);
-    if reversals < FEWEST_REVERSALS && coulomb.any(|p| !p.identifiable) {
-        let text = format!(
-            "the axis turns back {}, which shows too little of friction: its Coulomb level is not determined",
-            match reversals {
-                0 => "nowhere".to_string(),
-                n => counted(n, "time"),
-            }
-        );
-        reasons.push(text, Next::Check);
-    }
-    Some(Compensation {
-        friction_left_percent: 100.0 * left,
-        judged_on: judged_on.into(),
+    let stated = Compensation {
+        friction_left_percent: 100.0 * error,
+        judged_on: match on {
+            On::HeldOut => "held-out",
+            On::Validation => "validation",
+            On::Fitted => "fitted",
+        }
+        .into(),
         top_speed: top_speed(own),
         stroke: stroke(own),
-        reversals,
-    })
-}
-
-fn percent(part: f64) -> String {
-    Percent::error(100.0 * part).digits(2)
+        reversals: reversals(evidence.sources),
+    };
+    let held_out = HeldOut {
+        error,
+        on,
+        fitted,
+        chosen: evidence.chosen,
+        validations,
+    };
+    Some((stated, held_out))
 }
 
 /// Whether a record holds what an identification needs: a force, and motion both ways that is not slow beside a top speed, m/s
@@ -163,7 +120,7 @@ fn stroke(series: &Series) -> Option<f64> {
 }
 
 /// How often the axis turns back.
-fn reversals(sources: &[Source]) -> usize {
+pub(super) fn reversals(sources: &[Source]) -> usize {
     let turns = sources.iter().filter_map(|source| turns(&source.log));
     turns.map(|(_, turns)| turns.len()).sum()
 }

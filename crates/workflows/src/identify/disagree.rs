@@ -10,8 +10,9 @@ use stiction_files::result::{CauseEntry, Cure};
 use stiction_files::{Warning, shell, symbols};
 use stiction_identify::{Disagreement, FittedLaw};
 use stiction_log::Motion;
-use stiction_number::{Percent, four_digits, short};
+use stiction_number::{Percent, four_digits};
 use stiction_parameters::Quantity;
+use stiction_policy::VERDICT;
 
 /// The options of a run that is to be repeated for each log, as they are typed.
 pub(super) fn options(asked: Asked) -> String {
@@ -118,23 +119,14 @@ fn own_level(found: &Disagreement) -> Option<&'static str> {
     }
 }
 
-/// Difference of a level or a mass between two logs, in parts of the value of all, from which on they are not of one axis: friction
-/// that warmth and lubricant change by tens of percent is.
-const ANOTHER_AXIS: f64 = 0.5;
-
-/// Why logs are not of one axis in one state; `None` where they may be.
-pub(super) fn of_two_axes(found: &[Disagreement]) -> Option<String> {
+/// A level or a mass that differs by so much that the logs are not of one axis in one state, and its ratio.
+pub(super) fn of_two_axes(found: &[Disagreement]) -> Option<(String, f64)> {
     let telling = |d: &&Disagreement| {
         let quantity = d.name.quantity;
-        matches!(quantity, Quantity::Coulomb | Quantity::Mass) && d.part >= ANOTHER_AXIS
+        matches!(quantity, Quantity::Coulomb | Quantity::Mass) && d.part >= VERDICT.several_axes
     };
     let d = found.iter().find(telling)?;
-    Some(format!(
-        "the logs are not of one axis in one state: {} is {} times as large in one as in another. The force, its unit, the load or \
-         the axis is another one",
-        d.name,
-        short(d.values[1] / d.values[0])
-    ))
+    Some((d.name.to_string(), d.values[1] / d.values[0]))
 }
 
 /// The first of them as a part of the verdict.

@@ -1,12 +1,14 @@
-//! Whether a result may be used: every rule that can say no, in one place. What a process exits with follows from it.
+//! What a result may be used for, and what to beware of. What a process exits with follows from it.
 
 use super::choice::FAMILIES;
 use super::compensation;
 use super::disagree;
-use super::lacking;
 use super::left;
 use super::turned;
 use super::unfit;
+use super::verdict::{
+    self, Against, Best, CurveFacts, Facts, Findings, SimulatedFacts, UnseenFacts,
+};
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::Warning;
@@ -18,16 +20,9 @@ use stiction_identify::{NO_INTERVAL, Parameter};
 use stiction_log::Motion;
 use stiction_number::{Percent, short};
 use stiction_parameters::Quantity;
+use stiction_policy::VERDICT;
+use stiction_say::Reason;
 
-/// Part of the variance of what was fitted that a law must explain, dimensionless: half. A law that leaves more than it
-/// explains is not the law of this axis.
-pub(super) const LEAST_R2: f64 = 0.5;
-/// Part of the points of a static map that may lie off its curve, dimensionless: a third. What two thirds agree on may still
-/// be the curve; with fewer it is one of several.
-const MOST_OUTLYING_SHARE: f64 = 1.0 / 3.0;
-/// Part of the samples whose force may be cut off at a limit, dimensionless. Those are left out; with more of them the
-/// accelerations, which determine the mass, are missing.
-const MOST_SATURATED_SHARE: f64 = 0.2;
 /// Ratio of the held-out error of the law to that of a simpler one above which a warning names the simpler one,
 /// dimensionless: 2 % more, twice what the choice of a law counts as the same.
 pub(super) const SIMPLER_LAW_WINS_FROM: f64 = 1.02;
@@ -35,20 +30,9 @@ pub(super) const SIMPLER_LAW_WINS_FROM: f64 = 1.02;
 /// Ratio of the held-out error of a richer law to that of this one below which a warning names the richer one,
 /// dimensionless: a fifth less, which biases parameters visibly.
 pub(super) const RICHER_LAW_WINS_BELOW: f64 = 0.8;
-/// The same ratio below which this law is not trusted, dimensionless: another law has less than half the error.
-const UNTRUSTED_BELOW: f64 = 0.5;
 /// Shift of a parameter by encoder, filters and noise, as a part of its value, above which a warning names it,
 /// dimensionless.
 const NAMED_SHIFT: f64 = 0.05;
-/// Effective number of independent samples in the residual for each unknown, below which an open loop is not trusted:
-/// with fewer, the parameters fit the slow position error that a force error integrated twice makes.
-const LEAST_SAMPLES_PER_UNKNOWN: f64 = 5.0;
-/// Ratio of the rms residual to that of the encoder steps alone, below which the residual is the encoder's,
-/// dimensionless.
-const ENCODER_ONLY_BELOW: f64 = 2.0;
-/// Ratio of the rms position error on unseen data to that of the fit over the same horizon, or to that of encoder steps alone
-/// where this is larger, above which the law is not trusted, dimensionless.
-const UNTRUSTED_VALIDATION_ERROR: f64 = 3.0;
 /// Part of the samples that is near rest, above which a static law gets a warning, dimensionless.
 const WARNED_REST_SHARE: f64 = 0.05;
 /// Ratio of the rms residual near rest to that of all samples, above which a static law gets a warning,
@@ -67,35 +51,27 @@ impl Judged {
         law: &FittedLaw,
         motion: Shown,
         compensation: Option<Compensation>,
-        Reasons {
-            reasons,
-            elsewhere,
-            other,
-            few_levels,
-            estimated_offset,
-        }: Reasons,
+        against: Vec<Against>,
+        doubts: Doubts,
         warnings: Vec<Warning>,
     ) -> Self {
+        let contradicted = against.iter().any(|own| own.contradicts);
         let names = |determined: bool| -> Vec<String> {
             let identified = law.parameters.iter().filter(|p| p.identified);
-            // Between two renewals of a held position a controller has moved the axis in ways that the log does not show.
-            let held = warnings.iter().any(|w| w.code == Code::HeldPosition);
             // A law that explains less than half has no constants of the machine, whatever its curvature says.
-            // Nor does a parameter beside an assumed curve, whose error no interval knows.
-            let assumed = warnings.iter().any(|w| w.code == Code::StaticsAssumed);
             let holds = law.status == Status::Converged
-                && !elsewhere
-                && !few_levels
-                && !held
-                && !assumed
-                && law.fit.r2 >= LEAST_R2
+                && !contradicted
+                && !doubts.few_levels
+                && !doubts.held_position
+                && !doubts.assumed_curve
+                && law.fit.r2 >= VERDICT.least_r2
                 && match motion {
                     Shown::Sliding => !law.stays_in_presliding(),
                     Shown::Presliding => true,
                     Shown::TooLittle => false,
                 };
             // What an estimated offset is off is part of the delay, and no interval of the fit counts it.
-            let of_clocks = |p: &Parameter| estimated_offset && p.name == Quantity::Delay;
+            let of_clocks = |p: &Parameter| doubts.estimated_offset && p.name == Quantity::Delay;
             let known = |p: &Parameter| p.identifiable && holds && !of_clocks(p);
             // What one log has more than another may be open, but is none of the machine's.
             // With one level for both directions, what they differ by passes for half of a constant force.
@@ -110,15 +86,16 @@ impl Judged {
                 .map(|p| p.name.to_string())
                 .collect()
         };
-        let next = reasons.first().map_or(Next::Export, |(_, next)| *next);
+        let next = against.first().map_or(Next::Export, |first| first.next);
+        let other = match next {
+            Next::IdentifyTheOther | Next::CheckTheOther => logs_to(next, &against),
+            _ => Vec::new(),
+        };
         let trust = Trust {
-            trustworthy: reasons.is_empty(),
+            trustworthy: against.is_empty(),
             next,
-            other: match next {
-                Next::IdentifyTheOther | Next::CheckTheOther => other,
-                _ => Vec::new(),
-            },
-            reasons: reasons.into_iter().map(|(text, _)| text).collect(),
+            other,
+            reasons: against.iter().map(|own| own.reason.to_string()).collect(),
             cause: None,
             compensation,
             constants: names(true),
@@ -171,47 +148,55 @@ enum Shown {
     TooLittle,
 }
 
-/// Reasons against a result, each with what leads on from it.
-#[derive(Default)]
-pub(super) struct Reasons {
-    reasons: Vec<(String, Next)>,
-    /// Whether data contradict the law, some that were not fitted or a mass or delay that was not: what it holds for constants differs
-    /// there.
-    elsewhere: bool,
-    /// The logs that do, as far as the first of these reasons leads to them.
-    other: Vec<String>,
-    /// Whether the force that was fitted takes a few values only.
+/// The logs that contradict a law, as far as the first reason leads to them: one command is about logs of one kind.
+fn logs_to(next: Next, against: &[Against]) -> Vec<String> {
+    let own = against.iter().filter(|own| own.next == next);
+    own.filter_map(|own| own.log.clone()).collect()
+}
+
+/// What no interval knows, so that no parameter is a constant of the machine.
+#[derive(Clone, Copy, Debug, Default)]
+struct Doubts {
+    /// The force that was fitted takes a few values only.
     few_levels: bool,
-    /// Whether the offset between the clocks of two files was estimated, which a delay then makes up for.
+    /// Between two renewals of a held position a controller has moved the axis in ways that the log does not show.
+    held_position: bool,
+    /// Parameters stand beside a curve that was assumed.
+    assumed_curve: bool,
+    /// The offset between the clocks of two files was estimated, which a delay then makes up for.
     estimated_offset: bool,
 }
 
-impl Reasons {
-    /// None yet against a force that is fitted.
-    fn of_force(sources: &[Source]) -> Self {
+impl Doubts {
+    fn of(sources: &[Source]) -> Self {
+        let found = |code: Code| has_finding(sources, code);
         Self {
             few_levels: sources.iter().any(|s| s.log.has_few_force_levels()),
-            estimated_offset: sources
-                .iter()
-                .flat_map(|source| &source.log.findings)
-                .any(|finding| finding.code == Code::OffsetEstimated),
+            held_position: found(Code::HeldPosition),
+            assumed_curve: false,
+            estimated_offset: found(Code::OffsetEstimated),
+        }
+    }
+
+    /// Of a fit to the position.
+    fn of_position(sources: &[Source]) -> Self {
+        Self {
+            held_position: has_finding(sources, Code::HeldPosition),
             ..Self::default()
         }
     }
+}
 
-    pub fn push(&mut self, text: impl Into<String>, next: Next) {
-        self.reasons.push((text.into(), next));
-    }
+fn has_finding(sources: &[Source], code: Code) -> bool {
+    finding(sources, code).is_some()
+}
 
-    /// Data that were not fitted contradict the law.
-    pub fn push_elsewhere(&mut self, text: String, next: Next, name: &str) {
-        // One command is about logs of one kind.
-        if self.reasons.first().is_none_or(|(_, first)| *first == next) {
-            self.other.push(name.to_string());
-        }
-        self.push(text, next);
-        self.elsewhere = true;
-    }
+/// The first finding of a kind, in its words.
+fn finding(sources: &[Source], code: Code) -> Option<String> {
+    let mut findings = sources.iter().flat_map(|source| &source.log.findings);
+    findings
+        .find(|finding| finding.code == code)
+        .map(|finding| finding.message.clone())
 }
 
 /// What a fit is judged by.
@@ -301,60 +286,131 @@ impl Evidence<'_> {
     }
 }
 
+impl Evidence<'_> {
+    /// The facts that a verdict depends on.
+    fn facts(&self) -> Facts {
+        let (law, sources) = (self.law, self.sources);
+        let coulomb = || {
+            let levels = law.parameters.iter();
+            levels.filter(|p| p.name.quantity == Quantity::Coulomb)
+        };
+        let best = || {
+            let own = self.laws.iter().find(|law| law.reported)?;
+            let best = self.laws.iter().find(|law| law.best)?;
+            Some(Best {
+                law: best.law.clone(),
+                asymmetric: best.asymmetric,
+                error: best.held_out_error_percent?,
+                own: own.held_out_error_percent?,
+                // What the choice itself passed over is no way on.
+                passed_over: self.chosen && best.held_back.is_some(),
+            })
+        };
+        let overflow = sources.iter().find_map(|source| source.log.overflow());
+        Facts {
+            status: law.status,
+            lacks_intervals: lacks_intervals(law),
+            signal: self.signal,
+            explained: law.fit.r2,
+            error: law.fit.relative_error_percent / 100.0,
+            moves_both_ways: self.moves_both_ways,
+            reversals: compensation::reversals(sources),
+            lacks_coulomb: lacks_coulomb(law),
+            coulomb_is_open: coulomb().any(|p| !p.identifiable),
+            is_negative: is_negative(law),
+            stays_in_presliding: law.stays_in_presliding(),
+            saturated: saturated(sources),
+            not_given: law.effects.iter().find_map(|found| match found.effect {
+                Effect::Limit(_, beyond) => Some(beyond),
+                _ => None,
+            }),
+            has_other_clock: sources.iter().any(|s| s.log.force_as_stamped),
+            found: Findings {
+                mixed_signs: turned::named(sources, &law.disagreements),
+                several_axes: disagree::of_two_axes(&law.disagreements),
+                overflow: overflow.map(|refused| refused.found),
+                delays_apart: self.apart.map(String::from),
+                unused: self.unused.map(String::from),
+                contradicted: self.contradicted.map(|stated| stated.message.clone()),
+                jump: finding(sources, Code::PositionJump),
+                force_sign: finding(sources, Code::ForceSign),
+                enable: finding(sources, Code::EnableIgnored),
+                unlikely: finding(sources, Code::UnlikelySize),
+            },
+            held_out: None,
+            best: best(),
+            another_law: self.another_law(),
+            no_law: self.where_no_law_predicts(),
+        }
+    }
+}
+
 /// What half a search has found: it says nothing of the machine yet, and nothing else is concluded from it.
 fn stopped(law: &FittedLaw, mut warnings: Vec<Warning>) -> Judged {
-    let mut reasons = Reasons::default();
-    interrupted(law, &mut warnings, &mut reasons);
-    Judged::new(law, Shown::Sliding, None, reasons, warnings)
+    let against = verdict::of_a_stop();
+    warn(&against, &mut warnings);
+    Judged::new(
+        law,
+        Shown::Sliding,
+        None,
+        against,
+        Doubts::default(),
+        warnings,
+    )
+}
+
+/// Warns of what a verdict says that has a code of its own.
+fn warn(against: &[Against], warnings: &mut Vec<Warning>) {
+    let codes = against.iter().filter_map(|own| {
+        let code = match own.reason {
+            Reason::NotConverged { .. } => Code::NotConverged,
+            Reason::Interrupted => Code::Interrupted,
+            Reason::PoorFit { .. } | Reason::PoorCurve { .. } => Code::PoorFit,
+            Reason::OneDirection => Code::OneDirection,
+            _ => return None,
+        };
+        Some(Warning::new(code, own.reason.to_string()))
+    });
+    for warning in codes {
+        // A log that moves in one direction has said so itself.
+        let is_said = warnings.iter().any(|own| own.code == warning.code);
+        if !(is_said && warning.code == Code::OneDirection) {
+            warnings.push(warning);
+        }
+    }
 }
 
 /// A law that was fitted to the force.
-pub(super) fn of_force(evidence: &Evidence, mut warnings: Vec<Warning>) -> Judged {
-    if evidence.law.status == Status::Interrupted {
-        return stopped(evidence.law, warnings);
-    }
-    let mut reasons = Reasons::of_force(evidence.sources);
-    of_a_search_alone(evidence.law, &mut reasons);
-    let compensation = record(evidence, &mut warnings, &mut reasons);
-    Judged::new(
-        evidence.law,
-        Shown::Sliding,
-        compensation,
-        reasons,
-        warnings,
-    )
-    .with_cause(evidence)
+pub(super) fn of_force(evidence: &Evidence, warnings: Vec<Warning>) -> Judged {
+    of_the_force(evidence, None, warnings)
 }
 
 /// The same with static parameters found first; `changed` where the motion has another steady friction than these.
-pub(super) fn of_two_steps(
-    evidence: &Evidence,
-    changed: bool,
-    mut warnings: Vec<Warning>,
-) -> Judged {
+pub(super) fn of_two_steps(evidence: &Evidence, changed: bool, warnings: Vec<Warning>) -> Judged {
+    let stiffness = evidence.law.parameter("sigma0");
+    let is_open = stiffness.is_some_and(|p| !p.identifiable && p.reason != NO_INTERVAL);
+    of_the_force(evidence, verdict::of_two_steps(changed, is_open), warnings)
+}
+
+fn of_the_force(evidence: &Evidence, more: Option<Against>, mut warnings: Vec<Warning>) -> Judged {
     if evidence.law.status == Status::Interrupted {
         return stopped(evidence.law, warnings);
     }
-    let mut reasons = Reasons::of_force(evidence.sources);
-    of_a_search_alone(evidence.law, &mut reasons);
-    let compensation = record(evidence, &mut warnings, &mut reasons);
-    if changed {
-        let text = "the motion has another friction than the static parameters, and one model holds both: see what the motion says by \
-                    itself";
-        reasons.push(text, Next::LetTheDataChoose);
-    } else if evidence
-        .law
-        .parameter("sigma0")
-        .is_some_and(|p| !p.identifiable && p.reason != NO_INTERVAL)
-    {
-        let text = "sigma0 is not determined, and it is what the second step is for";
-        reasons.push(text, Next::Check);
-    }
+    let (compensation, held_out) = compensation::held_out(evidence).unzip();
+    let facts = Facts {
+        held_out,
+        ..evidence.facts()
+    };
+    let mut against = verdict::of_records(&facts, &VERDICT);
+    whole_record(evidence, &facts, &against, &mut warnings);
+    against.extend(more);
+    let doubts = Doubts::of(evidence.sources);
     Judged::new(
         evidence.law,
         Shown::Sliding,
         compensation,
-        reasons,
+        against,
+        doubts,
         warnings,
     )
     .with_cause(evidence)
@@ -370,48 +426,70 @@ pub(super) fn of_position(
     if evidence.law.status == Status::Interrupted {
         return stopped(evidence.law, warnings);
     }
-    let mut reasons = Reasons::default();
-    whole_record(evidence, &mut warnings, &mut reasons);
-    let biased = open_loop(found, &mut warnings, &mut reasons);
-    if evidence.law.law.kind == LawKind::Gms {
-        let text = "simulated, this law jumps where slipping elements begin to stick: its search may end beside the truth, and \
-                    its intervals do not say so. Take maxwell-slip, or the fit of the force";
-        reasons.push(text, Next::Check);
-    }
-    let mut fitted = evidence.law.parameters.iter().filter(|p| p.identified);
-    if fitted.all(|p| !p.identifiable) {
-        let text = match found.is_closed_loop() {
-            true => {
-                "the position says nothing certain of any parameter; what follows the reference through a stiff controller \
-                 hardly shows the axis"
-            }
-            false => {
-                "the position says nothing certain of any parameter: under the force of these logs many axes would move \
-                 alike; record a motion with reversals over several speeds"
-            }
-        };
-        reasons.push(text, Next::Check);
-    }
-    for (name, one) in unseen {
-        if let Some(text) = position_fails(found, name, one) {
-            reasons.push(text, Next::Check);
-        }
+    let facts = Facts {
+        lacks_intervals: false,
+        ..evidence.facts()
+    };
+    let simulated = simulated(evidence, found, unseen);
+    let against = verdict::of_simulation(&facts, &simulated, &VERDICT);
+    whole_record(evidence, &facts, &against, &mut warnings);
+    let biased = simulated.is_biased(&VERDICT);
+    if biased {
+        warnings.push(Warning::new(Code::CorrelatedResidual, CORRELATED_RESIDUAL));
     }
     let shown = match found.never_breaks_away || biased {
         true => Shown::TooLittle,
         false => Shown::Sliding,
     };
-    if found.never_breaks_away && !evidence.law.stays_in_presliding() {
-        let text = "the axis never breaks away: friction stays below its static level, and what it is there and beyond is not seen";
-        reasons.push(text, Next::Record);
-    }
-    // What a check has to say has led here.
-    reasons.reasons.iter_mut().for_each(|(_, next)| {
-        if *next == Next::Check {
-            *next = Next::Record;
+    let doubts = Doubts::of_position(evidence.sources);
+    Judged::new(evidence.law, shown, None, against, doubts, warnings).with_cause(evidence)
+}
+
+/// What is said beside the verdict of an open loop whose residual has too few independent samples.
+const CORRELATED_RESIDUAL: &str = "noise of the logged force, and any force that is not in it, drives the simulated axis and adds up \
+     to a slow position error that biases the parameters. Cut the log into shorter runs ([simulation] segment in the axis file), or record \
+     a closed loop and give its controller ([controller])";
+
+fn simulated(
+    evidence: &Evidence,
+    found: &SimulationFit,
+    unseen: &[(String, Unseen)],
+) -> SimulatedFacts {
+    let least = found.floor.unwrap_or(0.0);
+    let over = |rmse: f64| match least > 0.0 {
+        true => rmse / least,
+        false => f64::INFINITY,
+    };
+    let of = |unseen: &Fit, fitted: &Fit| unseen.rmse / fitted.rmse.max(least);
+    let fitted = found.whole.as_ref().unwrap_or(&found.position);
+    let each = unseen.iter().map(|(log, one)| {
+        let short = found.short.as_ref().zip(one.short.as_ref());
+        UnseenFacts {
+            log: log.clone(),
+            ratio: of(&one.position, fitted),
+            short: short.map(|(own, one)| (one.seconds, of(&one.position, &own.position))),
+            of_encoder: [
+                fitted.rmse <= least,
+                short.is_some_and(|(own, _)| own.position.rmse <= least),
+            ],
+            over_encoder: over(one.position.rmse),
+            explained: one.position.r2,
         }
     });
-    Judged::new(evidence.law, shown, None, reasons, warnings).with_cause(evidence)
+    let shared = found.fitted.parameters.iter().filter(|p| p.identified);
+    let mut own = evidence.law.parameters.iter().filter(|p| p.identified);
+    SimulatedFacts {
+        closed_loop: found.is_closed_loop(),
+        jumps: evidence.law.law.kind == LawKind::Gms,
+        nothing_determined: own.all(|p| !p.identifiable),
+        never_breaks_away: found.never_breaks_away,
+        samples: (
+            found.position.effective_samples,
+            shared.count() + found.starts(),
+        ),
+        over_encoder: over(found.position.rmse),
+        unseen: each.collect(),
+    }
 }
 
 /// A steady curve through points of constant velocity, of which some lie off it.
@@ -422,53 +500,45 @@ pub(super) fn of_static_map(
     motion: Motion,
     mut warnings: Vec<Warning>,
 ) -> Judged {
-    let mut reasons = Reasons::of_force(sources);
-    of_a_search_alone(law, &mut reasons);
-    interrupted(law, &mut warnings, &mut reasons);
-    saturation(sources, &mut reasons);
+    let facts = CurveFacts {
+        status: law.status,
+        lacks_intervals: lacks_intervals(law),
+        saturated: saturated(sources),
+        outlying: outlying as f64 / law.series.measured.len().max(1) as f64,
+        lacks_coulomb: lacks_coulomb(law),
+        level: unfit::largest_level(law, sources),
+        explained: law.fit.r2,
+    };
+    let against = verdict::of_curve(&facts, &VERDICT);
+    let (stopped, rest): (Vec<Against>, Vec<Against>) =
+        (against.iter().cloned()).partition(|own| own.reason == Reason::Interrupted);
+    warn(&stopped, &mut warnings);
     unidentifiable(law, motion, &mut warnings);
-    let left_out = outlying as f64 / law.series.measured.len().max(1) as f64;
-    if left_out > MOST_OUTLYING_SHARE {
-        let text = format!(
-            "{} of the points lie off the curve and hardly count",
-            Percent::error(100.0 * left_out).digits(2)
-        );
-        reasons.push(text, Next::Check);
-    }
-    slides_freely(law, &mut reasons, Next::Check);
-    if let Some(why) = unfit::above_every_force(law, sources) {
-        reasons.push(why, Next::Check);
-    }
-    if law.fit.r2.is_nan() || law.fit.r2 < LEAST_R2 {
-        let text = "the curve explains less than half of the variance of the forces";
-        warnings.push(Warning::new(Code::PoorFit, text));
-        reasons.push(text, Next::Check);
-    }
-    Judged::new(law, Shown::Sliding, None, reasons, warnings)
+    warn(&rest, &mut warnings);
+    Judged::new(
+        law,
+        Shown::Sliding,
+        None,
+        against,
+        Doubts::of(sources),
+        warnings,
+    )
 }
 
 /// Stiffness and micro-damping from force steps.
 pub(super) fn of_steps(
     law: &FittedLaw,
     fit: &StepFit,
-    motion: Motion,
+    (sources, motion): (&[Source], Motion),
     mut warnings: Vec<Warning>,
 ) -> Judged {
-    let mut reasons = Reasons::default();
+    let assumed_curve = warnings.iter().any(|w| w.code == Code::StaticsAssumed);
+    let mut stiffness = fit.parameters.iter().filter(|p| p.name == "sigma0");
+    let open = stiffness.by_ref().filter(|p| !p.identifiable);
+    let open = open.map(|p| p.reason.clone());
+    let against = verdict::of_steps(fit.status, assumed_curve, open);
     unidentifiable(law, motion, &mut warnings);
-    if fit.status != Status::Converged {
-        let code = match fit.status {
-            Status::Interrupted => Code::Interrupted,
-            _ => Code::NotConverged,
-        };
-        let text = format!("the search did not converge (status {})", fit.status.name());
-        let next = match fit.status {
-            Status::Interrupted => Next::Again,
-            _ => Next::Check,
-        };
-        warnings.push(Warning::new(code, text.clone()));
-        reasons.push(text, next);
-    }
+    warn(&against, &mut warnings);
     if fit.delay.1.is_none() {
         warnings.push(Warning::new(
             Code::DelayOutOfRange,
@@ -476,91 +546,48 @@ pub(super) fn of_steps(
              law does not explain, such as another force held before the step than the one of the model",
         ));
     }
-    if warnings.iter().any(|w| w.code == Code::StaticsAssumed) {
-        let text = "the steady curve is assumed, not known, and no interval includes what that is off by: record constant velocities \
-                    and give them with --static speeds.csv, or the model of them with --model DIR/model.toml";
-        reasons.push(text, Next::Record);
-    }
-    for p in fit.parameters.iter().filter(|p| p.name == "sigma0") {
-        if !p.identifiable {
-            let text = format!("sigma0 is not determined by these steps: {}", p.reason);
-            reasons.push(text, Next::Check);
-        }
-    }
-    Judged::new(law, Shown::Presliding, None, reasons, warnings)
+    let doubts = Doubts {
+        assumed_curve,
+        ..Doubts::of_position(sources)
+    };
+    Judged::new(law, Shown::Presliding, None, against, doubts, warnings)
 }
 
-/// What can be said of a law that was fitted to the force of whole records.
-fn record(
+/// What to beware of in a law that was fitted to whole records.
+fn whole_record(
     evidence: &Evidence,
+    facts: &Facts,
+    against: &[Against],
     warnings: &mut Vec<Warning>,
-    reasons: &mut Reasons,
-) -> Option<Compensation> {
-    whole_record(evidence, warnings, reasons);
-    compensation::judged(evidence, reasons)
-}
-
-/// What can be said of any law that was fitted to whole records.
-fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
+) {
     let law = evidence.law;
     // All else that logs with different signs have differently, and that a law leaves of both, comes of that.
-    let turned = turned::named(evidence.sources, &law.disagreements);
-    if let Some(why) = &turned {
+    let mixed = against
+        .iter()
+        .find(|own| matches!(own.reason, Reason::MixedSigns { .. }));
+    if let Some(mixed) = mixed {
         let of_another = |w: &Warning| {
             let mut others = evidence.held_out.iter();
             others.any(|log| w.message.contains(&*log.path.to_string_lossy()))
         };
         warnings.retain(|w| w.code != Code::ForceSign || of_another(w));
-        warnings.insert(0, Warning::new(Code::ForceSign, why.clone()));
-        reasons.push(why.clone(), Next::FirstLog);
-    } else if let Some(why) = disagree::of_two_axes(&law.disagreements) {
-        reasons.push(why, Next::FirstLog);
-    }
-    overflown(evidence.sources, reasons);
-    if let Some(why) = evidence.apart {
-        reasons.push(why.to_string(), Next::FirstLog);
-    }
-    if let Some(why) = evidence.unused {
-        reasons.push(why.to_string(), Next::FirstLog);
+        warnings.insert(0, Warning::new(Code::ForceSign, mixed.reason.to_string()));
     }
     if let Some(stated) = evidence.contradicted {
         warnings.insert(0, stated.clone());
-        reasons.push(&*stated.message, Next::AxisFile);
-        reasons.elsewhere = true;
     }
-    let gravity = turned.is_none() && lacking::named(evidence, reasons);
-    search_ended(evidence, warnings, reasons);
-    explains_little(evidence, warnings, reasons);
-    if !evidence.moves_both_ways {
-        let text = "the axis moves in one direction only: friction cannot be separated from a constant \
-                    force";
-        if !warnings.iter().any(|w| w.code == Code::OneDirection) {
-            warnings.push(Warning::new(Code::OneDirection, text));
-        }
-        reasons.push(text, Next::Check);
-    }
-    slides_freely(law, reasons, evidence.where_no_law_predicts());
-    if law.stays_in_presliding() {
-        let text = "the axis never slides: its stroke is shorter than the travel of the bristles from one side to the other";
-        reasons.push(text, Next::Check);
-    }
-    saturation(evidence.sources, reasons);
-    limited(law, reasons);
-    no_machine(evidence.sources, reasons);
-    another_wins(evidence, warnings, reasons);
+    warn(against, warnings);
+    another_wins(facts, evidence.laws, warnings);
     // Causes first: what they leave open, and what else shows them, comes after.
     let mut causes = Vec::new();
-    left::named(law, evidence.sources, evidence.laws, &mut causes);
-    // A weight on a lever repeats with the angle: cogging would take it up in part.
-    causes.retain(|cause| !gravity || cause.code != Code::PositionRipple);
-    causes.extend(disagree::named(
-        &law.disagreements,
-        evidence.sources,
-        evidence.motion,
-        (&evidence.options, disagree::has_one_level(law)),
-    ));
-    if turned.is_some() || evidence.contradicted.is_some() {
-        causes.clear();
+    if mixed.is_none() && evidence.contradicted.is_none() {
+        left::named(law, evidence.sources, evidence.laws, &mut causes);
+        causes.extend(disagree::named(
+            &law.disagreements,
+            evidence.sources,
+            evidence.motion,
+            (&evidence.options, disagree::has_one_level(law)),
+        ));
     }
     let place = match evidence.shows_friction() {
         true => 0,
@@ -572,109 +599,41 @@ fn whole_record(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
     unidentifiable(law, evidence.motion, warnings);
 }
 
-fn search_ended(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
-    let estimate = evidence.law;
-    match estimate.status {
-        Status::Converged | Status::Interrupted => {}
-        Status::Budget | Status::Stalled | Status::Exhausted | Status::Target => {
-            let text = format!(
-                "the search did not converge (status {})",
-                estimate.status.name()
-            );
-            warnings.push(Warning::new(Code::NotConverged, text.clone()));
-            reasons.push(text, evidence.another_law());
-        }
-    }
-}
-
-/// Refuses a law without Coulomb friction: it leaves nothing to compensate at a reversal, and no compensator takes it.
-fn slides_freely(law: &FittedLaw, reasons: &mut Reasons, next: Next) {
+/// Whether a law has no Coulomb friction: it leaves nothing to compensate at a reversal, and no compensator takes it.
+fn lacks_coulomb(law: &FittedLaw) -> bool {
     let levels = law.parameters.iter();
     let mut levels = levels.filter(|p| p.name.quantity == Quantity::Coulomb);
-    if levels.any(|p| p.value.is_nan() || p.value <= 0.0) {
-        reasons.push("its Coulomb friction is zero", next);
-    }
+    levels.any(|p| p.value.is_nan() || p.value <= 0.0)
 }
 
-/// What a search gives has no intervals: how far it is off nothing says.
-fn of_a_search_alone(law: &FittedLaw, reasons: &mut Reasons) {
-    if law.status != Status::Interrupted && law.parameters.iter().any(|p| p.reason == NO_INTERVAL) {
-        let text =
-            "what a search finds by itself has no intervals: least squares after it were left out";
-        reasons.push(text, Next::Finish);
-    }
+/// Whether inertia and each friction of a law that has both come out at nothing, as where the force has the other sign.
+fn is_negative(law: &FittedLaw) -> bool {
+    let parameters = || law.parameters.iter().filter(|p| p.identified);
+    let none = |quantity: Quantity| {
+        let mut own = parameters()
+            .filter(|p| p.name.quantity == quantity)
+            .peekable();
+        own.peek().is_some() && own.all(|p| p.value <= 0.0)
+    };
+    [Quantity::Mass, Quantity::Coulomb, Quantity::Sigma2]
+        .into_iter()
+        .all(none)
 }
 
-fn interrupted(law: &FittedLaw, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
-    if law.status == Status::Interrupted {
-        let text = "the search was interrupted; the best found so far is given, without intervals";
-        warnings.push(Warning::new(Code::Interrupted, text));
-        reasons.push(text, Next::Again);
-    }
+/// Whether a law comes from a search alone: how far it is off nothing says.
+fn lacks_intervals(law: &FittedLaw) -> bool {
+    law.status != Status::Interrupted && law.parameters.iter().any(|p| p.reason == NO_INTERVAL)
 }
 
-fn explains_little(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
-    let (estimate, signal) = (evidence.law, evidence.signal);
-    if estimate.fit.r2 < LEAST_R2 || estimate.fit.r2.is_nan() {
-        let text = format!(
-            "the law explains {:.0} % of the variance of the {signal}; at least {:.0} % are needed \
-             to trust its parameters",
-            100.0 * estimate.fit.r2.max(0.0),
-            100.0 * LEAST_R2
-        );
-        warnings.push(Warning::new(Code::PoorFit, text.clone()));
-        reasons.push(text, evidence.another_law());
-    }
-}
-
-fn saturation(sources: &[Source], reasons: &mut Reasons) {
+/// Part of the samples with saturated force.
+fn saturated(sources: &[Source]) -> f64 {
     let total: usize = sources.iter().map(|s| s.log.time.len()).sum();
-    let saturated: usize = sources
-        .iter()
-        .flat_map(|s| s.log.excluded.iter().filter(|e| e.code == Code::Saturation))
-        .map(|e| e.samples.len())
-        .sum();
-    let part = saturated as f64 / total.max(1) as f64;
-    if part > MOST_SATURATED_SHARE {
-        let text = format!(
-            "the force is saturated in {:.0} % of the samples (at most {:.0} % can be left out)",
-            100.0 * part,
-            100.0 * MOST_SATURATED_SHARE
-        );
-        reasons.push(text, Next::Check);
-    }
-}
-
-/// Refuses what was fitted to force that the drive did not give.
-fn limited(law: &FittedLaw, reasons: &mut Reasons) {
-    let mut effects = law.effects.iter();
-    let limit = effects.find_map(|found| match found.effect {
-        Effect::Limit(_, beyond) => Some(beyond),
-        _ => None,
+    let saturated = sources.iter().flat_map(|s| {
+        let excluded = s.log.excluded.iter();
+        excluded.filter(|e| e.code == Code::Saturation)
     });
-    if let Some(beyond) = limit {
-        let text = format!(
-            "{} of the samples hold more force than the drive gave",
-            Percent::error(100.0 * beyond).digits(2)
-        );
-        reasons.push(text, Next::Check);
-    }
-}
-
-/// Refuses logs with a rate, travel, speed or force that no machine has: a unit is wrong, and every number with it.
-fn no_machine(sources: &[Source], reasons: &mut Reasons) {
-    let mut findings = sources.iter().flat_map(|source| &source.log.findings);
-    if let Some(found) = findings.find(|finding| finding.code == Code::UnlikelySize) {
-        reasons.push(found.message.clone(), Next::AxisFile);
-    }
-}
-
-/// Refuses logs whose position begins again, as a counter that overflows does: what is between two overflows is not how the axis
-/// moved.
-fn overflown(sources: &[Source], reasons: &mut Reasons) {
-    if let Some(refused) = sources.iter().find_map(|source| source.log.overflow()) {
-        reasons.push(refused.found, Next::AxisFile);
-    }
+    let saturated: usize = saturated.map(|e| e.samples.len()).sum();
+    saturated as f64 / total.max(1) as f64
 }
 
 /// Names each parameter that the data do not determine, what it is confused with, and the cure.
@@ -736,18 +695,16 @@ fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
     }
 }
 
-fn another_wins(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut Reasons) {
-    let laws = evidence.laws;
-    let (Some(chosen), Some(best)) = (
-        laws.iter().find(|l| l.reported),
-        laws.iter().find(|l| l.best),
+/// Names a law that holds held-out samples clearly better.
+fn another_wins(facts: &Facts, laws: &[LawEntry], warnings: &mut Vec<Warning>) {
+    let (Some(best), Some(own), Some(other)) = (
+        &facts.best,
+        laws.iter().find(|law| law.reported),
+        laws.iter().find(|law| law.best),
     ) else {
         return;
     };
-    let (Some(mine), Some(least)) = (chosen.held_out_error_percent, best.held_out_error_percent)
-    else {
-        return;
-    };
+    let (mine, least) = (best.own, best.error);
     let side = if best.asymmetric { ", asymmetric," } else { "" };
     let errors = format!(
         "on held-out samples the law {}{side} has an error of {}, this law of {}",
@@ -755,21 +712,16 @@ fn another_wins(evidence: &Evidence, warnings: &mut Vec<Warning>, reasons: &mut 
         Percent::error(least).decimals(2),
         Percent::error(mine).decimals(2)
     );
-    if best.parameters < chosen.parameters && mine > SIMPLER_LAW_WINS_FROM * least {
+    if other.parameters < own.parameters && mine > SIMPLER_LAW_WINS_FROM * least {
         warnings.push(Warning::new(
             Code::SimplerLawHoldsBetter,
             format!("{errors}: the richer law is not supported by this log"),
         ));
-    } else if best.parameters > chosen.parameters && least < RICHER_LAW_WINS_BELOW * mine {
+    } else if other.parameters > own.parameters && least < RICHER_LAW_WINS_BELOW * mine {
         warnings.push(Warning::new(
             Code::RicherLawHoldsBetter,
             format!("{errors}: this law is too simple for the axis, its parameters are biased"),
         ));
-    }
-    // What the choice itself passed over is no way on.
-    let passed_over = evidence.chosen && best.held_back.is_some();
-    if least < UNTRUSTED_BELOW * mine && !passed_over {
-        reasons.push(errors, evidence.another_law());
     }
 }
 
@@ -805,85 +757,6 @@ fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
             ),
         ));
     }
-}
-
-/// An error of the logged force drives the simulated axis of an open loop like the force itself, is integrated twice
-/// on its way to the position, and so biases the parameters: whether by more than their intervals say.
-fn open_loop(found: &SimulationFit, warnings: &mut Vec<Warning>, reasons: &mut Reasons) -> bool {
-    let fit = &found.position;
-    let encoder_only = found
-        .floor
-        .is_some_and(|floor| fit.rmse < ENCODER_ONLY_BELOW * floor);
-    let shared = found.fitted.parameters.iter().filter(|p| p.identified);
-    let unknowns = shared.count() + found.starts();
-    if found.is_closed_loop()
-        || encoder_only
-        || fit.effective_samples >= LEAST_SAMPLES_PER_UNKNOWN * unknowns as f64
-    {
-        return false;
-    }
-    let worth = format!(
-        "the residual has {:.0} effective samples for {unknowns} unknowns, the starts of the runs \
-         included",
-        fit.effective_samples
-    );
-    warnings.push(Warning::new(
-        Code::CorrelatedResidual,
-        format!(
-            "{worth}: the logged force drives the simulated axis, so its noise, and any force that is \
-             not in it, adds up to a slow error of the position and biases the parameters by more than \
-             their intervals. Cut the log into shorter runs ([simulation] segment in the axis file), or \
-             record a closed loop and give its controller ([controller]), which no force noise drives"
-        ),
-    ));
-    let text = format!(
-        "{worth}: noise of the logged force biases the parameters, and their intervals do not include that"
-    );
-    reasons.push(text, Next::Check);
-    true
-}
-
-/// What an unseen position has against a fitted law: an error far above that of the fit over the same horizon, or a motion
-/// that is mostly unexplained.
-fn position_fails(found: &SimulationFit, name: &str, unseen: &Unseen) -> Option<String> {
-    let fitted = found.whole.as_ref().unwrap_or(&found.position);
-    let least = found.floor.unwrap_or(0.0);
-    let beyond = |unseen: &Fit, fitted: &Fit| {
-        unseen.rmse > UNTRUSTED_VALIDATION_ERROR * fitted.rmse.max(least)
-    };
-    let times = |unseen: &Fit, fitted: &Fit| match fitted.rmse > least {
-        true => format!("{} times that of the fit", short(unseen.rmse / fitted.rmse)),
-        false => format!(
-            "{} times what encoder steps alone leave",
-            short(unseen.rmse / least)
-        ),
-    };
-    let allowed = UNTRUSTED_VALIDATION_ERROR;
-    if beyond(&unseen.position, fitted) {
-        return Some(format!(
-            "on {name}, simulated whole, the position error is {} (at most {allowed} times)",
-            times(&unseen.position, fitted)
-        ));
-    }
-    if let (Some(mine), Some(theirs)) = (&found.short, &unseen.short)
-        && beyond(&theirs.position, &mine.position)
-    {
-        return Some(format!(
-            "on {name}, simulated over {} s at a time, the position error is {} (at most {allowed} times)",
-            short(theirs.seconds),
-            times(&theirs.position, &mine.position)
-        ));
-    }
-    let explained = unseen.position.r2;
-    let resolved = unseen.position.rmse > UNTRUSTED_VALIDATION_ERROR * least;
-    (resolved && (explained.is_nan() || explained < LEAST_R2)).then(|| {
-        format!(
-            "on {name}, simulated whole, the law explains {:.0} % of the variance of the position; at least {:.0} % are \
-             needed",
-            100.0 * explained.max(0.0),
-            100.0 * LEAST_R2
-        )
-    })
 }
 
 /// A static law says nothing of an axis at rest or in presliding.

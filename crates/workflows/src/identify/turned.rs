@@ -9,24 +9,15 @@ use stiction_parameters::Quantity;
 /// Ratio of the sizes of the masses of two logs, at most, where their signs differ by that of the force alone.
 const ALIKE: f64 = 2.0;
 
-/// Says which logs have the sign turned, and what to do; `None` where none or all of them have.
-pub(super) fn named(sources: &[Source], found: &[Disagreement]) -> Option<String> {
+/// The logs that have the sign turned and the others; `None` where none or all of them have.
+pub(super) fn named(sources: &[Source], found: &[Disagreement]) -> Option<(String, String)> {
     let turned = braking(sources).or_else(|| lighter_than_nothing(found))?;
     let others: Vec<usize> = (0..sources.len()).filter(|i| !turned.contains(i)).collect();
     let names = |logs: &[usize]| {
         let names: Vec<String> = logs.iter().map(|i| path_of(sources, *i)).collect();
         names.join(", ")
     };
-    let (has, column) = match turned.as_slice() {
-        [_] => ("has", "its column of the force"),
-        _ => ("have", "their column of the force"),
-    };
-    let (turned, others) = (names(&turned), names(&others));
-    Some(format!(
-        "the force of {turned} {has} the other sign than that of {others}: there it brakes where it drives here. No axis file turns it in \
-         one of the logs alone: write {column} with the sign turned and fit them together again, or fit {turned} by itself with an \
-         axis file of its own, in which invert = true stands beside the force under [columns]"
-    ))
+    Some((names(&turned), names(&others)))
 }
 
 /// The logs whose force brakes, where that of others does not.

@@ -2,15 +2,10 @@
 
 use crate::source::Source;
 use stiction_identify::FittedLaw;
-use stiction_number::Percent;
 use stiction_parameters::Quantity;
 
-/// Ratio of the static friction of a law to the largest friction of the log, above which the log never shows that force,
-/// dimensionless: a quarter more.
-const UNSEEN_FORCE_RATIO: f64 = 1.25;
-
-/// Says that a law has a level of friction that the logs never show.
-pub(super) fn above_every_force(law: &FittedLaw, sources: &[Source]) -> Option<String> {
+/// The largest level of friction of a law, and its ratio to the largest force of the logs.
+pub(super) fn largest_level(law: &FittedLaw, sources: &[Source]) -> (&'static str, f64) {
     let forces = sources
         .iter()
         .filter_map(|source| source.log.force.as_ref());
@@ -25,11 +20,5 @@ pub(super) fn above_every_force(law: &FittedLaw, sources: &[Source]) -> Option<S
         true => ("static friction", fixed),
         false => ("Coulomb friction", coulomb),
     };
-    (most > UNSEEN_FORCE_RATIO * largest).then(|| {
-        let part = Percent::error(100.0 * (most / largest - 1.0));
-        format!(
-            "its {name} is {} above the largest force of the log",
-            part.digits(2)
-        )
-    })
+    (name, most / largest)
 }

@@ -66,7 +66,7 @@ pub(in crate::identify) fn run(
             p.reason = "the identification that it is taken from did not determine it".into();
         }
     }
-    let mut judged = trust::of_steps(&law, &fit, loaded.motion(), warnings);
+    let mut judged = trust::of_steps(&law, &fit, (sources, loaded.motion()), warnings);
     let entry = entry(&fit, &runs, &settings, sources, &mut judged.warnings);
     let break_away = break_away(&loaded.beside, &law)?;
     let mut result = assemble::result(Parts {

@@ -1,0 +1,14 @@
+//! The sentences that a user reads, one line each.
+//!
+//! Other crates decide on facts and state them as a kind with its numbers; only here these become words. A sentence says what
+//! happened, what it means and what to do, in the nouns of the field.
+//!
+//! ```
+//! use stiction_say::Reason;
+//! let reason = Reason::FewReversals { reversals: 1 };
+//! assert_eq!(reason.to_string(), "the log has 1 reversal, too few to determine the Coulomb level");
+//! ```
+
+mod reason;
+
+pub use reason::{On, Reason};
