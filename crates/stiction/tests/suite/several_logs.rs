@@ -190,7 +190,7 @@ fn a_log_with_the_sign_turned_is_named() {
         let [message] = &named(&fit)[..] else {
             panic!("{motion:?}: {:#?}", fit.warnings());
         };
-        let says = "the force of log-2.csv has the other sign than that of log-1.csv";
+        let says = "the force of log-2.csv has the opposite sign of that of log-1.csv";
         assert!(message.starts_with(says), "{motion:?}: {message}");
         let trust = &fit.result().trust;
         assert!(

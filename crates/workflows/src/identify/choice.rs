@@ -15,6 +15,10 @@ pub(super) const FAMILIES: [LawKind; 3] = [LawKind::CoulombViscous, LawKind::Dah
 /// The same in standard deviations.
 const SURELY: f64 = 3.0;
 
+/// Elements with which a law of elements is tried beside one with a bristle: whether they hold better shows with few (of six servo logs
+/// each, with 4 to 8 elements of its own choice), and to choose their number takes most of the time of such a fit.
+const TRIAL_ELEMENTS: usize = 4;
+
 /// Why a law that holds static friction at Coulomb friction is not taken where the axis rests.
 const SHOWN_BY_THE_COUNTS: &str =
     "the counts of the encoder show a static friction above Coulomb friction";
@@ -237,6 +241,10 @@ pub(super) fn auto(
         };
         let elements: Vec<Candidate> = ladder::symmetric(base, &[kind])
             .into_iter()
+            .map(|law| Law {
+                elements: TRIAL_ELEMENTS,
+                ..law
+            })
             .map(|law| ladder.usual(law))
             .collect();
         let more = ladder.climb(&elements, &[], settings, observer);
