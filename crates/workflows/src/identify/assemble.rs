@@ -12,7 +12,7 @@ use crate::source::Source;
 use stiction_files::Axis;
 use stiction_files::axis::{ListedLog, Use};
 use stiction_files::result::{
-    CovarianceEntry, ElementsEntry, HalfWidthEntry, LawEntry, LowSpeedEntry, ParameterEntry,
+    CovarianceEntry, Cure, ElementsEntry, HalfWidthEntry, LawEntry, LowSpeedEntry, ParameterEntry,
     PartnerEntry, ResolvedAxis, ResultFile, SCHEMA, Search, Unsettled, ValidationEntry,
 };
 use stiction_files::symbols;
@@ -65,15 +65,36 @@ pub(super) fn unsettled(record: &Record, travel: f64) -> Option<Unsettled> {
     })
 }
 
+/// A cure as it goes into an axis file: in place of a line with its key, where the file has one. None where it is about one log and the
+/// file lists several.
+fn in_file(cure: Cure, axis: &Axis) -> Option<Cure> {
+    let Cure::Line { table, line, .. } = cure else {
+        return Some(cure);
+    };
+    if table == "log" && !axis.logs.is_empty() {
+        return None;
+    }
+    let key = line.split(' ').next().unwrap_or_default();
+    let replaces = axis.gives(&format!("{table}.{key}"));
+    Some(Cure::Line {
+        table,
+        line,
+        replaces,
+    })
+}
+
 /// The result without the entries that only one method has.
 pub(super) fn result(parts: Parts) -> ResultFile {
     let Parts {
         asked,
         sources,
         law: estimate,
-        judged,
+        mut judged,
         ..
     } = parts;
+    if let Some(cause) = &mut judged.trust.cause {
+        cause.cure = cause.cure.take().and_then(|cure| in_file(cure, asked.axis));
+    }
     let first = &sources[0].log;
     let (motion, force_unit) = (first.motion, first.force_unit.as_str());
     let signal = symbols::driver(motion, force_unit);

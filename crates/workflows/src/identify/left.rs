@@ -261,14 +261,14 @@ fn explained(found: &Found, law: &FittedLaw) -> String {
 }
 
 fn fit_exponent() -> Cure {
-    of_terms((FIT_EXPONENT.into(), false))
+    of_terms(FIT_EXPONENT.into())
 }
 
-fn of_terms((line, replaces): (String, bool)) -> Cure {
+fn of_terms(line: String) -> Cure {
     Cure::Line {
         table: "terms".into(),
         line,
-        replaces,
+        replaces: false,
     }
 }
 
@@ -278,7 +278,7 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
     // Elements have no levels that depend on anything.
     let of_level = |term: Dependence| {
         let is_open = !law.law.kind.has_elements() && !has(law, &term);
-        is_open.then(|| of_terms((format!("{} = true", term.name()), false)))
+        is_open.then(|| of_terms(format!("{} = true", term.name())))
     };
     match &found.effect {
         Effect::Drift(_) => settled::part(found, sources),
@@ -299,7 +299,7 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
             );
             // On less a spring and a weight are alike, and sine and cosine are hardly two.
             match log.motion == Motion::Rotary && high - low >= ANGLE_FOR_GRAVITY {
-                true => (!law.terms.gravity).then(|| of_terms(("gravity = true".into(), false))),
+                true => (!law.terms.gravity).then(|| of_terms("gravity = true".into())),
                 false => pitch::straight(high - low, law, log.motion).map(of_terms),
             }
         }
@@ -328,18 +328,9 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
 /// What a cure asks for.
 fn to_do(cure: &Cure) -> String {
     match cure {
-        Cure::Line {
-            table,
-            line,
-            replaces,
-        } => {
-            let key = line.split(' ').next().unwrap_or_default();
-            let instead = match replaces {
-                true => format!(" in place of the line {key}"),
-                false => String::new(),
-            };
+        Cure::Line { table, line, .. } => {
             let lines = line.replace('\n', " and ");
-            format!("Set {lines} under [{table}] in the axis file{instead}")
+            format!("Set {lines} under [{table}] in the axis file")
         }
         Cure::Law { law } => format!("Try the law {law}"),
     }
@@ -377,9 +368,8 @@ fn by_hand(effect: &Effect) -> String {
     .into()
 }
 
-/// The line that takes a level along the stroke into the fit, and whether it takes the place of one: a straight line where that
-/// describes it, else a map.
-fn along_the_stroke(straight: bool, law: &FittedLaw) -> Option<(String, bool)> {
+/// The line that takes a level along the stroke into the fit: a straight line where that describes it, else a map.
+fn along_the_stroke(straight: bool, law: &FittedLaw) -> Option<String> {
     if law.law.kind.has_elements() || law.terms.map().is_some() {
         return None;
     }
@@ -388,7 +378,7 @@ fn along_the_stroke(straight: bool, law: &FittedLaw) -> Option<(String, bool)> {
         true => "true",
         false => "\"map\"",
     };
-    Some((format!("coulomb_position = {value}"), has_line))
+    Some(format!("coulomb_position = {value}"))
 }
 
 /// Whether a fit has a term like this one.

@@ -34,7 +34,6 @@ pub(super) fn cause(asked: Asked, log: &Log) -> Option<CauseEntry> {
             "the radius at which it acts: 0.05 Nm/N at 50 mm",
         ),
     };
-    let replaces = asked.axis.mapping.force.is_some();
     let offset = match joined.map(|column| column.from.offset) {
         None => String::new(),
         Some(Offset::Estimated) => ", offset = \"estimate\"".into(),
@@ -48,7 +47,7 @@ pub(super) fn cause(asked: Asked, log: &Log) -> Option<CauseEntry> {
         cure: Some(Cure::Line {
             table: "columns".into(),
             line: joined.map_or_else(|| line.clone(), |column| column.line(&line)),
-            replaces,
+            replaces: false,
         }),
     })
 }

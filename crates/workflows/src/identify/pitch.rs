@@ -36,15 +36,15 @@ impl Ripple {
     }
 }
 
-/// The line of a key with the waves of the fit and a found one, whose pitch has this relative deviation, and whether the axis file
-/// has it already; `None` where it has as many as it may.
+/// The line of a key with the waves of the fit and a found one, whose pitch has this relative deviation; `None` where there are as many
+/// as it may have.
 pub(super) fn line(
     key: &str,
     wave: &Wave,
     deviation: f64,
     law: &FittedLaw,
     motion: Motion,
-) -> Option<(String, bool)> {
+) -> Option<String> {
     let mut pitches = match key {
         "cogging" => law.terms.cogging.clone(),
         _ => law.terms.level_pitches(),
@@ -54,22 +54,20 @@ pub(super) fn line(
         deviation: deviation.min(1.0) * wave.pitch,
         stroke: wave.stroke,
     };
-    let replaces = !pitches.is_empty();
     match wave.replaces.and_then(|place| pitches.get_mut(place)) {
         Some(own) => *own = instead_of(*own, ripple, motion),
         None => pitches.push(rounded(ripple, motion)),
     }
-    of(key, &pitches, motion).map(|line| (line, replaces))
+    of(key, &pitches, motion)
 }
 
 /// The same with a wave that is straight over the stroke, with which goes that no constant force is fitted: the wave has it too.
-pub(super) fn straight(stroke: f64, law: &FittedLaw, motion: Motion) -> Option<(String, bool)> {
+pub(super) fn straight(stroke: f64, law: &FittedLaw, motion: Motion) -> Option<String> {
     let mut pitches = law.terms.cogging.clone();
     // A second one would be the same.
     if pitches.iter().any(|pitch| *pitch >= BENT * stroke) {
         return None;
     }
-    let replaces = !pitches.is_empty();
     // Nothing follows from how long it is.
     let pitch = STRAIGHT * stroke;
     pitches.push(format!("{pitch:.1e}").parse().unwrap_or(pitch));
@@ -78,7 +76,7 @@ pub(super) fn straight(stroke: f64, law: &FittedLaw, motion: Motion) -> Option<(
         true => "\noffset = false",
         false => "",
     };
-    of("cogging", &pitches, motion).map(|line| (line + without, replaces))
+    of("cogging", &pitches, motion).map(|line| line + without)
 }
 
 /// The line of a key with pitches; `None` where there are more than it may have.
