@@ -187,8 +187,12 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
                 }
             }
         };
-        let gap = if common.verbose { "\n" } else { "" };
-        output::print(&format!("{text}{gap}{}{next}", written_to(dir, &written)))?;
+        let files = written_to(dir, &written);
+        let files = match common.verbose {
+            true => format!("\n{files}"),
+            false => format!("{} (in full: --verbose)\n", files.trim_end()),
+        };
+        output::print(&format!("{text}{files}{next}"))?;
     }
     // An interrupt may also have come while laws were compared, after the search had converged.
     if interrupt::stopped() {

@@ -149,7 +149,12 @@ fn a_bump_leads_to_the_map() {
     for line in ["coulomb_position = false", "coulomb_position = true"] {
         let (_folder, result, out) = identified(Some(Level::Bump(0.3)), line);
         assert_eq!(result["effects"][0]["code"], "position-dependence", "{out}");
-        assert!(out.contains("    coulomb_position = \"map\"\n"), "{out}");
+        assert!(
+            out.contains(
+                "in place of the line coulomb_position, write\n    coulomb_position = \"map\"\n"
+            ),
+            "{out}"
+        );
     }
 }
 

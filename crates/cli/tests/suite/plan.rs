@@ -676,7 +676,7 @@ fn a_log_is_put_beside_its_plan() {
     .unwrap();
     let (_, said, _) = identify("turned.csv", "plan/plan.toml");
     assert!(
-        said.contains("inertia, Coulomb and viscous friction would all have to be negative")
+        said.contains("inverted force sign: the fit needs negative mass and friction")
             && said.contains("-corrected"),
         "{said}"
     );

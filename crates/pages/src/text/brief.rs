@@ -37,7 +37,6 @@ pub fn brief(outcome: &Outcome) -> String {
     if let Some(others) = as_good(&result.laws) {
         let _ = writeln!(out, "as good: {others}");
     }
-    out.push('\n');
     out.push_str(&parameters(outcome));
     if let Some(curve) = &result.friction_curve {
         let _ = writeln!(out, "friction    {}", friction(curve));
@@ -55,7 +54,6 @@ pub fn brief(outcome: &Outcome) -> String {
     out.push_str(&searched::sections(result));
     out.push_str(&procedure::sections(result));
     out.push_str(&against_plan::section(result.planned.as_ref()));
-    out.push('\n');
     out.push_str(&verdict(result));
     out.push_str(&warnings(result));
     out
@@ -98,7 +96,9 @@ fn parameters(outcome: &Outcome) -> String {
         false => header.extend(["another day", "another motion", ""]),
     }
     let mut rows = vec![header.into_iter().map(String::from).collect()];
-    let all: Vec<&ParameterEntry> = parameters_shown(result).collect();
+    // What was stated stands in the axis file.
+    let fitted = parameters_shown(result).filter(|p| p.origin != "given");
+    let all: Vec<&ParameterEntry> = fitted.collect();
     let both = |a: &&ParameterEntry, b: &&ParameterEntry| {
         let name = |p: &ParameterEntry| p.name.parse::<Name>().ok();
         match (name(a), name(b)) {
@@ -200,14 +200,9 @@ fn warnings(result: &ResultFile) -> String {
         let _ = writeln!(out, "warning [{}] {}", warning.code, first(warning, result));
     }
     let more = result.warnings.len() - all.len().min(MOST_WARNINGS);
-    let rest = match more {
-        0 => String::new(),
-        n => format!("{}, ", counted(n, "more warning")),
-    };
-    let _ = writeln!(
-        out,
-        "{rest}the laws side by side and all details: report.html, or --verbose"
-    );
+    if more > 0 {
+        let _ = writeln!(out, "{}: --verbose", counted(more, "more warning"));
+    }
     out
 }
 
