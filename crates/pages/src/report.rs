@@ -87,19 +87,30 @@ fn sections(outcome: &Outcome, folder: &Path) -> Document {
             "stiction {} · method {} · seed {} · {} evaluations",
             result.version, result.method, result.seed, result.search.evaluations
         ));
-    for callout in verdicts(outcome) {
-        document = document.block(callout);
-    }
+    let [use_it, constants] = verdicts(outcome);
+    document = document.block(use_it);
     for input in &result.inputs {
         for callout in of_input(input) {
             document = document.block(callout);
         }
     }
     document = document.paragraph(next_step(result, folder));
-    document = document.block(Block::KeyFigures(key_figures(outcome)));
+    // A static map and a step response have no force for each sample.
+    let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic")
+        || result.searched.is_some();
+    document = match outcome.simulation() {
+        Some(simulated) => simulation::sections(document, outcome, simulated),
+        None if sampled => measured_force(document, outcome),
+        None => document,
+    };
+    for block in procedure::sections(outcome) {
+        document = document.block(block);
+    }
     document = document
+        .block(Block::KeyFigures(key_figures(outcome)))
         .heading(2, "Parameters")
-        .block(tables::parameters(outcome));
+        .block(tables::parameters(outcome))
+        .block(constants);
     if !outcome.truth.is_empty() {
         document = document.block(tables::truth(outcome));
     }
@@ -115,17 +126,6 @@ fn sections(outcome: &Outcome, folder: &Path) -> Document {
             });
         }
     }
-    for block in procedure::sections(outcome) {
-        document = document.block(block);
-    }
-    // A static map and a step response have no force for each sample.
-    let sampled = matches!(result.method.as_str(), "separable" | "static-then-dynamic")
-        || result.searched.is_some();
-    document = match outcome.simulation() {
-        Some(simulated) => simulation::sections(document, outcome, simulated),
-        None if sampled => measured_force(document, outcome),
-        None => document,
-    };
     if !result.laws.is_empty() {
         document = document
             .heading(2, "Which law")
@@ -167,6 +167,8 @@ fn sections(outcome: &Outcome, folder: &Path) -> Document {
 /// The figures of a fit of the force.
 fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
     document = document
+        .heading(2, "Force in time")
+        .block(figures::time(outcome))
         .heading(2, "Friction and velocity")
         .block(figures::velocity_map(outcome));
     let close: Vec<Block> = [
@@ -174,6 +176,7 @@ fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
         figures::level_along(outcome),
         figures::low_speed(outcome),
         figures::presliding(outcome),
+        figures::residual_over_position(outcome),
         elements::virgin(outcome),
     ]
     .into_iter()
@@ -183,9 +186,6 @@ fn measured_force(mut document: Document, outcome: &Outcome) -> Document {
     if !close.is_empty() {
         document = document.block(Block::Columns(close));
     }
-    document = document
-        .heading(2, "Force in time")
-        .block(figures::time(outcome));
     if !outcome.validation.is_empty() {
         document = document
             .heading(2, "Validation")
@@ -369,7 +369,7 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
         .count();
     out.push(
         KeyFigure::new("Identifiable", format!("{known} of {total}"), "")
-            .note("standard deviation at most 10 %"),
+            .note("95 % interval of another day within ±20 %"),
     );
     out
 }

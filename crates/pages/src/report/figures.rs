@@ -169,7 +169,8 @@ pub(super) fn friction_curve(outcome: &Outcome) -> Option<Figure> {
     Some(
         Figure::new("Friction by speed")
             .panel(panel)
-            .caption(caption),
+            .caption(caption)
+            .half(),
     )
 }
 
@@ -193,7 +194,9 @@ pub(super) fn level_along(outcome: &Outcome) -> Option<Figure> {
                     .label(meaning),
             );
     }
-    let figure = Figure::new("Coulomb friction along the stroke").panel(panel);
+    let figure = Figure::new("Coulomb friction along the stroke")
+        .panel(panel)
+        .half();
     let caption = "With its 95 % band, at each place by itself. Beyond the stroke a compensator holds the level of its end.";
     (!entries.is_empty()).then(|| figure.caption(caption))
 }
@@ -329,6 +332,21 @@ fn in_time(outcome: &Outcome, series: &Series, title: &str) -> Figure {
         .panel(middle)
         .panel(bottom)
         .shared_x()
+}
+
+/// The residual over the position, in which cogging and levels along the stroke show; `None` without a stroke.
+pub(super) fn residual_over_position(outcome: &Outcome) -> Option<Figure> {
+    let series = &outcome.law().series;
+    let mut places = series.position.iter();
+    let first = places.next()?;
+    places.any(|x| x != first).then_some(())?;
+    let length = symbols::length_unit(outcome.motion);
+    let panel = Panel::new(
+        Axis::new("Position", length),
+        Axis::new("Residual", outcome.force_unit.as_str()),
+    )
+    .layer(Layer::points(series.position.clone(), series.residual()).color(Color::Vermilion));
+    Some(Figure::new("Residual over position").panel(panel).half())
 }
 
 /// One time axis through all logs: each starts where the one before ended.
