@@ -198,3 +198,9 @@ impl Warning {
         }
     }
 }
+
+impl From<stiction_say::Notice> for Warning {
+    fn from(notice: stiction_say::Notice) -> Self {
+        Self::new(notice.code(), notice.to_string())
+    }
+}

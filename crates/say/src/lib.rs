@@ -9,6 +9,8 @@
 //! assert_eq!(reason.to_string(), "the log has 1 reversal, too few to determine the Coulomb level");
 //! ```
 
+mod notice;
 mod reason;
 
+pub use notice::Notice;
 pub use reason::{On, Reason};

@@ -11,14 +11,9 @@ use super::machine;
 use super::mixed;
 use super::stated;
 use super::trust::{self, Judged};
-use stiction_codes::Code;
-use stiction_files::Warning;
 use stiction_identify as engine;
 use stiction_identify::{Delay, Mass, Record, Series, Source as Signal, Status};
-
-/// What is said of a delay at the end of its range.
-pub(super) const DELAY_OUT_OF_RANGE: &str = "the delay between force and motion would be more than four samples: one of \
-     them was logged late or behind a filter, or something acts that the law does not explain; it is taken as none";
+use stiction_say::Notice;
 
 /// Says what happened on the way, then judges the law.
 pub(super) fn judge(
@@ -35,16 +30,15 @@ pub(super) fn judge(
     let finishes = !asked.options.searching.no_finish;
     let asks_delay = asked.axis.terms.delay == Delay::Fitted && finishes;
     if asks_delay && law.terms.delay == Delay::NONE && loaded.contradicted.is_none() {
-        warnings.push(Warning::new(Code::DelayOutOfRange, DELAY_OUT_OF_RANGE));
+        warnings.push(Notice::DelayOutOfRange.into());
     }
     if let Some(error) = &fitted.not_kept {
-        let text = format!("the state of the search could not be kept: {error}");
-        warnings.push(Warning::new(Code::BadCheckpoint, text));
+        let error = error.to_string();
+        warnings.push(Notice::CheckpointLost { error }.into());
     }
     let compares = asked.options.compare_laws && fitted.two_steps.is_none() && finishes;
     if compares && fitted.choice.laws.is_empty() && law.status != Status::Interrupted {
-        let text = "the comparison of laws was interrupted and is left out; the fit is complete";
-        warnings.push(Warning::new(Code::Interrupted, text));
+        warnings.push(Notice::ComparisonStopped.into());
     }
     late::stated(asked, loaded, law, &mut warnings);
     let unused = unused(loaded, conditioned);

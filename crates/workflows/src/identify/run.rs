@@ -26,7 +26,8 @@ use stiction_codes::Code;
 use stiction_files::{Axis, Warning};
 use stiction_identify as engine;
 use stiction_identify::{Observer, Record, Series};
-use stiction_number::{counted, four_digits};
+use stiction_number::counted;
+use stiction_say::Notice;
 
 /// Reads, conditions, fits, compares laws and validates.
 ///
@@ -186,17 +187,11 @@ pub(crate) fn identify_asked(
 /// Noise of the position that grows with speed.
 fn beside_stamps(record: &Record) -> Option<Warning> {
     let (seconds, step) = (record.timing_noise, record.step());
-    (seconds > 0.0).then(|| {
-        Warning::new(
-            Code::Jitter,
-            format!(
-                "the position was read beside the instants of its time stamps, by {} us rms ({:.0} % of a sample): noise that \
-                 grows with speed; a log with the instants of the readings has smaller intervals",
-                four_digits(1e6 * seconds),
-                100.0 * seconds / step
-            ),
-        )
-    })
+    let notice = Notice::InaccurateStamps {
+        seconds,
+        of_sample: seconds / step,
+    };
+    (seconds > 0.0).then(|| notice.into())
 }
 
 /// The refusal of a record that is too short, where the split alone makes it so.

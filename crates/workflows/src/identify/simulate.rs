@@ -15,9 +15,7 @@ use crate::entries;
 use crate::error::Error;
 use crate::source::Source;
 use crate::wording::Setting;
-use stiction_codes::Code;
 use stiction_files::Axis;
-use stiction_files::Warning;
 use stiction_files::result::{ShortHorizonEntry, SimulationEntry, ValidationEntry};
 use stiction_files::symbols;
 use stiction_identify as engine;
@@ -153,10 +151,7 @@ pub(super) fn run(
     warnings.extend(validation_warnings(&loaded.held_out, sources));
     let was_sought = !(found.is_closed_loop() && axis.hold == Hold::Centred);
     if terms.delay == Delay::Fitted && found.fitted.terms.delay == Delay::NONE && was_sought {
-        warnings.push(Warning::new(
-            Code::DelayOutOfRange,
-            super::judge::DELAY_OUT_OF_RANGE,
-        ));
+        warnings.push(stiction_say::Notice::DelayOutOfRange.into());
     }
     let judged = trust::of_position(&evidence, &found, &unseen, warnings);
     let started = if start.is_some() { "separable" } else { "runs" };

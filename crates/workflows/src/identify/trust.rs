@@ -18,10 +18,9 @@ use stiction_identify::procedure::StepFit;
 use stiction_identify::{Effect, Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
 use stiction_identify::{NO_INTERVAL, Parameter};
 use stiction_log::Motion;
-use stiction_number::{Percent, short};
 use stiction_parameters::Quantity;
 use stiction_policy::VERDICT;
-use stiction_say::Reason;
+use stiction_say::{Notice, Reason};
 
 /// Ratio of the held-out error of the law to that of a simpler one above which a warning names the simpler one,
 /// dimensionless: 2 % more, twice what the choice of a law counts as the same.
@@ -435,7 +434,7 @@ pub(super) fn of_position(
     whole_record(evidence, &facts, &against, &mut warnings);
     let biased = simulated.is_biased(&VERDICT);
     if biased {
-        warnings.push(Warning::new(Code::CorrelatedResidual, CORRELATED_RESIDUAL));
+        warnings.push(Notice::CorrelatedResidual.into());
     }
     let shown = match found.never_breaks_away || biased {
         true => Shown::TooLittle,
@@ -444,11 +443,6 @@ pub(super) fn of_position(
     let doubts = Doubts::of_position(evidence.sources);
     Judged::new(evidence.law, shown, None, against, doubts, warnings).with_cause(evidence)
 }
-
-/// What is said beside the verdict of an open loop whose residual has too few independent samples.
-const CORRELATED_RESIDUAL: &str = "noise of the logged force, and any force that is not in it, drives the simulated axis and adds up \
-     to a slow position error that biases the parameters. Cut the log into shorter runs ([simulation] segment in the axis file), or record \
-     a closed loop and give its controller ([controller])";
 
 fn simulated(
     evidence: &Evidence,
@@ -540,11 +534,7 @@ pub(super) fn of_steps(
     unidentifiable(law, motion, &mut warnings);
     warn(&against, &mut warnings);
     if fit.delay.1.is_none() {
-        warnings.push(Warning::new(
-            Code::DelayOutOfRange,
-            "the delay between force and position is at the end of its range, two samples: it takes the place of something that the \
-             law does not explain, such as another force held before the step than the one of the model",
-        ));
+        warnings.push(Notice::DelayOfStep.into());
     }
     let doubts = Doubts {
         assumed_curve,
@@ -704,24 +694,29 @@ fn another_wins(facts: &Facts, laws: &[LawEntry], warnings: &mut Vec<Warning>) {
     ) else {
         return;
     };
-    let (mine, least) = (best.own, best.error);
-    let side = if best.asymmetric { ", asymmetric," } else { "" };
-    let errors = format!(
-        "on held-out samples the law {}{side} has an error of {}, this law of {}",
-        best.law,
-        Percent::error(least).decimals(2),
-        Percent::error(mine).decimals(2)
-    );
-    if other.parameters < own.parameters && mine > SIMPLER_LAW_WINS_FROM * least {
-        warnings.push(Warning::new(
-            Code::SimplerLawHoldsBetter,
-            format!("{errors}: the richer law is not supported by this log"),
-        ));
-    } else if other.parameters > own.parameters && least < RICHER_LAW_WINS_BELOW * mine {
-        warnings.push(Warning::new(
-            Code::RicherLawHoldsBetter,
-            format!("{errors}: this law is too simple for the axis, its parameters are biased"),
-        ));
+    let (own_error, error) = (best.own, best.error);
+    let law = match best.asymmetric {
+        true => format!("{}, asymmetric,", best.law),
+        false => best.law.clone(),
+    };
+    if other.parameters < own.parameters && own_error > SIMPLER_LAW_WINS_FROM * error {
+        warnings.push(
+            Notice::SimplerLaw {
+                law,
+                error,
+                own: own_error,
+            }
+            .into(),
+        );
+    } else if other.parameters > own.parameters && error < RICHER_LAW_WINS_BELOW * own_error {
+        warnings.push(
+            Notice::RicherLaw {
+                law,
+                error,
+                own: own_error,
+            }
+            .into(),
+        );
     }
 }
 
@@ -738,24 +733,13 @@ fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
             && !matches!(p.name.quantity, Quantity::CoulombMap(_))
             && part > NAMED_SHIFT
     };
-    let names: Vec<String> = estimate
-        .parameters
-        .iter()
-        .filter(far)
-        .map(|p| {
-            let part = Percent::error(100.0 * p.bias.unwrap_or(0.0) / p.value);
-            format!("{} {}", p.name, part.signed(0))
-        })
-        .collect();
-    if !names.is_empty() {
-        warnings.push(Warning::new(
-            Code::LargeShift,
-            format!(
-                "encoder steps, filters and noise bias {}: the bias was subtracted, but one of this size \
-                 is known only roughly",
-                names.join(", ")
-            ),
-        ));
+    let biased = estimate.parameters.iter().filter(far).map(|p| {
+        let percent = 100.0 * p.bias.unwrap_or(0.0) / p.value;
+        (p.name.to_string(), percent)
+    });
+    let parameters: Vec<(String, f64)> = biased.collect();
+    if !parameters.is_empty() {
+        warnings.push(Notice::Biased { parameters }.into());
     }
 }
 
@@ -769,16 +753,11 @@ fn static_at_rest(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
     };
     let part = slow.samples as f64 / estimate.fit.samples as f64;
     if part > WARNED_REST_SHARE && slow.rmse > WARNED_REST_ERROR * estimate.fit.rmse {
-        warnings.push(Warning::new(
-            Code::StaticLawAtRest,
-            format!(
-                "{:.0} % of the samples are slower than {} {}, where a static law does not \
-                 describe friction and most of the residual is: leave them out with [conditioning] min_speed in the axis \
-                 file, or identify the law lugre",
-                100.0 * part,
-                short(estimate.low_speed_bound),
-                symbols::speed_unit(motion)
-            ),
-        ));
+        let notice = Notice::StaticLawAtRest {
+            part,
+            speed: estimate.low_speed_bound,
+            unit: symbols::speed_unit(motion),
+        };
+        warnings.push(notice.into());
     }
 }
