@@ -22,7 +22,7 @@ use crate::names::{
 };
 use crate::next;
 pub use crate::next::{axis_file, why};
-use crate::trust::{cause, compensation, constants, why_not};
+use crate::trust::{compensation, constants, use_it};
 pub use batch::batch;
 pub use brief::brief;
 pub use check::{check, check_in_short, started};
@@ -219,12 +219,7 @@ fn first_sentence(message: &str) -> &str {
 fn verdicts(result: &ResultFile) -> String {
     let trust = &result.trust;
     let mut out = String::new();
-    let use_it = match (trust.trustworthy, &trust.cause) {
-        (true, None) => "yes".to_string(),
-        (true, Some(own)) => format!("yes, though {}", cause(own)),
-        (false, _) => format!("NO: {}", why_not(trust)),
-    };
-    let _ = writeln!(out, "\nfor compensation  {use_it}");
+    let _ = writeln!(out, "\nfor compensation  {}", use_it(trust));
     if let Some(seen) = &trust.compensation {
         let _ = writeln!(out, "                  {}", compensation(seen, result));
     }

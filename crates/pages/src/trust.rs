@@ -59,6 +59,15 @@ pub(crate) fn why_not(trust: &Trust) -> String {
     all.collect::<Vec<_>>().join("; ")
 }
 
+/// Whether a law may be used to compensate, in a word and why.
+pub(crate) fn use_it(trust: &Trust) -> String {
+    match (trust.trustworthy, &trust.cause) {
+        (true, None) => "yes".to_string(),
+        (true, Some(own)) => format!("yes, though {}", cause(own)),
+        (false, _) => format!("NO: {}", why_not(trust)),
+    }
+}
+
 /// What a law leaves and how much.
 pub(crate) fn cause(cause: &CauseEntry) -> String {
     format!("{} ({})", cause.text, cause.size)

@@ -6,7 +6,7 @@ use super::{
 use crate::deviation::Deviation;
 use crate::inputs;
 use crate::names::{as_good, chosen_by, law_of, parameters_shown};
-use crate::trust::{cause, constants, range};
+use crate::trust::{constants, range, use_it};
 use std::fmt::Write;
 use stiction_codes::Code;
 use stiction_files::Warning;
@@ -171,15 +171,7 @@ fn flag(pair: &[&ParameterEntry]) -> &'static str {
 /// Whether the law may compensate friction, and where.
 fn verdict(result: &ResultFile) -> String {
     let trust = &result.trust;
-    let use_it = match (trust.trustworthy, &trust.cause) {
-        (true, None) => "yes".to_string(),
-        (true, Some(own)) => format!("yes, though {}", cause(own)),
-        (false, own) => {
-            let reasons = own.iter().map(cause).chain(trust.reasons.iter().cloned());
-            format!("NO: {}", reasons.collect::<Vec<_>>().join("; "))
-        }
-    };
-    let mut out = format!("for compensation  {use_it}\n");
+    let mut out = format!("for compensation  {}\n", use_it(trust));
     if let Some(seen) = &trust.compensation {
         let _ = writeln!(out, "                  {}", range(seen, result));
     }

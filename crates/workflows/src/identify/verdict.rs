@@ -181,7 +181,7 @@ pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
     if facts.stays_in_presliding {
         say(Reason::NeverSlides, Next::Check);
     }
-    of_force(facts.saturated, policy, &mut say);
+    of_saturation(facts.saturated, policy, &mut say);
     if let Some(part) = facts.not_given {
         say(Reason::ForceNotGiven { part }, Next::Check);
     }
@@ -250,7 +250,7 @@ fn of_axis_file(facts: &Facts, policy: &Policy, say: &mut impl FnMut(Reason, Nex
 }
 
 /// Refuses a force that is saturated in too many samples.
-fn of_force(saturated: f64, policy: &Policy, say: &mut impl FnMut(Reason, Next)) {
+fn of_saturation(saturated: f64, policy: &Policy, say: &mut impl FnMut(Reason, Next)) {
     if saturated > policy.most_saturated {
         let reason = Reason::Saturated {
             part: saturated,
@@ -449,7 +449,7 @@ pub(super) fn of_curve(facts: &CurveFacts, policy: &Policy) -> Vec<Against> {
     if facts.status == Status::Interrupted {
         say(Reason::Interrupted, Next::Again);
     }
-    of_force(facts.saturated, policy, &mut say);
+    of_saturation(facts.saturated, policy, &mut say);
     let part = facts.outlying;
     if part > policy.most_outlying {
         say(Reason::OutlyingPoints { part }, Next::Check);
