@@ -4,6 +4,7 @@ use super::choice::FAMILIES;
 use super::compensation;
 use super::disagree;
 use super::left;
+use super::logs::log_warnings;
 use super::turned;
 use super::unfit;
 use super::verdict::{
@@ -556,11 +557,9 @@ fn whole_record(
         .iter()
         .find(|own| matches!(own.reason, Reason::MixedSigns { .. }));
     if let Some(mixed) = mixed {
-        let of_another = |w: &Warning| {
-            let mut others = evidence.held_out.iter();
-            others.any(|log| w.message.contains(&*log.path.to_string_lossy()))
-        };
-        warnings.retain(|w| w.code != Code::ForceSign || of_another(w));
+        // Those of logs that are not fitted stay.
+        let own = log_warnings(evidence.sources);
+        warnings.retain(|w| w.code != Code::ForceSign || !own.contains(w));
         warnings.insert(0, Warning::new(Code::ForceSign, mixed.reason.to_string()));
     }
     if let Some(stated) = evidence.contradicted {
