@@ -1,5 +1,6 @@
 //! `result.json`: everything an identification found. Schema `stiction.result/1`, only ever extended.
 
+mod action;
 mod effects;
 mod friction;
 mod planned;
@@ -9,6 +10,7 @@ mod seen;
 mod trust;
 
 use crate::error::Warning;
+pub use action::Action;
 pub use effects::{EffectEntry, SizeEntry};
 pub use friction::{BandEntry, FrictionAtEntry, FrictionCurveEntry, FrictionLineEntry, ValueEntry};
 pub use planned::{PieceEntry, PlannedEntry, PlannedParameter};
@@ -20,7 +22,7 @@ pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint,
 pub use seen::{LevelAlongEntry, PitchEntry, RangeEntry};
 use serde::{Deserialize, Serialize};
 use stiction_codes::Code;
-pub use trust::{BetterLaw, CauseEntry, Compensation, Cure, Next, Trust};
+pub use trust::{BetterLaw, CauseEntry, Compensation, Trust};
 
 /// Name of the schema.
 pub const SCHEMA: &str = "stiction.result/1";

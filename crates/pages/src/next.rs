@@ -1,8 +1,8 @@
-//! What to do next, as commands to type.
+//! What to do next, as a sentence and a command to type.
 
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_files::result::{Cure, Next, ResultFile};
+use stiction_files::result::{Action, BetterLaw, ResultFile};
 pub use stiction_files::shell::axis_file;
 use stiction_files::shell::{
     cycle_option, free_folder, new_axis_file, plain, quoted, quoted_path, text,
@@ -13,40 +13,35 @@ use stiction_number::Percent;
 /// What a log that is still to be recorded is called in commands.
 pub(crate) const ANOTHER_LOG: &str = "another.csv";
 
-/// What the commands are for.
-pub fn why(next: Next) -> &'static str {
-    match next {
-        Next::Export => {
-            "the compensator as C; also cpp, ros2, st, tcpou, plcopen, rust, mujoco, modelica, urdf, sdf, isaaclab, hal, fmu, matlab, tf5200 and drive-table"
-        }
-        Next::LetTheDataChoose => "let the data choose the law",
-        Next::AnotherLaw => "the best of the laws above that a compensator may rely on",
-        Next::IdentifyTheOther => "what the other log says by itself, to compare the parameters",
-        Next::CheckTheOther => "see what the other log shows, from which nothing can be identified",
-        Next::FirstLog => "the first log by itself, then the others likewise",
-        Next::Simulate => "fit the position of the simulated axis, which differentiates nothing",
-        Next::AxisFile => "correct the axis file as said above",
-        Next::Check => "see what the log shows, and what motion to record instead",
-        Next::Record => {
-            "record another log with the motion that is named above (docs/procedures.md), then"
-        }
-        Next::Again => "the same again, to the end",
-        Next::Finish => {
-            "the same without --no-finish: least squares after the search give intervals"
-        }
+/// What an action is for.
+#[rustfmt::skip] // One line a sentence.
+pub fn why(action: &Action) -> &'static str {
+    match action {
+        Action::Export => "the compensator as C; also cpp, ros2, st, tcpou, plcopen, rust, mujoco, modelica, urdf, sdf, isaaclab, hal, fmu, matlab, tf5200 and drive-table",
+        Action::LetTheDataChoose => "let the data choose the law",
+        Action::Law { .. } => "the best of the laws above that a compensator may rely on",
+        Action::Identify { logs } if logs.is_empty() => "identify the log",
+        Action::Identify { .. } => "what the other log says by itself, to compare the parameters",
+        Action::Check { logs } if logs.is_empty() => "see what the log shows, and what motion to record instead",
+        Action::Check { .. } => "see what the other log shows, from which nothing can be identified",
+        Action::FirstLog => "the first log by itself, then the others likewise",
+        Action::Listed => "all logs that the axis file lists",
+        Action::Simulate => "fit the simulated position instead, which needs no differentiation",
+        Action::Line { .. } | Action::Remove { .. } | Action::AxisFile => "correct the axis file as said above",
+        Action::Record => "record another log with the motion that is named above (docs/procedures.md), then",
+        Action::Again => "the same again, to the end",
+        Action::Finish => "the same without --no-finish: least squares after the search give intervals",
     }
 }
 
-/// What is worth a try before a law is used.
-pub(crate) struct Cured {
+/// What to do, with the command that does it.
+pub(crate) struct Step {
     /// Why, and what to do.
     pub what: String,
-    /// The line to write into the axis file; none where another law is to be tried.
+    /// The line to write into the axis file first.
     pub line: Option<Line>,
-    /// The command that then takes it in.
+    /// The command.
     pub command: String,
-    /// Whether all that is worth a try has been tried, and the command is the one that uses the law.
-    pub ends: bool,
 }
 
 /// A line of an axis file.
@@ -63,19 +58,69 @@ pub(crate) struct Line {
     pub begins: bool,
 }
 
-/// What is worth a try before a law is used: a law that holds better, which leaves something else, or what takes the cause of what
-/// this one leaves into the fit.
-pub(crate) fn to_try(result: &ResultFile, dir: &Path) -> Option<Cured> {
-    tried(result, dir)
-        .or_else(|| better(result, dir))
-        .or_else(|| cured(result, dir))
+impl Line {
+    /// Where to write it.
+    pub fn place(&self) -> String {
+        let Self { file, table, .. } = self;
+        match (self.begins, self.replaces) {
+            (true, _) => format!("write a new file {file}:\n    [{table}]"),
+            (false, true) => format!(
+                "in {file}, in place of the line {}, write",
+                Action::key(&self.text)
+            ),
+            (false, false) => format!("in {file}, under [{table}], write"),
+        }
+    }
 }
 
-/// Where elements were asked for and one bristle holds better: what the shape of one bristle leads to is then no better than it,
-/// and a command that leads back, or to a check that leads to the same identification, would go round in a circle.
-fn tried(result: &ResultFile, dir: &Path) -> Option<Cured> {
+/// What leads on from a result.
+pub(crate) struct Steps {
+    /// What to do.
+    pub first: Step,
+    /// What else may be done with a result that may be used as it is.
+    pub or: Option<Step>,
+}
+
+/// What leads on from the result in a folder: what the cause of the error, or a better law, asks for before what the verdict does.
+pub(crate) fn steps(result: &ResultFile, dir: &Path) -> Steps {
+    let step = |what: String, action: &Action| Step {
+        what,
+        line: line(action, result),
+        command: command(action, result, dir),
+    };
+    let trust = &result.trust;
+    let own = || step(why(&trust.next).into(), &trust.next);
+    let (first, ends) = if let Some(what) = tried(result, dir) {
+        (Some(step(what, &trust.next)), true)
+    } else if let Some(better) = &trust.better {
+        let what = format!("the law {} has a smaller held-out error", better.law);
+        (Some(step(what, &of_law(better))), false)
+    } else if let Some((cause, cure)) = trust
+        .cause
+        .as_ref()
+        .and_then(|cause| Some((cause, cause.cure.as_ref()?)))
+    {
+        let what = match cure {
+            Action::Law { law, .. } => format!("try the law {law}"),
+            Action::Line { table, .. } => aim(table, cause.code).into(),
+            other => why(other).into(),
+        };
+        (Some(step(format!("{}; {what}", cause.text), cure)), false)
+    } else {
+        (None, true)
+    };
+    let Some(first) = first else {
+        let (first, or) = (own(), None);
+        return Steps { first, or };
+    };
+    let or = (trust.trustworthy && !ends).then(own);
+    Steps { first, or }
+}
+
+/// Where elements were asked for and one bristle predicts better: what the shape of one bristle leads to is then no better than it, and
+/// a command that leads back would go round in a circle.
+fn tried(result: &ResultFile, dir: &Path) -> Option<String> {
     let better = result.trust.better.as_ref()?;
-    let back = self::better(result, dir)?.command;
     let [own, other] = [&result.law, &better.law].map(|name| LawKind::from_name(name));
     if !result.trust.trustworthy || !own?.has_elements() || other?.has_elements() {
         return None;
@@ -83,87 +128,17 @@ fn tried(result: &ResultFile, dir: &Path) -> Option<Cured> {
     let error = |name: &str, asymmetric: bool| {
         let mut laws = result.laws.iter();
         let law = laws.find(|law| law.law == name && law.asymmetric == asymmetric)?;
-        let error = Percent::error(law.held_out_error_percent?);
-        Some(error.decimals(2))
+        Some(Percent::error(law.held_out_error_percent?).decimals(2))
     };
     let mine = error(&result.law, result.asymmetric)?;
     let least = error(&better.law, better.asymmetric)?;
     let (own, other) = (&result.law, &better.law);
-    Some(Cured {
-        what: format!(
-            "{own} holds worse than {other} ({mine} against {least} on held-out samples). Where the shape of {other} led here, both \
-             are tried and neither is that of the axis: compensate with the result of {other} (without one: {back}), and look for what is left in the \
-             drive train, in the instants of force and position or in forces that the log has not, rather than in another law. \
-             To compensate with this law all the same"
-        ),
-        line: None,
-        command: command(result, dir),
-        ends: true,
-    })
-}
-
-/// What takes the cause of what the law leaves into the fit, where something does.
-fn cured(result: &ResultFile, dir: &Path) -> Option<Cured> {
-    let cause = result.trust.cause.as_ref()?;
-    let dir: &Path = &dir.components().collect::<PathBuf>();
-    let logs = logs(result);
-    let out = |suffix: &str| quoted(&format!("{}-{suffix}", text(dir)));
-    Some(match cause.cure.as_ref()? {
-        Cure::Law { law } => {
-            let axis = axis_option(result);
-            let out = out(law);
-            let sides = match result.asymmetric {
-                true => " --asymmetric",
-                false => "",
-            };
-            let plan = plan_option(result);
-            Cured {
-                what: format!("{}; try the law {law}", cause.text),
-                line: None,
-                command: format!(
-                    "stiction identify{logs}{axis} --law {law}{sides}{plan} --out {out}"
-                ),
-                ends: false,
-            }
-        }
-        Cure::Line {
-            table,
-            line,
-            replaces,
-        } => {
-            let (file, place) = match &result.axis.file {
-                Some(file) => (quoted(file), format!("in {file}, under [{table}]")),
-                None => {
-                    let file = new_axis_file(Path::new(&result.inputs.first()?.path));
-                    let place = format!("in a new file {file}, under a line [{table}]");
-                    (file, place)
-                }
-            };
-            let law = format!("{}{}{}", law(result), method(result), plan_option(result));
-            let key = line.split(' ').next().unwrap_or_default();
-            let out = out(key);
-            let write = match replaces {
-                true => format!("in place of the line {key}, write"),
-                false => "write".into(),
-            };
-            Cured {
-                what: format!(
-                    "{}; {}: {place}, {write}",
-                    cause.text,
-                    aim(table, cause.code)
-                ),
-                command: format!("stiction identify{logs} --axis {file}{law} --out {out}"),
-                line: Some(Line {
-                    file,
-                    table: table.clone(),
-                    text: line.clone(),
-                    replaces: *replaces,
-                    begins: result.axis.file.is_none(),
-                }),
-                ends: false,
-            }
-        }
-    })
+    let back = command(&of_law(better), result, dir);
+    Some(format!(
+        "{own} has a larger held-out error than {other} ({mine} against {least}). Both are tried and neither has the shape of this friction: \
+         compensate with the result of {other} (without one: {back}), and look for the rest in the drive train, in the time stamps or in \
+         forces that the log has not. To compensate with {own} all the same"
+    ))
 }
 
 /// What a line of a table of the axis file is for.
@@ -176,22 +151,38 @@ fn aim(table: &str, cause: Code) -> &'static str {
     }
 }
 
-/// The law that holds better than the one that was asked for.
-fn better(result: &ResultFile, dir: &Path) -> Option<Cured> {
-    let better = result.trust.better.as_ref()?;
-    let dir: &Path = &dir.components().collect::<PathBuf>();
-    let (logs, axis) = (logs(result), axis_option(result));
-    let law = &better.law;
-    let (option, suffix) = match better.asymmetric {
-        true => (" --asymmetric", "-asymmetric"),
-        false => ("", ""),
+/// Identifies with a law that predicts better than the one that was asked for.
+fn of_law(better: &BetterLaw) -> Action {
+    Action::Law {
+        law: better.law.clone(),
+        asymmetric: better.asymmetric,
+    }
+}
+
+/// The axis file, or the one to be begun.
+fn file_of(result: &ResultFile) -> String {
+    let begun = || result.inputs.first().map(|i| Path::new(&i.path));
+    match &result.axis.file {
+        Some(file) => quoted(file),
+        None => begun().map_or(String::new(), new_axis_file),
+    }
+}
+
+fn line(action: &Action, result: &ResultFile) -> Option<Line> {
+    let Action::Line {
+        table,
+        line,
+        replaces,
+    } = action
+    else {
+        return None;
     };
-    let out = quoted(&format!("{}-{law}{suffix}", text(dir)));
-    Some(Cured {
-        what: format!("the law {law} holds better on held-out samples"),
-        line: None,
-        command: format!("stiction identify{logs}{axis} --law {law}{option} --out {out}"),
-        ends: false,
+    Some(Line {
+        file: file_of(result),
+        table: table.clone(),
+        text: line.clone(),
+        replaces: *replaces,
+        begins: result.axis.file.is_none(),
     })
 }
 
@@ -199,124 +190,96 @@ fn better(result: &ResultFile, dir: &Path) -> Option<Cured> {
 fn logs(result: &ResultFile) -> String {
     match result.axis.listed {
         true => String::new(),
-        false => {
-            let typed = |path: &str| format!(" {}", quoted(path));
-            result.inputs.iter().map(|i| typed(&i.path)).collect()
-        }
+        false => typed(result.inputs.iter().map(|input| &input.path)),
     }
 }
 
-/// The axis file as an option, where there is one.
-fn axis_option(result: &ResultFile) -> String {
-    let file = result.axis.file.as_ref();
-    file.map_or(String::new(), |file| format!(" --axis {}", quoted(file)))
+fn typed<'a>(paths: impl Iterator<Item = &'a String>) -> String {
+    paths.map(|path| format!(" {}", quoted(path))).collect()
 }
 
-/// The law as it was asked for; nothing where the data chose it.
-fn law(result: &ResultFile) -> String {
-    match (result.law_chosen_by.as_str(), result.asymmetric) {
-        ("user", true) => format!(" --law {} --asymmetric", result.law),
-        ("user", false) => format!(" --law {}", result.law),
-        _ => String::new(),
-    }
-}
-
-/// The method, where it is not the usual one.
-fn method(result: &ResultFile) -> String {
-    match result.method.as_str() {
-        "separable" => String::new(),
-        other => format!(" --method {other}"),
-    }
-}
-
-/// The plan that it was compared with.
-fn plan_option(result: &ResultFile) -> String {
-    let plan = result.planned.as_ref();
-    plan.map_or(String::new(), |plan| {
-        format!(" --plan {}", quoted(&plan.path))
+/// An option, where it has a value.
+fn option(name: &str, value: Option<&String>) -> String {
+    value.map_or(String::new(), |value| {
+        format!(" --{name} {}", quoted(value))
     })
 }
 
-/// The command that leads on from the result in a folder.
-pub(crate) fn command(result: &ResultFile, dir: &Path) -> String {
+/// A law as options.
+fn law_option(law: &str, asymmetric: bool) -> String {
+    let sides = if asymmetric { " --asymmetric" } else { "" };
+    format!(" --law {law}{sides}")
+}
+
+/// The command of an action on the result in a folder.
+pub(crate) fn command(action: &Action, result: &ResultFile, dir: &Path) -> String {
     // Without a slash or a dot at its end, to which a suffix would be added.
     let dir: &Path = &dir.components().collect::<PathBuf>();
-    let folder = quoted_path(dir);
-    let another = |suffix: &str| quoted(&format!("{}-{suffix}", text(dir)));
-    let next = result.trust.next;
-    let typed = |path: &String| format!(" {}", quoted(path));
-    let mut log: String = match next {
-        Next::IdentifyTheOther | Next::CheckTheOther => {
-            result.trust.other.iter().map(typed).collect()
-        }
-        Next::FirstLog => (result.inputs.iter().take(1))
-            .map(|i| typed(&i.path))
-            .collect(),
-        _ => logs(result),
+    let own = logs(result);
+    let axis = option("axis", result.axis.file.as_ref());
+    let plan = option("plan", result.planned.as_ref().map(|plan| &plan.path));
+    let law = match result.law_chosen_by.as_str() {
+        "user" => law_option(&result.law, result.asymmetric),
+        _ => String::new(),
     };
-    log.push_str(&axis_option(result));
-    let as_asked = format!("{}{}", law(result), method(result));
-    let plan = plan_option(result);
-    match next {
-        Next::Export => {
+    let asked = match result.method.as_str() {
+        "separable" => law,
+        other => format!("{law} --method {other}"),
+    };
+    let into = |suffix: &str| quoted(&format!("{}-{suffix}", text(dir)));
+    let identify = |logs: &str, axis: &str, how: &str, out: &str| {
+        format!("stiction identify{logs}{axis}{how} --out {out}")
+    };
+    match action {
+        Action::Export => {
             let model = quoted_path(&dir.join("model.toml"));
             let code = quoted_path(&free_folder(&dir.join("c")));
             let cycle = cycle_option(result.rate_hz());
             format!("stiction export {model} --target c{cycle} --out {code}")
         }
-        Next::AnotherLaw => better(result, dir).map_or_else(
-            || format!("stiction identify{log} --out {}", another("auto")),
-            |better| better.command,
-        ),
-        Next::LetTheDataChoose => {
-            format!("stiction identify{log}{plan} --out {}", another("auto"))
+        Action::Law { law, asymmetric } => {
+            let sides = if *asymmetric { "-asymmetric" } else { "" };
+            let how = format!("{}{plan}", law_option(law, *asymmetric));
+            identify(&own, &axis, &how, &into(&format!("{law}{sides}")))
         }
-        Next::IdentifyTheOther => {
-            format!(
-                "stiction identify{log}{as_asked} --out {}",
-                another("other")
-            )
+        Action::LetTheDataChoose => identify(&own, &axis, &plan, &into("auto")),
+        Action::Identify { logs } => identify(&typed(logs.iter()), &axis, &asked, &into("other")),
+        Action::FirstLog => {
+            let first = typed(result.inputs.iter().take(1).map(|input| &input.path));
+            identify(&first, &axis, &asked, &into("first"))
         }
-        Next::FirstLog => format!(
-            "stiction identify{log}{as_asked} --out {}",
-            another("first")
-        ),
-        Next::Simulate => format!(
-            "stiction identify{log} --method output-error --out {}",
-            another("simulated")
-        ),
-        Next::AxisFile => match &result.axis.file {
-            Some(_) => {
-                let again = text(dir).ends_with("-corrected");
-                let out = if again { folder } else { another("corrected") };
-                format!("stiction identify{log}{as_asked}{plan} --out {out}")
-            }
-            None => format!(
-                "stiction check{log} --init {}",
-                new_axis_file(Path::new(&result.inputs[0].path))
-            ),
+        Action::Simulate => identify(&own, &axis, " --method output-error", &into("simulated")),
+        Action::Line { line, .. } => {
+            let axis = format!(" --axis {}", file_of(result));
+            let how = format!("{asked}{plan}");
+            identify(&own, &axis, &how, &into(Action::key(line)))
+        }
+        Action::AxisFile if result.axis.file.is_none() => {
+            format!("stiction check{own} --init {}", file_of(result))
+        }
+        Action::AxisFile | Action::Remove { .. } => {
+            let out = match text(dir).ends_with("-corrected") {
+                true => quoted_path(dir),
+                false => into("corrected"),
+            };
+            identify(&own, &axis, &format!("{asked}{plan}"), &out)
+        }
+        Action::Check { logs } => match logs.is_empty() {
+            true => format!("stiction check{own}{axis}"),
+            false => format!("stiction check{}{axis}", typed(logs.iter())),
         },
-        Next::Check | Next::CheckTheOther => format!("stiction check{log}"),
-        Next::Record => {
-            if result.method == "presliding-step" {
-                let out = another("again");
-                return format!(
-                    "stiction identify{log} --method presliding-step --static {ANOTHER_LOG} --out {out}"
-                );
-            }
-            format!(
-                "stiction identify {ANOTHER_LOG}{}{as_asked} --out {}",
-                axis_option(result),
-                another("again")
-            )
+        Action::Record if result.method == "presliding-step" => {
+            let how = format!(" --method presliding-step --static {ANOTHER_LOG}");
+            identify(&own, &axis, &how, &into("again"))
         }
-        Next::Again | Next::Finish => {
-            format!("stiction identify{log}{as_asked}{plan} --out {folder}")
+        Action::Record => identify(&format!(" {ANOTHER_LOG}"), &axis, &asked, &into("again")),
+        Action::Listed | Action::Again | Action::Finish => {
+            identify(&own, &axis, &format!("{asked}{plan}"), &quoted_path(dir))
         }
     }
 }
 
-/// The command that plans the motion which would settle what the logs leave open; `None` where they leave nothing open that a plan is
+/// The command that plans the motion which would settle what the logs do not determine; `None` where they determine all that a plan is
 /// made for, or the axis file does not say what the axis may do.
 pub(crate) fn planned(result: &ResultFile, dir: &Path) -> Option<String> {
     let axis = result.axis.file.as_ref().filter(|_| result.axis.limits)?;
@@ -324,10 +287,10 @@ pub(crate) fn planned(result: &ResultFile, dir: &Path) -> Option<String> {
     let settles = |name: &str| PLANNED.iter().any(|own| name.starts_with(own));
     let is_fit = result.method == "separable";
     // What has to be read in another way first says nothing of the axis.
-    if matches!(result.trust.next, Next::AxisFile | Next::FirstLog) {
+    if matches!(result.trust.next, Action::AxisFile | Action::FirstLog) {
         return None;
     }
-    // What these leave open no motion settles.
+    // What these leave undetermined no motion settles.
     let of_the_drive_train = [Code::Resonance, Code::Backlash, Code::UnmodelledDynamics];
     let cause = result.trust.cause.as_ref();
     if cause.is_some_and(|cause| of_the_drive_train.contains(&cause.code)) {

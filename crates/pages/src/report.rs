@@ -23,7 +23,7 @@ use crate::next;
 use crate::trust::{compensation, constants, why_not};
 use std::path::Path;
 use stiction_files::compare_file::CompareFile;
-use stiction_files::result::{Input, Next, ResultFile};
+use stiction_files::result::{Action, Input, ResultFile};
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::drift::DriftOutcome;
@@ -283,32 +283,25 @@ fn verdicts(outcome: &Outcome) -> [Callout; 2] {
 
 /// The command that leads on.
 fn next_step(result: &ResultFile, folder: &Path) -> Text {
-    let next = result.trust.next;
-    let (place, dir) = match next {
-        // It was typed with options that a result does not keep.
-        Next::Again | Next::Finish => return format!("Next: {}.", next::why(next)).into(),
-        Next::Export => ("In the folder of this report", Path::new("")),
-        _ => ("In the folder it was identified in", folder),
-    };
-    let as_it_is = format!("{}. {place}: ", next::why(next));
-    let command_as_it_is = next::command(result, dir);
-    let Some(cured) = next::to_try(result, folder) else {
-        return Text::from(format!("Next: {as_it_is}")).code(command_as_it_is);
-    };
-    let line = cured.line.map_or(String::new(), |line| {
-        format!(" {}", line.text.replace('\n', " and "))
+    let next = &result.trust.next;
+    // It was typed with options that a result does not keep.
+    if matches!(next, Action::Again | Action::Finish) {
+        return format!("Next: {}.", next::why(next)).into();
+    }
+    let next::Steps { first, or } = next::steps(result, folder);
+    let line = first.line.as_ref().map_or(String::new(), |line| {
+        format!(": {}", line.text.replace('\n', " and "))
     });
-    let ends = cured.ends;
-    let cured = Text::from(format!(
+    let step = format!(
         "Next: {}{line}. In the folder it was identified in: ",
-        cured.what
-    ))
-    .code(cured.command);
-    match result.trust.trustworthy && !ends {
-        true => cured
-            .plain(format!(" Or without it: {as_it_is}"))
-            .code(command_as_it_is),
-        false => cured,
+        first.what
+    );
+    let step = Text::from(step).code(first.command);
+    match or {
+        Some(or) => step
+            .plain(format!(" Or without it: {}: ", or.what))
+            .code(or.command),
+        None => step,
     }
 }
 

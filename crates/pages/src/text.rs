@@ -35,7 +35,7 @@ pub use reproduction::reproduction;
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::result::{
-    FrictionCurveEntry, LawEntry, LevelAlongEntry, Next, ResultFile, SimulationEntry,
+    Action, FrictionCurveEntry, LawEntry, LevelAlongEntry, ResultFile, SimulationEntry,
 };
 use stiction_files::symbols;
 use stiction_number::{Percent, four_digits as short, quantity, r_squared, sig, unit};
@@ -242,7 +242,7 @@ pub fn command(arguments: impl Iterator<Item = String>) -> String {
 /// What to do next with the result in a folder; `study` is one that was written there.
 pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
     let mut out = String::new();
-    if let Some(study) = study.filter(|_| result.trust.next == Next::Export) {
+    if let Some(study) = study.filter(|_| result.trust.next == Action::Export) {
         let _ = writeln!(
             out,
             "what it does on this axis, simulated\n  {}",
@@ -250,7 +250,7 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
         );
     }
     let force = result.axis.force_unit.as_str();
-    if result.trust.next == Next::Export && study.is_none() && !["N", "N*m"].contains(&force) {
+    if result.trust.next == Action::Export && study.is_none() && !["N", "N*m"].contains(&force) {
         let wanted = match result.axis.kind.as_str() {
             "rotary" => "N m",
             _ => "N",
@@ -269,24 +269,15 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
              the axis file{how}, identify writes one"
         );
     }
-    let (why, command) = (next::why(result.trust.next), next::command(result, dir));
-    let _ = match next::to_try(result, dir) {
-        None => writeln!(out, "{why}\nnext: {command}"),
-        Some(cured) => {
-            let _ = writeln!(out, "{}", cured.what);
-            if let Some(line) = cured.line {
-                for line in line.text.lines() {
-                    let _ = writeln!(out, "    {line}");
-                }
-                let _ = writeln!(out, "and");
-            }
-            let _ = writeln!(out, "next: {}", cured.command);
-            match result.trust.trustworthy && !cured.ends {
-                true => writeln!(out, "or without it: {why}\n  {command}"),
-                false => Ok(()),
-            }
-        }
-    };
+    let next::Steps { first, or } = next::steps(result, dir);
+    let _ = writeln!(out, "{}", first.what);
+    if let Some(line) = first.line {
+        out.push_str(&written(&line));
+    }
+    let _ = writeln!(out, "next: {}", first.command);
+    if let Some(or) = or {
+        let _ = writeln!(out, "or without it: {}\n  {}", or.what, or.command);
+    }
     if let Some(command) = next::planned(result, dir) {
         let _ = writeln!(
             out,
@@ -298,21 +289,16 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
 
 /// The same in short: the line to write and the command to type.
 pub fn next_in_short(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
-    let study = study.filter(|_| result.trust.next == Next::Export);
-    let simulate = study.map_or(String::new(), |study| {
+    let next::Steps { first, or } = next::steps(result, dir);
+    let uses = result.trust.next == Action::Export && first.line.is_none() && or.is_none();
+    let simulate = study.filter(|_| uses).map_or(String::new(), |study| {
         format!("to simulate it first: {}\n", next::simulate(study, dir))
     });
-    let next = match next::to_try(result, dir) {
-        None => format!("{simulate}next: {}\n", next::command(result, dir)),
-        Some(cured) => {
-            let line = cured.line.map_or(String::new(), written);
-            let rest = match result.trust.trustworthy && !cured.ends {
-                true => format!("or use it as it is: {}\n", next::command(result, dir)),
-                false => String::new(),
-            };
-            format!("{line}next: {}\n{rest}", cured.command)
-        }
-    };
+    let line = first.line.as_ref().map_or(String::new(), written);
+    let or = or.map_or(String::new(), |or| {
+        format!("or use it as it is: {}\n", or.command)
+    });
+    let next = format!("{simulate}{line}next: {}\n{or}", first.command);
     let planned = next::planned(result, dir);
     let planned =
         planned.map(|command| format!("to plan the motion for what is open: {command}\n"));
@@ -320,18 +306,9 @@ pub fn next_in_short(result: &ResultFile, dir: &Path, study: Option<&Path>) -> S
 }
 
 /// How a line gets into its file.
-fn written(line: next::Line) -> String {
-    let next::Line {
-        file, table, text, ..
-    } = &line;
-    let key = text.split(' ').next().unwrap_or_default();
-    let place = match (line.begins, line.replaces) {
-        (true, _) => format!("write a new file {file}:\n    [{table}]"),
-        (false, true) => format!("in {file}, in place of the line {key}, write"),
-        (false, false) => format!("in {file}, under [{table}], write"),
-    };
-    let lines = text.lines().map(|line| format!("    {line}\n"));
-    format!("{place}\n{}", lines.collect::<String>())
+fn written(line: &next::Line) -> String {
+    let lines = line.text.lines().map(|line| format!("    {line}\n"));
+    format!("{}\n{}", line.place(), lines.collect::<String>())
 }
 
 /// Coulomb and viscous friction with the mass, as simulators take them; `None` where they are not known.

@@ -1,6 +1,6 @@
 //! What a result may be used for, in words that reports and the terminal share.
 
-use stiction_files::result::{CauseEntry, Compensation, Next, ResultFile, Trust};
+use stiction_files::result::{Action, CauseEntry, Compensation, ResultFile, Trust};
 use stiction_number::{Percent, counted, four_digits as short, quantity};
 
 /// How well the law predicts friction, and on which motion that was seen.
@@ -76,10 +76,10 @@ pub(crate) fn cause(cause: &CauseEntry) -> String {
 /// Which parameters are constants of the machine, each called as its name or its symbol.
 pub(crate) fn constants(result: &ResultFile, called: impl Fn(&str) -> String) -> String {
     let trust = &result.trust;
-    if trust.next == Next::Finish {
+    if trust.next == Action::Finish {
         return "none: a search by itself gives no intervals".into();
     }
-    if trust.next == Next::Again {
+    if trust.next == Action::Again {
         return "none: the run was stopped before it knew any interval".into();
     }
     let listed = |names: &[String]| {

@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stiction_codes::Code;
 use stiction_files::axis::{Axis, Use};
-use stiction_files::result::{Cure, Input, Next};
+use stiction_files::result::{Action, Input};
 use stiction_identify::Observer;
 use stiction_log::{Log, Severity, Understood};
 use stiction_number::four_digits as short;
@@ -75,30 +75,8 @@ pub struct LogCheck {
     pub parameters: Vec<ParameterCheck>,
     /// Why nothing could be identified, if so.
     pub refused: Option<String>,
-    /// What leads on: a fit, a fit by simulation, or another record.
-    pub next: Lead,
-    /// The line of the axis file that is missing; `null` where none is known.
-    pub line: Option<Cure>,
-}
-
-/// What leads on from a log.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Lead {
-    /// `stiction identify`.
-    Identify,
-    /// The same by simulation: filters leave too little of the log.
-    Simulate,
-    /// `stiction identify` of all logs that the axis file lists: of this one it fits nothing.
-    Listed,
-    /// `stiction identify` of all logs that the axis file lists, this one among them.
-    Together,
-    /// The axis file fits nothing of any log that it lists.
-    Unfitted,
-    /// The axis file needs a line that is named.
-    AxisFile,
-    /// Nothing can be identified from the log; another has to be recorded.
-    Record,
+    /// What leads on: a fit, a line of the axis file, or another record.
+    pub next: Action,
 }
 
 /// A column of the file, as it was understood.
@@ -178,14 +156,14 @@ pub fn check(
         }
         let never_fitted = source.never_fitted;
         let mut found = one(source, &read, observer)?;
-        let goes_on = matches!(found.next, Lead::Identify | Lead::Simulate);
-        if never_fitted && goes_on {
-            found.next = match any_fitted {
-                true => Lead::Listed,
-                false => Lead::Unfitted,
+        let goes_on = [Action::IDENTIFY, Action::Simulate].contains(&found.next);
+        if never_fitted && goes_on && !any_fitted {
+            found.next = Action::Remove {
+                table: "[log]".into(),
+                line: "validate = \"all\"".into(),
             };
-        } else if all_listed && found.next == Lead::Identify {
-            found.next = Lead::Together;
+        } else if never_fitted && goes_on || all_listed && found.next == Action::IDENTIFY {
+            found.next = Action::Listed;
         }
         out.push(found);
     }
@@ -291,10 +269,9 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
         refused: None,
         // A force that is not recognised may well be there, or in another file.
         next: match log.force {
-            Some(_) => Lead::Record,
-            None => Lead::AxisFile,
+            Some(_) => Action::Record,
+            None => Action::AxisFile,
         },
-        line: None,
     };
     match Tracking::of(&source.path.display().to_string(), log) {
         Ok(tracking) => out.tracking = Some(tracking),
@@ -320,18 +297,16 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
     match identify_asked(asked, vec![source], Vec::new(), observer) {
         Ok(outcome) => {
             out.refused = untrusted(&outcome);
-            out.next = match outcome.result.trust.next {
-                Next::Simulate => Lead::Simulate,
-                Next::AxisFile => Lead::AxisFile,
+            out.next = match &outcome.result.trust.next {
+                own @ (Action::Simulate | Action::AxisFile) => own.clone(),
                 // A fit would lead back here.
-                Next::Check => Lead::Record,
-                _ if slides => Lead::Identify,
-                _ => Lead::Record,
+                own if *own == Action::CHECK => Action::Record,
+                _ if slides => Action::IDENTIFY,
+                _ => Action::Record,
             };
             let cause = outcome.result.trust.cause.as_ref();
             if let Some(unscaled) = cause.filter(|cause| cause.code == Code::ForceUnit) {
-                out.line = unscaled.cure.clone();
-                out.next = Lead::AxisFile;
+                out.next = unscaled.cure.clone().unwrap_or(Action::AxisFile);
             }
             out.parameters = verdicts(&outcome);
             out.shows.iter_mut().for_each(|shown| {
@@ -358,18 +333,17 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
             let left = e.losses().map(|(losses, _)| losses.left_to_simulate());
             let simulates = simulates && left.is_none_or(|left| left > 0);
             if e.code() == Code::TooFewSamples && simulates && slides {
-                out.next = Lead::Simulate;
+                out.next = Action::Simulate;
             }
             let line = e.losses().and_then(|(losses, needed)| {
                 lowered(losses, needed, axis.conditioning.decimate, motion)
             });
             if let Some(line) = line {
-                out.next = Lead::AxisFile;
-                out.line = Some(Cure::Line {
+                out.next = Action::Line {
                     table: "conditioning".into(),
                     line,
                     replaces: true,
-                });
+                };
             }
         }
         Err(Error::File(stiction_files::Error::Log(e))) => {
@@ -378,7 +352,7 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
         Err(e) => return Err(e),
     }
     if is_overflown {
-        out.next = Lead::AxisFile;
+        out.next = Action::AxisFile;
     }
     Ok(out)
 }

@@ -1,5 +1,6 @@
 //! What a result may be used for, and what to do next.
 
+use super::Action;
 use serde::{Deserialize, Serialize};
 use stiction_codes::Code;
 
@@ -26,12 +27,9 @@ pub struct Trust {
     /// A law that holds better on held-out samples than the one that was asked for, and that a compensator may rely on.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub better: Option<BetterLaw>,
-    /// The logs that it was validated on and that contradict it, where the next step is about them.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub other: Vec<String>,
     /// What to do next.
     #[serde(default)]
-    pub next: Next,
+    pub next: Action,
 }
 
 /// A law beside the one that was asked for.
@@ -54,28 +52,7 @@ pub struct CauseEntry {
     pub size: String,
     /// What takes it into the fit; absent where neither a line of the axis file nor another law does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub cure: Option<Cure>,
-}
-
-/// What takes the cause of what a law leaves into the fit.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum Cure {
-    /// A line of the axis file.
-    Line {
-        /// The table it belongs to, such as `terms`.
-        table: String,
-        /// The line, such as `coulomb_temperature = true`.
-        line: String,
-        /// Whether it takes the place of the line with this key, which the axis file has.
-        #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-        replaces: bool,
-    },
-    /// A law that may have that shape.
-    Law {
-        /// Its name.
-        law: String,
-    },
+    pub cure: Option<Action>,
 }
 
 /// How well a law predicts friction, and on which motion that was seen.
@@ -93,35 +70,4 @@ pub struct Compensation {
     pub stroke: Option<f64>,
     /// How often the direction changed.
     pub reversals: usize,
-}
-
-/// What to do next.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Next {
-    /// Write the compensator.
-    #[default]
-    Export,
-    /// Identify again and let the data choose the law.
-    LetTheDataChoose,
-    /// Identify again with the law that holds better on held-out samples.
-    AnotherLaw,
-    /// Identify the logs that it was validated on by themselves, and compare.
-    IdentifyTheOther,
-    /// See what the logs that it was validated on show: from one of them nothing can be identified.
-    CheckTheOther,
-    /// Identify the first of the logs by itself, and the others likewise: together they are not of one axis.
-    FirstLog,
-    /// Identify again by simulation of the axis.
-    Simulate,
-    /// Correct the axis file as the reasons say, and identify again.
-    AxisFile,
-    /// See what the log shows, and record the motion that is missing.
-    Check,
-    /// Record the motion that is missing: no other fit of this log leads further.
-    Record,
-    /// Give the same command again, and let it end.
-    Again,
-    /// Give the same command with the least squares after the search.
-    Finish,
 }

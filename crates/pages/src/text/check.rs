@@ -3,15 +3,15 @@
 mod brief;
 
 use super::table::table;
-use crate::next::ANOTHER_LOG;
+use crate::next::{ANOTHER_LOG, Line};
 pub use brief::check_in_short;
 use std::fmt::Write;
 use std::path::Path;
-use stiction_files::result::Cure;
+use stiction_files::result::Action;
 use stiction_files::shell::{new_axis_file, quoted, quoted_path, shown};
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
-use stiction_workflows::check::{Check, Lead, LogCheck, Started, TrackingChange};
+use stiction_workflows::check::{Check, LogCheck, Started, TrackingChange};
 
 /// The outcome of a check.
 pub fn check(check: &Check) -> String {
@@ -335,89 +335,73 @@ fn shows(log: &LogCheck) -> String {
 fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
     let path = quoted(&log.input.path);
     let mut out = Vec::new();
-    let with = match axis {
-        Some(file) => format!(" --axis {}", quoted_path(file)),
-        None => String::new(),
-    };
+    let with = axis.map_or(String::new(), |file| {
+        format!(" --axis {}", quoted_path(file))
+    });
     // A file that is there is kept, and would be refused.
-    let new = || new_axis_file(Path::new(&log.input.path));
-    let init = format!("stiction check {path}{with} --init {}", new());
+    let file = || axis.map_or_else(|| new_axis_file(Path::new(&log.input.path)), quoted_path);
+    let init = || {
+        let new = new_axis_file(Path::new(&log.input.path));
+        format!("stiction check {path}{with} --init {new}")
+    };
     if !log.input.assumed.is_empty() {
         out.push("to write down the units that were assumed, and correct them there:".into());
-        out.push(format!("  {init}"));
+        out.push(format!("  {}", init()));
     }
-    if log.next == Lead::Simulate {
-        out.push(format!(
-            "where a fit by simulation is refused too, record what is named above as {ANOTHER_LOG}, then"
-        ));
-        out.push(format!(
-            "  stiction identify {ANOTHER_LOG}{with} --out another"
-        ));
-    }
-    let command = match log.next {
-        Lead::Identify => format!("stiction identify {path}{with} --out result"),
-        Lead::Together => {
-            out.push("with all logs that are listed:".into());
+    let identify = |how: &str| format!("stiction identify {path}{how} --out result");
+    let command = match &log.next {
+        Action::Listed => {
+            out.push("with all logs that are listed and fitted:".into());
             format!("stiction identify{with} --out result")
         }
-        Lead::Listed => {
-            out.push(
-                "with the logs that are fitted; this one is validated on (validate = \"all\"):"
-                    .into(),
-            );
-            format!("stiction identify{with} --out result")
-        }
-        Lead::Unfitted => {
+        Action::Remove { table, line } => {
             out.push(format!(
-                "leave validate = \"all\" out of [[log]] of a log that is to be fitted{}, then",
-                axis.map_or(String::new(), |file| format!(" in {}", quoted_path(file)))
+                "leave {line} out of {table} of a log that is to be fitted, in {}, then",
+                file()
             ));
             format!("stiction identify{with} --out result")
         }
-        Lead::AxisFile => match (&log.line, axis) {
-            (
-                Some(Cure::Line {
-                    table,
-                    line,
-                    replaces,
-                }),
-                _,
-            ) => {
-                let (place, file) = match axis {
-                    Some(file) => (format!("in {}", quoted_path(file)), quoted_path(file)),
-                    None => {
-                        let file = new();
-                        (format!("in a new file {file}"), file)
-                    }
-                };
-                let key = line.split(' ').next().unwrap_or_default();
-                out.push(match replaces {
-                    true => format!("{place}, in place of the line {key}, write"),
-                    false => format!("{place}, under a line [{table}], write"),
-                });
-                out.push(format!("    {line}"));
-                out.push("then".into());
-                format!("stiction identify {path} --axis {file} --out result")
-            }
-            (_, Some(file)) => {
-                out.push(format!("correct {} as said above, then", quoted_path(file)));
-                format!("stiction identify {path}{with} --out result")
-            }
-            (_, None) => {
-                out.push("to correct what is said above in it:".into());
-                init
-            }
-        },
-        Lead::Simulate => {
-            format!("stiction identify {path}{with} --method output-error --out result")
+        Action::Line {
+            table,
+            line,
+            replaces,
+        } => {
+            let line = Line {
+                file: file(),
+                table: table.clone(),
+                text: line.clone(),
+                replaces: *replaces,
+                begins: axis.is_none(),
+            };
+            out.extend(line.place().lines().map(str::to_string));
+            out.push(format!("    {}", line.text));
+            identify(&format!(" --axis {}", line.file))
         }
-        Lead::Record => {
+        Action::AxisFile if axis.is_none() => {
+            out.push("to correct what is said above in it:".into());
+            init()
+        }
+        Action::AxisFile => {
+            out.push(format!("correct {} as said above, then", file()));
+            identify(&with)
+        }
+        Action::Simulate => {
+            out.push(format!(
+                "where a fit by simulation is refused too, record what is named above as {ANOTHER_LOG}, then"
+            ));
+            out.push(format!(
+                "  stiction identify {ANOTHER_LOG}{with} --out another"
+            ));
+            identify(&format!("{with} --method output-error"))
+        }
+        Action::Record => {
             out.push(format!(
                 "record another log as {ANOTHER_LOG}, slow and fast and both ways, with its force below its limit (what to record: \
                  docs/procedures.md), then"
             ));
             format!("stiction check {ANOTHER_LOG}{with}")
         }
+        _ => identify(&with),
     };
     out.push(format!("next: {command}"));
     out

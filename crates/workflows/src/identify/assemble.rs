@@ -12,8 +12,9 @@ use crate::source::Source;
 use stiction_files::Axis;
 use stiction_files::axis::{ListedLog, Use};
 use stiction_files::result::{
-    CovarianceEntry, Cure, ElementsEntry, HalfWidthEntry, LawEntry, LowSpeedEntry, ParameterEntry,
-    PartnerEntry, ResolvedAxis, ResultFile, SCHEMA, Search, Unsettled, ValidationEntry,
+    Action, CovarianceEntry, ElementsEntry, HalfWidthEntry, LawEntry, LowSpeedEntry,
+    ParameterEntry, PartnerEntry, ResolvedAxis, ResultFile, SCHEMA, Search, Unsettled,
+    ValidationEntry,
 };
 use stiction_files::symbols;
 use stiction_identify::{
@@ -67,16 +68,15 @@ pub(super) fn unsettled(record: &Record, travel: f64) -> Option<Unsettled> {
 
 /// A cure as it goes into an axis file: in place of a line with its key, where the file has one. None where it is about one log and the
 /// file lists several.
-fn in_file(cure: Cure, axis: &Axis) -> Option<Cure> {
-    let Cure::Line { table, line, .. } = cure else {
+fn in_file(cure: Action, axis: &Axis) -> Option<Action> {
+    let Action::Line { table, line, .. } = cure else {
         return Some(cure);
     };
     if table == "log" && !axis.logs.is_empty() {
         return None;
     }
-    let key = line.split(' ').next().unwrap_or_default();
-    let replaces = axis.gives(&format!("{table}.{key}"));
-    Some(Cure::Line {
+    let replaces = axis.gives(&format!("{table}.{}", Action::key(&line)));
+    Some(Action::Line {
         table,
         line,
         replaces,

@@ -5,7 +5,7 @@ use super::trust::Evidence;
 use super::verdict::{HeldOut, Validation};
 use crate::source::Source;
 use crate::turns::turns;
-use stiction_files::result::{Compensation, Next};
+use stiction_files::result::{Action, Compensation};
 use stiction_identify::Series;
 use stiction_say::On;
 
@@ -36,14 +36,15 @@ pub(super) fn held_out(evidence: &Evidence) -> Option<(Compensation, HeldOut)> {
         let log = evidence.held_out.iter().find(|log| log.name() == *name);
         let inverted = log.is_some_and(has_wrong_sign);
         let simpler = evidence.simpler.get(at).copied().flatten();
+        let logs = vec![name.clone()];
         let next = match log {
             // What is one part of a log is no log to type.
-            None => Next::Check,
-            Some(log) if log.part.is_some() => Next::Check,
+            None => Action::CHECK,
+            Some(log) if log.part.is_some() => Action::CHECK,
             // Nor is one that the axis file never fits.
-            Some(log) if log.never_fitted || inverted => Next::CheckTheOther,
-            Some(_) if shows_friction(series, top_speed(own)) => Next::IdentifyTheOther,
-            Some(_) => Next::CheckTheOther,
+            Some(log) if log.never_fitted || inverted => Action::Check { logs },
+            Some(_) if shows_friction(series, top_speed(own)) => Action::Identify { logs },
+            Some(_) => Action::Check { logs },
         };
         validations.push(Validation {
             log: name.clone(),

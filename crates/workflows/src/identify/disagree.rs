@@ -6,7 +6,7 @@ use crate::identify::Method;
 use crate::source::Source;
 use std::fmt::Write;
 use stiction_codes::Code;
-use stiction_files::result::{CauseEntry, Cure};
+use stiction_files::result::{Action, CauseEntry};
 use stiction_files::{Warning, shell, symbols};
 use stiction_identify::{Disagreement, FittedLaw};
 use stiction_log::Motion;
@@ -137,7 +137,7 @@ pub(super) fn cause(law: &FittedLaw) -> Option<CauseEntry> {
         code: Code::LogsDisagree,
         text: format!("the logs differ in {}", first.name),
         size: Percent::error(100.0 * first.part).digits(2),
-        cure: key.map(|key| Cure::Line {
+        cure: key.map(|key| Action::Line {
             table: "terms".into(),
             line: format!("{key} = true"),
             replaces: false,

@@ -5,7 +5,7 @@ use super::{pitch, settled};
 use crate::check::ANGLE_FOR_GRAVITY;
 use crate::source::Source;
 use stiction_codes::Code;
-use stiction_files::result::{CauseEntry, Cure, EffectEntry, LawEntry, SizeEntry};
+use stiction_files::result::{Action, CauseEntry, EffectEntry, LawEntry, SizeEntry};
 use stiction_files::{Warning, symbols};
 use stiction_identify::{Dependence, Effect, FittedLaw, Found, LawKind};
 use stiction_log::Motion;
@@ -260,12 +260,12 @@ fn explained(found: &Found, law: &FittedLaw) -> String {
     )
 }
 
-fn fit_exponent() -> Cure {
+fn fit_exponent() -> Action {
     of_terms(FIT_EXPONENT.into())
 }
 
-fn of_terms(line: String) -> Cure {
-    Cure::Line {
+fn of_terms(line: String) -> Action {
+    Action::Line {
         table: "terms".into(),
         line,
         replaces: false,
@@ -273,7 +273,7 @@ fn of_terms(line: String) -> Cure {
 }
 
 /// What takes an effect into the fit, where there is something that the fit has not.
-fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
+fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Action> {
     let log = &sources[0].log;
     // Elements have no levels that depend on anything.
     let of_level = |term: Dependence| {
@@ -304,12 +304,13 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
             }
         }
         Effect::Bristles if law.terms.dependences.is_empty() => {
-            let law = match law.law.has_stribeck() {
+            let kind = match law.law.has_stribeck() {
                 true => LawKind::Gms,
                 false => LawKind::MaxwellSlip,
             };
-            Some(Cure::Law {
-                law: law.name().into(),
+            Some(Action::Law {
+                law: kind.name().into(),
+                asymmetric: law.law.asymmetric,
             })
         }
         Effect::Curve if law.law.has_stribeck() && !law.law.exponent_fitted => Some(fit_exponent()),
@@ -326,13 +327,14 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Cure> {
 }
 
 /// What a cure asks for.
-fn to_do(cure: &Cure) -> String {
+fn to_do(cure: &Action) -> String {
     match cure {
-        Cure::Line { table, line, .. } => {
+        Action::Line { table, line, .. } => {
             let lines = line.replace('\n', " and ");
             format!("Set {lines} under [{table}] in the axis file")
         }
-        Cure::Law { law } => format!("Try the law {law}"),
+        Action::Law { law, .. } => format!("Try the law {law}"),
+        _ => String::new(),
     }
 }
 

@@ -3,7 +3,7 @@
 use super::load::Asked;
 use stiction_codes::Code;
 use stiction_files::axis::entry;
-use stiction_files::result::{CauseEntry, Cure};
+use stiction_files::result::{Action, CauseEntry};
 use stiction_log::{Log, Motion, Offset, Role};
 use stiction_number::full;
 
@@ -44,7 +44,7 @@ pub(super) fn cause(asked: Asked, log: &Log) -> Option<CauseEntry> {
         code: Code::ForceUnit,
         text: text.into(),
         size: format!("its scale to {wanted} is missing, without which no study can be simulated"),
-        cure: Some(Cure::Line {
+        cure: Some(Action::Line {
             table: "columns".into(),
             line: joined.map_or_else(|| line.clone(), |column| column.line(&line)),
             replaces: false,

@@ -1,7 +1,7 @@
 //! The part of a log in which what changes with time hardly does: a level of friction that has settled, clocks that have not come apart.
 
 use crate::source::Source;
-use stiction_files::result::Cure;
+use stiction_files::result::Action;
 use stiction_identify::Found;
 use stiction_log::Log;
 use stiction_number::short;
@@ -22,8 +22,8 @@ fn whole(sources: &[Source]) -> Option<&Log> {
     (!chosen).then_some(&source.log)
 }
 
-fn crop(from: f64, to: f64) -> Cure {
-    Cure::Line {
+fn crop(from: f64, to: f64) -> Action {
+    Action::Line {
         table: "log".into(),
         line: format!("crop = [\"{} s\", \"{} s\"]", short(from), short(to)),
         replaces: false,
@@ -31,7 +31,7 @@ fn crop(from: f64, to: f64) -> Cure {
 }
 
 /// The line of the axis file that keeps the settled part of a log; `None` where there is none.
-pub(super) fn part(drift: &Found, sources: &[Source]) -> Option<Cure> {
+pub(super) fn part(drift: &Found, sources: &[Source]) -> Option<Action> {
     let log = whole(sources)?;
     let levels: Vec<f64> = drift.course.iter().map(|(_, level)| *level).collect();
     let first = settled_from(&levels)?;
@@ -43,7 +43,7 @@ pub(super) fn part(drift: &Found, sources: &[Source]) -> Option<Cure> {
 }
 
 /// The part at the beginning of the log within which a delay that grows so fast (s/s) hardly does; `None` where it is too short.
-pub(super) fn before_the_clocks_part(drift: f64, sources: &[Source]) -> Option<Cure> {
+pub(super) fn before_the_clocks_part(drift: f64, sources: &[Source]) -> Option<Action> {
     let log = whole(sources)?;
     let (first, last) = (*log.time.first()?, *log.time.last()?);
     let part = (HARDLY / log.rate_hz / drift.abs()).floor();

@@ -13,7 +13,7 @@ use super::verdict::{
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::Warning;
-use stiction_files::result::{BetterLaw, CauseEntry, Compensation, LawEntry, Next, Trust};
+use stiction_files::result::{Action, BetterLaw, CauseEntry, Compensation, LawEntry, Trust};
 use stiction_files::symbols;
 use stiction_identify::procedure::StepFit;
 use stiction_identify::{Effect, Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
@@ -86,15 +86,10 @@ impl Judged {
                 .map(|p| p.name.to_string())
                 .collect()
         };
-        let next = against.first().map_or(Next::Export, |first| first.next);
-        let other = match next {
-            Next::IdentifyTheOther | Next::CheckTheOther => logs_to(next, &against),
-            _ => Vec::new(),
-        };
+        let next = first(&against);
         let trust = Trust {
             trustworthy: against.is_empty(),
             next,
-            other,
             reasons: against.iter().map(|own| own.reason.to_string()).collect(),
             cause: None,
             compensation,
@@ -108,13 +103,13 @@ impl Judged {
     /// The same with the cause of what the law leaves; not where the search has to end, the axis file to be set right or
     /// another motion to be recorded first, which changes what is left.
     fn with_cause(mut self, evidence: &Evidence) -> Self {
-        let first = [Next::AxisFile, Next::Again, Next::Finish];
+        let first = [Action::AxisFile, Action::Again, Action::Finish];
         // Nor where the logs have different signs, which is all that is left.
         if turned::named(evidence.sources, &evidence.law.disagreements).is_some() {
             return self;
         }
-        self.trust.better = match self.trust.next {
-            Next::AnotherLaw => evidence.better.cloned(),
+        self.trust.better = match &self.trust.next {
+            Action::Law { .. } => evidence.better.cloned(),
             _ => evidence.clearly_better().cloned(),
         };
         if evidence.shows_friction() && !first.contains(&self.trust.next) {
@@ -148,10 +143,23 @@ enum Shown {
     TooLittle,
 }
 
-/// The logs that contradict a law, as far as the first reason leads to them: one command is about logs of one kind.
-fn logs_to(next: Next, against: &[Against]) -> Vec<String> {
-    let own = against.iter().filter(|own| own.next == next);
-    own.filter_map(|own| own.log.clone()).collect()
+/// What the first reason leads to; where it names a log, the others that lead to the same are named with it: one command is about
+/// logs of one kind.
+fn first(against: &[Against]) -> Action {
+    let mut all = against.iter().map(|own| &own.next);
+    let mut next = all.next().cloned().unwrap_or_default();
+    for other in all {
+        match (&mut next, other) {
+            (Action::Check { logs }, Action::Check { logs: others })
+            | (Action::Identify { logs }, Action::Identify { logs: others })
+                if !logs.is_empty() =>
+            {
+                logs.extend(others.iter().cloned());
+            }
+            _ => {}
+        }
+    }
+    next
 }
 
 /// What no interval knows, so that no parameter is a constant of the machine.
@@ -244,15 +252,18 @@ impl Evidence<'_> {
     /// What leads on where this law will not do. No law leads to one that leads back to it: one that the data choose leads to
     /// another only as the cure of its shape, and one that was asked for to the best of those that it was compared with, or, where
     /// it is held back, to the choice, which has more of its kind.
-    fn another_law(&self) -> Next {
+    fn another_law(&self) -> Action {
         let own = self.laws.iter().find(|law| law.reported);
         let held_back = own.is_some_and(|own| own.held_back.is_some());
         if self.chosen {
             self.where_no_law_predicts()
         } else if own.is_none() || held_back && FAMILIES.contains(&self.law.law.kind) {
-            Next::LetTheDataChoose
-        } else if self.better.is_some() {
-            Next::AnotherLaw
+            Action::LetTheDataChoose
+        } else if let Some(BetterLaw { law, asymmetric }) = self.better {
+            Action::Law {
+                law: law.clone(),
+                asymmetric: *asymmetric,
+            }
         } else {
             self.where_no_law_predicts()
         }
@@ -278,10 +289,10 @@ impl Evidence<'_> {
 
     /// What leads on where no law does: a coarse encoder is not differentiated by a simulation; motion in one direction
     /// stays that.
-    pub fn where_no_law_predicts(&self) -> Next {
+    pub fn where_no_law_predicts(&self) -> Action {
         match self.can_be_simulated && self.moves_both_ways {
-            true => Next::Simulate,
-            false => Next::Check,
+            true => Action::Simulate,
+            false => Action::CHECK,
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Whether a law may be used for compensation: pure functions of facts and thresholds.
 
-use stiction_files::result::Next;
+use stiction_files::result::Action;
 use stiction_identify::Status;
 use stiction_policy::Verdict as Policy;
 use stiction_say::{On, Reason};
@@ -11,20 +11,17 @@ pub(super) struct Against {
     /// Why.
     pub reason: Reason,
     /// What leads on from it.
-    pub next: Next,
+    pub next: Action,
     /// Whether data contradict the law, so that its constants do not hold.
     pub contradicts: bool,
-    /// The log that was not fitted and contradicts it.
-    pub log: Option<String>,
 }
 
 impl Against {
-    fn new(reason: Reason, next: Next) -> Self {
+    fn new(reason: Reason, next: Action) -> Self {
         Self {
             reason,
             next,
             contradicts: false,
-            log: None,
         }
     }
 }
@@ -67,9 +64,9 @@ pub(super) struct Facts {
     /// The best of the laws beside it, where they were compared.
     pub best: Option<Best>,
     /// What leads on where another law may do.
-    pub another_law: Next,
+    pub another_law: Action,
     /// What leads on where no law does.
-    pub no_law: Next,
+    pub no_law: Action,
 }
 
 /// Findings about logs and axis file, each in its own words where it was made.
@@ -124,7 +121,7 @@ pub(super) struct Validation {
     /// Whether its force has the other sign than that of the fitted logs.
     pub inverted: bool,
     /// What leads on where the law does not hold there.
-    pub next: Next,
+    pub next: Action,
 }
 
 /// The law with the least held-out error.
@@ -145,24 +142,24 @@ pub(super) struct Best {
 /// All that speaks against a law that was fitted to whole records, what has to be set right first before the rest.
 pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
     let mut all = Vec::new();
-    let mut say = |reason: Reason, next: Next| all.push(Against::new(reason, next));
+    let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
     if facts.lacks_intervals {
-        say(Reason::NoIntervals, Next::Finish);
+        say(Reason::NoIntervals, Action::Finish);
     }
     of_logs(&facts.found, &mut say);
     if let Some(text) = &facts.found.contradicted {
         all.push(Against {
             contradicts: true,
-            ..Against::new(Reason::Finding(text.clone()), Next::AxisFile)
+            ..Against::new(Reason::Finding(text.clone()), Action::AxisFile)
         });
     }
-    let mut say = |reason: Reason, next: Next| all.push(Against::new(reason, next));
+    let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
     if facts.found.mixed_signs.is_none() {
         of_axis_file(facts, policy, &mut say);
     }
     if !matches!(facts.status, Status::Converged | Status::Interrupted) {
         let status = facts.status.name();
-        say(Reason::NotConverged { status }, facts.another_law);
+        say(Reason::NotConverged { status }, facts.another_law.clone());
     }
     if facts.explained.is_nan() || facts.explained < policy.least_r2 {
         let reason = Reason::PoorFit {
@@ -170,23 +167,23 @@ pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
             least: policy.least_r2,
             signal: facts.signal,
         };
-        say(reason, facts.another_law);
+        say(reason, facts.another_law.clone());
     }
     if !facts.moves_both_ways {
-        say(Reason::OneDirection, Next::Check);
+        say(Reason::OneDirection, Action::CHECK);
     }
     if facts.lacks_coulomb {
-        say(Reason::NoCoulomb, facts.no_law);
+        say(Reason::NoCoulomb, facts.no_law.clone());
     }
     if facts.stays_in_presliding {
-        say(Reason::NeverSlides, Next::Check);
+        say(Reason::NeverSlides, Action::CHECK);
     }
     of_saturation(facts.saturated, policy, &mut say);
     if let Some(part) = facts.not_given {
-        say(Reason::ForceNotGiven { part }, Next::Check);
+        say(Reason::ForceNotGiven { part }, Action::CHECK);
     }
     if let Some(text) = &facts.found.unlikely {
-        say(Reason::Finding(text.clone()), Next::AxisFile);
+        say(Reason::Finding(text.clone()), Action::AxisFile);
     }
     if let Some(best) = &facts.best
         && best.error < policy.better_law * best.own
@@ -198,7 +195,7 @@ pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
             error: best.error,
             own: best.own,
         };
-        say(reason, facts.another_law);
+        say(reason, facts.another_law.clone());
     }
     if let Some(held_out) = &facts.held_out {
         all.extend(of_held_out(held_out, facts, policy));
@@ -207,16 +204,16 @@ pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
 }
 
 /// What is wrong with the logs together.
-fn of_logs(found: &Findings, say: &mut impl FnMut(Reason, Next)) {
+fn of_logs(found: &Findings, say: &mut impl FnMut(Reason, Action)) {
     if let Some((inverted, others)) = found.mixed_signs.clone() {
-        say(Reason::MixedSigns { inverted, others }, Next::FirstLog);
+        say(Reason::MixedSigns { inverted, others }, Action::FirstLog);
     } else if let Some((parameter, ratio)) = found.several_axes.clone() {
-        say(Reason::SeveralAxes { parameter, ratio }, Next::FirstLog);
+        say(Reason::SeveralAxes { parameter, ratio }, Action::FirstLog);
     }
     for (text, next) in [
-        (&found.overflow, Next::AxisFile),
-        (&found.delays_apart, Next::FirstLog),
-        (&found.unused, Next::FirstLog),
+        (&found.overflow, Action::AxisFile),
+        (&found.delays_apart, Action::FirstLog),
+        (&found.unused, Action::FirstLog),
     ] {
         if let Some(text) = text {
             say(Reason::Finding(text.clone()), next);
@@ -225,10 +222,10 @@ fn of_logs(found: &Findings, say: &mut impl FnMut(Reason, Next)) {
 }
 
 /// What the axis file lacks where the law explains little.
-fn of_axis_file(facts: &Facts, policy: &Policy, say: &mut impl FnMut(Reason, Next)) {
+fn of_axis_file(facts: &Facts, policy: &Policy, say: &mut impl FnMut(Reason, Action)) {
     let found = &facts.found;
     let poor = facts.error.is_nan() || facts.error > policy.poor_fit;
-    let mut finding = |text: &String| say(Reason::Finding(text.clone()), Next::AxisFile);
+    let mut finding = |text: &String| say(Reason::Finding(text.clone()), Action::AxisFile);
     // Where the position jumps, all else is seen in pieces; one that begins again is refused whatever is left.
     if let Some(text) = &found.jump
         && found.overflow.is_none()
@@ -243,20 +240,20 @@ fn of_axis_file(facts: &Facts, policy: &Policy, say: &mut impl FnMut(Reason, Nex
     {
         finding(text);
     } else if poor && facts.moves_both_ways && facts.is_negative {
-        say(Reason::InvertedForce, Next::AxisFile);
+        say(Reason::InvertedForce, Action::AxisFile);
     } else if poor && facts.has_other_clock {
-        say(Reason::UnalignedClocks, Next::AxisFile);
+        say(Reason::UnalignedClocks, Action::AxisFile);
     }
 }
 
 /// Refuses a force that is saturated in too many samples.
-fn of_saturation(saturated: f64, policy: &Policy, say: &mut impl FnMut(Reason, Next)) {
+fn of_saturation(saturated: f64, policy: &Policy, say: &mut impl FnMut(Reason, Action)) {
     if saturated > policy.most_saturated {
         let reason = Reason::Saturated {
             part: saturated,
             most: policy.most_saturated,
         };
-        say(reason, Next::Check);
+        say(reason, Action::CHECK);
     }
 }
 
@@ -277,22 +274,24 @@ fn of_held_out(held_out: &HeldOut, facts: &Facts, policy: &Policy) -> Vec<Agains
             fitted,
             inverted: v.inverted,
         },
-        next: v.next,
+        next: v.next.clone(),
         contradicts: true,
-        log: Some(v.log.clone()),
     });
     let mut all: Vec<Against> = failed.collect();
-    let mut say = |reason: Reason, next: Next| all.push(Against::new(reason, next));
+    let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
     let most = policy.most_friction_left;
     if error.is_nan() || error > most {
-        say(Reason::FrictionLeft { error, most, on }, facts.no_law);
+        say(
+            Reason::FrictionLeft { error, most, on },
+            facts.no_law.clone(),
+        );
     }
     if on == On::Fitted && held_out.chosen {
-        say(Reason::NothingHeldOut, facts.no_law);
+        say(Reason::NothingHeldOut, facts.no_law.clone());
     }
     let reversals = facts.reversals;
     if (reversals as f64) < policy.least_reversals && facts.coulomb_is_open {
-        say(Reason::FewReversals { reversals }, Next::Check);
+        say(Reason::FewReversals { reversals }, Action::CHECK);
     }
     all
 }
@@ -300,10 +299,13 @@ fn of_held_out(held_out: &HeldOut, facts: &Facts, policy: &Policy) -> Vec<Agains
 /// What is known of a law whose static parameters were found first.
 pub(super) fn of_two_steps(statics_differ: bool, stiffness_is_open: bool) -> Option<Against> {
     match (statics_differ, stiffness_is_open) {
-        (true, _) => Some(Against::new(Reason::StaticsDiffer, Next::LetTheDataChoose)),
+        (true, _) => Some(Against::new(
+            Reason::StaticsDiffer,
+            Action::LetTheDataChoose,
+        )),
         (false, true) => Some(Against::new(
             Reason::OpenStiffness { why: None },
-            Next::Check,
+            Action::CHECK,
         )),
         (false, false) => None,
     }
@@ -361,33 +363,33 @@ pub(super) fn of_simulation(
     policy: &Policy,
 ) -> Vec<Against> {
     let mut all = of_records(facts, policy);
-    let mut say = |reason: Reason, next: Next| all.push(Against::new(reason, next));
+    let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
     if simulated.is_biased(policy) {
         let (samples, unknowns) = simulated.samples;
         say(
             Reason::CorrelatedResidual { samples, unknowns },
-            Next::Check,
+            Action::CHECK,
         );
     }
     if simulated.jumps {
-        say(Reason::SimulationJumps, Next::Check);
+        say(Reason::SimulationJumps, Action::CHECK);
     }
     if simulated.nothing_determined {
         let closed_loop = simulated.closed_loop;
-        say(Reason::NothingDetermined { closed_loop }, Next::Check);
+        say(Reason::NothingDetermined { closed_loop }, Action::CHECK);
     }
     for unseen in &simulated.unseen {
         if let Some(reason) = of_unseen(unseen, policy) {
-            say(reason, Next::Check);
+            say(reason, Action::CHECK);
         }
     }
     if simulated.never_breaks_away && !facts.stays_in_presliding {
-        say(Reason::NeverBreaksAway, Next::Record);
+        say(Reason::NeverBreaksAway, Action::Record);
     }
     // What a check has to say has led here.
     for against in &mut all {
-        if against.next == Next::Check {
-            against.next = Next::Record;
+        if against.next == Action::CHECK {
+            against.next = Action::Record;
         }
     }
     all
@@ -442,28 +444,28 @@ pub(super) struct CurveFacts {
 /// All that speaks against a steady curve.
 pub(super) fn of_curve(facts: &CurveFacts, policy: &Policy) -> Vec<Against> {
     let mut all = Vec::new();
-    let mut say = |reason: Reason, next: Next| all.push(Against::new(reason, next));
+    let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
     if facts.lacks_intervals {
-        say(Reason::NoIntervals, Next::Finish);
+        say(Reason::NoIntervals, Action::Finish);
     }
     if facts.status == Status::Interrupted {
-        say(Reason::Interrupted, Next::Again);
+        say(Reason::Interrupted, Action::Again);
     }
     of_saturation(facts.saturated, policy, &mut say);
     let part = facts.outlying;
     if part > policy.most_outlying {
-        say(Reason::OutlyingPoints { part }, Next::Check);
+        say(Reason::OutlyingPoints { part }, Action::CHECK);
     }
     if facts.lacks_coulomb {
-        say(Reason::NoCoulomb, Next::Check);
+        say(Reason::NoCoulomb, Action::CHECK);
     }
     let (level, ratio) = facts.level;
     if ratio > policy.extrapolated_level {
-        say(Reason::Extrapolated { level, ratio }, Next::Check);
+        say(Reason::Extrapolated { level, ratio }, Action::CHECK);
     }
     if facts.explained.is_nan() || facts.explained < policy.least_r2 {
         let least = policy.least_r2;
-        say(Reason::PoorCurve { least }, Next::Check);
+        say(Reason::PoorCurve { least }, Action::CHECK);
     }
     all
 }
@@ -477,25 +479,25 @@ pub(super) fn of_steps(
     let mut all = Vec::new();
     match status {
         Status::Converged => {}
-        Status::Interrupted => all.push(Against::new(Reason::Interrupted, Next::Again)),
+        Status::Interrupted => all.push(Against::new(Reason::Interrupted, Action::Again)),
         other => {
             let status = other.name();
-            all.push(Against::new(Reason::NotConverged { status }, Next::Check));
+            all.push(Against::new(Reason::NotConverged { status }, Action::CHECK));
         }
     }
     if curve_is_assumed {
-        all.push(Against::new(Reason::AssumedCurve, Next::Record));
+        all.push(Against::new(Reason::AssumedCurve, Action::Record));
     }
     all.extend(
         open_stiffness
-            .map(|why| Against::new(Reason::OpenStiffness { why: Some(why) }, Next::Check)),
+            .map(|why| Against::new(Reason::OpenStiffness { why: Some(why) }, Action::CHECK)),
     );
     all
 }
 
 /// A search that the user stopped: nothing else is concluded from what it has.
 pub(super) fn of_a_stop() -> Vec<Against> {
-    vec![Against::new(Reason::Interrupted, Next::Again)]
+    vec![Against::new(Reason::Interrupted, Action::Again)]
 }
 
 #[cfg(test)]
@@ -529,8 +531,8 @@ mod tests {
                 validations: Vec::new(),
             }),
             best: None,
-            another_law: Next::AnotherLaw,
-            no_law: Next::Simulate,
+            another_law: Action::LetTheDataChoose,
+            no_law: Action::Simulate,
         }
     }
 
@@ -548,9 +550,9 @@ mod tests {
             Err(all) => panic!("{all:?}"),
         };
         let (reason, next) = only(&|facts| facts.moves_both_ways = false);
-        assert_eq!((reason, next), (Reason::OneDirection, Next::Check));
+        assert_eq!((reason, next), (Reason::OneDirection, Action::CHECK));
         let (reason, next) = only(&|facts| facts.explained = f64::NAN);
-        assert!(matches!(reason, Reason::PoorFit { .. }) && next == Next::AnotherLaw);
+        assert!(matches!(reason, Reason::PoorFit { .. }) && next == Action::LetTheDataChoose);
         let (reason, _) = only(&|facts| (facts.error, facts.is_negative) = (0.3, true));
         assert_eq!(reason, Reason::InvertedForce);
         let (reason, next) = only(&|facts| {
@@ -558,7 +560,7 @@ mod tests {
             facts.coulomb_is_open = true;
         });
         assert_eq!(reason, Reason::FewReversals { reversals: 2 });
-        assert_eq!(next, Next::Check);
+        assert_eq!(next, Action::CHECK);
     }
 
     #[test]
@@ -571,7 +573,7 @@ mod tests {
                     error: 0.2,
                     simpler,
                     inverted,
-                    next: Next::IdentifyTheOther,
+                    next: Action::IDENTIFY,
                 }];
             });
             all.iter().any(|own| own.contradicts)
@@ -590,7 +592,7 @@ mod tests {
             facts.explained = 0.1;
             facts.error = 0.9;
         });
-        assert_eq!(all[0].next, Next::AxisFile);
+        assert_eq!(all[0].next, Action::AxisFile);
         assert!(all[0].contradicts && all.len() == 2);
     }
 }

@@ -6,7 +6,7 @@ use crate::identify::{Files, Options, identify};
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_files::model::{ModelParameter, ReadModel};
-use stiction_files::result::{Cure, Next, Trust};
+use stiction_files::result::{Action, Trust};
 use stiction_files::{ModelFile, Warning};
 use stiction_identify::{LawKind, Observer};
 use stiction_parameters::{Name, Quantity};
@@ -118,18 +118,18 @@ fn misread(trust: &Trust) -> Option<String> {
     let of_cause = trust.cause.as_ref().and_then(|cause| {
         let found = format!("{} ({})", cause.text, cause.size);
         match cause.cure.as_ref() {
-            Some(Cure::Line { table, line, .. }) => {
+            Some(Action::Line { table, line, .. }) => {
                 let line = format!("{found}; write {line} under [{table}] of the axis file");
                 Some(format!("{line}. {FIRST}"))
             }
-            Some(Cure::Law { .. }) => None,
+            Some(_) => None,
             None => Some(format!(
                 "{found}, which no motion takes out: intervals will be wider than is expected here"
             )),
         }
     });
     let reasons = trust.reasons.iter();
-    let mut reasons = reasons.filter(|_| trust.next == Next::AxisFile);
+    let mut reasons = reasons.filter(|_| trust.next == Action::AxisFile);
     of_cause.or_else(|| Some(format!("{}. {FIRST}", reasons.next()?)))
 }
 
