@@ -20,13 +20,13 @@ use crate::interrupt;
 use crate::output;
 use crate::progress::{self};
 use crate::typed::Typed;
-use crate::{refused, wording};
+use crate::{next, wording};
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use stiction::commands::shell::text as path_text;
 use stiction::commands::{Bundle, FileError, Outcome};
-use stiction::result::Next;
+use stiction::result::Action;
 use stiction::{Error, LawKind, Method, bundle};
 
 /// Runs a command; every error is printed here, once.
@@ -67,14 +67,9 @@ pub fn run(arguments: &Arguments) -> Exit {
             let _ = writeln!(std::io::stderr(), "stiction: [{code}] {line}");
         }
         if let Command::Plan(plan) = &arguments.command {
-            refused::limits(&e, plan);
+            plan::limits(&e, plan);
         }
-        let next = refused::next(&e, &arguments.command)
-            .or_else(|| crate::next::corrected(&e))
-            .or_else(|| crate::next::not_regular(&e))
-            .or_else(|| crate::usage::next(&e, &arguments.command))
-            .or_else(|| crate::usage::other_file(&e, &arguments.command));
-        if let Some(next) = next {
+        if let Some(next) = next::of(&e, &arguments.command) {
             output::complain(&next);
         }
         if common.json {
@@ -169,11 +164,11 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
             true => stiction::commands::text::outcome(outcome),
             false => stiction::commands::text::brief(outcome),
         };
-        let next = match outcome.result.trust.next {
-            next @ (Next::Again | Next::Finish) => {
+        let next = match &outcome.result.trust.next {
+            next @ (Action::Again | Action::Finish) => {
                 let arguments = std::env::args_os().skip(1);
                 let arguments = arguments.map(|a| path_text(Path::new(&a)));
-                let kept = arguments.filter(|a| next == Next::Again || a != "--no-finish");
+                let kept = arguments.filter(|a| *next == Action::Again || a != "--no-finish");
                 let command = stiction::commands::text::command(going_on(next, kept).into_iter());
                 let why = stiction::commands::text::why(next);
                 format!("{why}\nnext: {command}\n")
@@ -202,9 +197,9 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
 }
 
 /// The same arguments, from the state that was kept where a search was stopped.
-fn going_on(next: Next, arguments: impl Iterator<Item = String>) -> Vec<String> {
+fn going_on(next: &Action, arguments: impl Iterator<Item = String>) -> Vec<String> {
     let mut all: Vec<String> = arguments.collect();
-    if next == Next::Again
+    if *next == Action::Again
         && let Some(typed) = Typed::new()
         && typed.values("resume").is_empty()
         && let Some(kept) = typed.values("checkpoint").first()

@@ -7,44 +7,22 @@ mod exit;
 mod interrupt;
 mod large;
 mod looking;
-mod misplaced;
 mod next;
 mod output;
 mod panics;
 mod progress;
-mod refused;
 mod typed;
-mod usage;
 mod wording;
 
 use arguments::Arguments;
 use clap::Parser;
-use clap::error::ErrorKind;
 use exit::Exit;
-use std::fmt::Write as _;
 use std::io::Write;
 use std::process::ExitCode;
 
 /// Keeps the memory that one search gives back for the next, where the system's would be asked for anew.
 #[global_allocator]
 static MEMORY: mimalloc::MiMalloc = mimalloc::MiMalloc;
-
-/// What leads on from arguments that are missing or cannot be read.
-fn led_on(error: &clap::Error) -> String {
-    let is_missing = error.kind() == ErrorKind::MissingRequiredArgument;
-    let known = is_missing.then(next::incomplete).flatten();
-    let Some((refused, next)) = known.or_else(|| Some((None, usage::unread(error)?))) else {
-        return String::new();
-    };
-    let mut text = String::from("\n");
-    for (_, line) in refused.iter().flat_map(wording::lines) {
-        let _ = writeln!(text, "stiction: {}", output::line(&line));
-    }
-    for line in next.lines() {
-        let _ = writeln!(text, "stiction: {}", output::line(line));
-    }
-    text
-}
 
 fn main() -> ExitCode {
     let arguments = match Arguments::try_parse() {
@@ -53,8 +31,11 @@ fn main() -> ExitCode {
             let printed = match e.use_stderr() {
                 // What was typed stands in it, such as the name of a file for an option.
                 true => {
-                    let text = format!("{}{}", e.render(), led_on(&e));
-                    std::io::stderr().write_all(output::plain(&text).as_bytes())
+                    let written = std::io::stderr();
+                    let written =
+                        (&written).write_all(output::plain(&e.render().to_string()).as_bytes());
+                    output::complain(&next::of_arguments(&e));
+                    written
                 }
                 false => e.print().and_then(|()| std::io::stdout().flush()),
             };

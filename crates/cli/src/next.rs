@@ -1,194 +1,411 @@
-//! What to type next where a file is not there, is another one, or cannot be written.
+//! What to type after a refusal: from the kind of the error and the command that was typed.
 
-use crate::arguments::{Arguments, Identify, Target};
-use crate::misplaced;
+use crate::arguments::{Arguments, Command};
 use crate::typed::Typed;
-use crate::usage::with_value;
-use clap::parser::ValueSource;
-use clap::{CommandFactory, ValueEnum};
+use crate::wording;
+use clap::CommandFactory;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::path::{Path, PathBuf};
-use stiction::commands::batch::read_results;
-use stiction::commands::recording::Motion;
-use stiction::commands::shell::{cycle_time, free_folder, quoted, quoted_path, text as path_text};
-use stiction::commands::{
-    FileError, Looks, Remedy, check_apart, has_runs, is_regular, looks, sha256,
+use stiction::commands::shell::{
+    cycle_option, cycle_time, free_folder, new_axis_file, quoted_path, text as path_text,
 };
-use stiction::{Axis, Code, Error, ModelFile};
+use stiction::commands::{
+    FileError, LogError, Looks, Wording, check_apart, has_runs, is_regular, looks, text,
+};
+use stiction::result::Action;
+use stiction::{Code, Error, ModelFile};
 
 /// What is to be known or done first, on a line of its own, and a command alone behind `next:`, to be pasted as it stands.
 pub fn after(first: &str, command: &str) -> String {
     format!("{first}\nnext: {command}")
 }
 
-/// The same of two commands.
-pub fn either(first: &str, command: &str, second: &str, other: &str) -> String {
-    format!("{}\n{}", after(first, command), after(second, other))
+fn next(command: &str) -> String {
+    format!("next: {command}")
 }
 
-/// Two commands, one after the other.
-pub fn in_turn(command: &str, then: &str) -> String {
-    format!("next: {command}\nthen: {then}")
-}
-
-/// What leads on from an input that is not there: the same command with the file that was probably meant, or a look at the folder.
-pub fn missing(error: &Error) -> Option<String> {
-    let listed;
-    let path = match error {
-        Error::File(FileError::Misfit { file, code, .. }) if *code == Code::LogIo => {
-            let axis = Axis::read(file).ok()?;
-            let mut logs = axis.logs.into_iter().map(|log| log.file);
-            listed = logs.find(|log| log.symlink_metadata().is_err())?;
-            &listed
+/// What to type next after an error; `None` where its message says all.
+pub fn of(error: &Error, command: &Command) -> Option<String> {
+    let given = Given::of(command);
+    match error {
+        Error::File(e) => given.of_file(e),
+        Error::Identify { action, .. } => Some(given.of_action(action)),
+        Error::SameLog { second, .. } => {
+            let typed = words();
+            let last = typed.iter().rposition(|word| Path::new(word) == second)?;
+            let mut kept = typed.clone();
+            kept.remove(last);
+            let once = is_read(&kept).then(|| next(&pasted(kept)));
+            once.or_else(|| Some(given.check()))
         }
-        Error::File(FileError::Log(e)) if e.kind.code() == Code::LogIo => e.file.as_deref()?,
-        Error::File(FileError::Config { file, .. }) => file,
-        _ => return None,
-    };
-    not_there(path)
+        Error::Usage { found, allowed } => given.of_usage(found, allowed),
+        Error::Checkpoint { file, .. } if is_regular(file) => {
+            Some(after("to begin anew:", &pasted(without("resume"))))
+        }
+        Error::Checkpoint { file, .. } => shown(file),
+        _ => None,
+    }
 }
 
-/// What leads on from a path at which there is nothing.
-pub fn not_there(path: &Path) -> Option<String> {
-    if path.as_os_str().is_empty() || path.symlink_metadata().is_ok() {
-        return None;
+/// What to type next where arguments are missing or cannot be read: the command completed, what was probably meant, or what it takes.
+pub fn of_arguments(error: &clap::Error) -> String {
+    let completed = (error.kind() == ErrorKind::MissingRequiredArgument)
+        .then(completed)
+        .flatten();
+    if let Some(command) = completed {
+        return next(&command);
     }
-    let folder = folder(path);
-    if let Some(meant) = meant(path, folder) {
-        if !std::env::args_os().any(|argument| Path::new(&argument) == path) {
-            return Some(after(
-                &format!("was {} meant? Name it there, then", quoted_path(&meant)),
+    let of = |kind: ContextKind| match error.get(kind)? {
+        ContextValue::String(one) => Some(one.clone()),
+        ContextValue::Strings(many) => many.first().cloned(),
+        _ => None,
+    };
+    let suggested = [
+        (ContextKind::InvalidValue, ContextKind::SuggestedValue),
+        (ContextKind::InvalidArg, ContextKind::SuggestedArg),
+    ];
+    let meant = suggested.into_iter().find_map(|(wrong, meant)| {
+        let (wrong, meant) = (of(wrong)?, of(meant)?);
+        let kept = words().into_iter().map(|word| match word.split_once('=') {
+            _ if word == wrong => meant.clone(),
+            Some((name, value)) if value == wrong => format!("{name}={meant}"),
+            Some((name, value)) if name == wrong => format!("{meant}={value}"),
+            _ => word,
+        });
+        let kept: Vec<String> = kept.collect();
+        is_read(&kept).then(|| pasted(kept))
+    });
+    match meant {
+        Some(command) => after("was this meant?", &command),
+        None => {
+            let typed = Typed::new().map_or(String::new(), |typed| format!("{} ", typed.command));
+            after("what it takes:", &format!("stiction {typed}--help"))
+        }
+    }
+}
+
+/// The command that was typed with a folder for what is written, and for an export a target, where nothing else is missing.
+fn completed() -> Option<String> {
+    let typed = Typed::new()?;
+    let file = typed.files().into_iter().next()?;
+    let mut kept = words();
+    let out = match typed.command.as_str() {
+        "export" => {
+            let model = ModelFile::read(&file).ok();
+            let rate = model.and_then(|model| model.source.rate_hz);
+            if let Some(rate) = rate.filter(|_| typed.values("cycle_time").is_empty()) {
+                kept.extend(["--cycle-time".into(), cycle_time(rate).to_string()]);
+            }
+            if typed.values("target").is_empty() {
+                kept.extend(["--target".into(), "c".into()]);
+            }
+            file.with_file_name("c")
+        }
+        "plan" | "batch" | "compare" => file.with_file_name(&typed.command),
+        _ => file.with_extension(""),
+    };
+    let out = match out == file {
+        true => file.with_file_name("result"),
+        false => out,
+    };
+    if typed.values("out").is_empty() {
+        kept.extend(["--out".into(), path_text(&free_folder(&out))]);
+    }
+    is_read(&kept).then(|| pasted(kept))
+}
+
+/// The files of the command that was typed.
+struct Given<'a> {
+    command: &'a Command,
+    logs: Vec<&'a Path>,
+    axis: Option<&'a Path>,
+}
+
+impl<'a> Given<'a> {
+    fn of(command: &'a Command) -> Self {
+        let all = |logs: &'a [PathBuf]| logs.iter().map(PathBuf::as_path).collect();
+        let (logs, axis) = match command {
+            Command::Check(own) => (all(&own.logs), own.axis.as_deref()),
+            Command::Identify(own) => (all(&own.logs), own.axis.as_deref()),
+            Command::Compare(own) => (all(&own.logs), own.axis.as_deref()),
+            Command::Plan(own) => (own.log.as_deref().into_iter().collect(), Some(&*own.axis)),
+            _ => (Vec::new(), None),
+        };
+        Self {
+            command,
+            logs,
+            axis,
+        }
+    }
+
+    /// A look at the logs.
+    fn check(&self) -> String {
+        let logs = self.logs.iter().map(|log| path_text(log)).collect();
+        self.of_action(&Action::Check { logs })
+    }
+
+    fn of_action(&self, action: &Action) -> String {
+        let file = self.axis.map_or("the axis file".into(), quoted_path);
+        match action {
+            Action::Check { logs } if logs.is_empty() && !self.logs.is_empty() => self.check(),
+            Action::Check { logs } => {
+                let logs = logs.iter().map(|log| quoted_path(Path::new(log)));
+                let axis = self
+                    .axis
+                    .map(|axis| format!("--axis {}", quoted_path(axis)));
+                let words: Vec<String> = logs.chain(axis).collect();
+                let command = format!("stiction check {}", words.join(" "));
+                after(
+                    "what the log shows, and what motion to record instead:",
+                    &command,
+                )
+            }
+            Action::Line { table, line, .. } => after(
+                &format!(
+                    "in {file}, under [{table}], in place of the line {0} write {line}, or leave it out, then",
+                    Action::key(line)
+                ),
                 &again(),
-            ));
+            ),
+            Action::Remove { table, line } => after(
+                &format!("leave {line} out of {table} of {file}, or correct it, then"),
+                &again(),
+            ),
+            Action::Simulate => {
+                let mut kept = words();
+                let out = kept.iter().position(|word| word.starts_with("--out"));
+                let method = ["--method".into(), "output-error".into()];
+                let at = out.unwrap_or(kept.len());
+                kept.splice(at..at, method);
+                next(&pasted(kept))
+            }
+            _ => next(&again()),
         }
-        let arguments = with(path, &meant);
-        let command = stiction::commands::text::command(arguments.into_iter());
-        return Some(after("was another file meant?", &command));
     }
-    shown(folder)
-}
 
-/// The command that shows what is in a folder, or in the nearest one above it that is there.
-pub fn shown(folder: &Path) -> Option<String> {
-    let there = folder.ancestors().map(or_here).find(|dir| dir.is_dir())?;
-    Some(after(
-        "which files there are:",
-        &format!("ls {}", quoted_path(there)),
-    ))
-}
-
-/// What leads on from a folder, or from what is no regular file, where a file is wanted.
-pub fn no_file(error: &Error) -> Option<String> {
-    let Error::File(FileError::Config { file, .. }) = error else {
-        return None;
-    };
-    if file.is_file() || file.symlink_metadata().is_err() {
-        return None;
+    /// The command with the value that the error states for an option, or without the options that it names.
+    fn of_usage(&self, found: &Wording, allowed: &Wording) -> Option<String> {
+        let named: Vec<_> = found.settings().collect();
+        if let Some((setting, value)) = named
+            .iter()
+            .find_map(|setting| Some((*setting, allowed.value(*setting)?)))
+        {
+            return Some(next(&with_value(&wording::option(setting), value)));
+        }
+        let typed = words();
+        let left_out = named.into_iter().find_map(|setting| {
+            let kept = without(&wording::option(setting));
+            (kept != typed && is_read(&kept)).then(|| next(&pasted(kept)))
+        });
+        left_out
+            .or_else(|| match self.command {
+                Command::Drift(drift) if !drift.limit.is_empty() => {
+                    Some(next(&pasted(without("limit"))))
+                }
+                _ => None,
+            })
+            .or_else(|| (!self.logs.is_empty()).then(|| self.check()))
+            .or_else(|| {
+                let axis = quoted_path(self.axis?);
+                Some(after(
+                    &format!("correct {axis} as said above, then"),
+                    &again(),
+                ))
+            })
     }
-    if let Some(next) = for_axis(file) {
-        return Some(next);
-    }
-    let takes = misplaced::typed().filter(|(_, files)| files.contains(file));
-    takes
-        .and_then(|(takes, _)| misplaced::inside(takes, file))
-        .or_else(|| shown(file))
-}
 
-/// What leads on where the folder of a file that is to be written is not there.
-pub fn no_folder(error: &Error) -> Option<String> {
-    let Error::File(FileError::Output { path, .. }) = error else {
-        return None;
-    };
-    let folder = folder(path);
-    let is_missing = folder.symlink_metadata().is_err() && path.symlink_metadata().is_err();
-    is_missing.then(|| format!("next: mkdir -p {} && {}", quoted_path(folder), again()))
-}
-
-/// What leads on from a batch of a folder that holds no logs, or the result of an earlier command.
-pub fn no_logs(inputs: &[PathBuf]) -> Option<String> {
-    let folder = inputs
-        .iter()
-        .find(|input| input.is_dir() && !has_logs(input, DEPTH))?;
-    misplaced::inside(misplaced::Takes::Logs, folder)
-}
-
-/// Folders below each other in which logs are looked for.
-const DEPTH: usize = 4;
-
-/// Whether a folder that holds no result, or one below it, holds a recording.
-fn has_logs(folder: &Path, depth: usize) -> bool {
-    let holds_result = ["result.json", "batch.json", "study.json", "drift.json"];
-    if holds_result.iter().any(|name| folder.join(name).is_file()) {
-        return false;
-    }
-    let entries = std::fs::read_dir(folder).into_iter().flatten();
-    let mut paths = entries.take(MOST_NAMES).flatten().map(|entry| entry.path());
-    paths.any(|path| match path.is_dir() {
-        true => depth > 0 && !path.is_symlink() && has_logs(&path, depth - 1),
-        false => looks(&path) == Some(Looks::Log),
-    })
-}
-
-/// What leads on from a table that a batch wrote where a log is wanted.
-pub fn table_as_log(error: &Error) -> Option<String> {
-    let Error::File(FileError::Log(e)) = error else {
-        return None;
-    };
-    let is_table = |file: &&Path| file.extension().is_some_and(|end| end == "parquet");
-    let file = e.file.as_deref().filter(is_table)?;
-    stiction::commands::drift::drift(file, &[], Default::default()).ok()?;
-    Some(after(
-        "it is a table that stiction batch writes:",
-        &format!("stiction drift {}", quoted_path(file)),
-    ))
-}
-
-/// What leads on from a file that is something else than what is read: the same command with the one that is wanted, or what
-/// makes one.
-pub fn other_form(error: &Error) -> Option<String> {
-    let Error::File(FileError::OtherForm { file, instead, .. }) = error else {
-        return None;
-    };
-    let Some(instead) = instead else {
-        if let Some(next) = for_axis(file) {
+    fn of_file(&self, error: &FileError) -> Option<String> {
+        if let Some(next) = corrected(error) {
             return Some(next);
         }
-        let (takes, typed) = misplaced::typed()?;
-        let file = typed.iter().find(|typed| *typed == file)?;
-        return match file.is_dir() {
-            true => misplaced::inside(takes, file),
-            false => misplaced::next(takes, file),
+        match error {
+            FileError::TooLarge { needed, .. } => Some(after(
+                "make it smaller, or allow so many samples:",
+                &with_value("max-samples", &rounded_up(*needed)),
+            )),
+            FileError::Runs { .. } => Some(after("to begin anew:", &pasted(without("resume")))),
+            FileError::Taken { .. } => {
+                let out = Typed::new()?.values("out");
+                let out = Path::new(out.first()?);
+                let free = free_folder(out);
+                (free != out).then(|| next(&with_value("out", &path_text(&free))))
+            }
+            FileError::Output { path, .. } => self.of_output(error, path),
+            FileError::OtherForm { file, instead, .. } => match instead {
+                Some(instead) => Some(next(&in_place_of(file, instead))),
+                None => self.of_other(file),
+            },
+            FileError::Config { file, .. } => self.of_other(file),
+            FileError::Log(e) => self.of_log(e),
+            _ => None,
+        }
+    }
+
+    /// What leads on where something cannot be written.
+    fn of_output(&self, error: &FileError, path: &Path) -> Option<String> {
+        if error.is_full_disk() {
+            let mut kept = words();
+            // What was done by then is kept in the folder.
+            let resume = "--resume".to_string();
+            let mut folders = path.ancestors().filter(|dir| !dir.as_os_str().is_empty());
+            if folders.any(has_runs) && !kept.contains(&resume) {
+                kept.push(resume);
+            }
+            return Some(after("make room on the disk, then", &pasted(kept)));
+        }
+        match self.command {
+            Command::Check(check) if check.init.as_deref() == Some(path) && path.exists() => {
+                let log = check.logs.first()?;
+                return Some(next(&begun(log)));
+            }
+            Command::Identify(own)
+                if own.searching.checkpoint.as_deref() == Some(path)
+                    && check_apart(&own.out, path).is_err() =>
+            {
+                let mut name = own.out.file_name()?.to_os_string();
+                name.push(".checkpoint");
+                let beside = own.out.with_file_name(name);
+                return Some(next(&with_value("checkpoint", &path_text(&beside))));
+            }
+            _ => {}
+        }
+        let folder = folder(path);
+        let is_missing = folder.symlink_metadata().is_err() && path.symlink_metadata().is_err();
+        is_missing.then(|| next(&format!("mkdir -p {} && {}", quoted_path(folder), again())))
+    }
+
+    /// What leads on from a recording that is refused.
+    fn of_log(&self, e: &LogError) -> Option<String> {
+        let file = e.file.as_deref()?;
+        if !is_regular(file) {
+            return self.of_other(file);
+        }
+        let code = e.kind.code();
+        let unclear = [
+            Code::LogMissing,
+            Code::LogAmbiguous,
+            Code::LogUnit,
+            Code::LogTime,
+            Code::LogValue,
+        ];
+        if !self.logs.contains(&file) {
+            return None;
+        }
+        if e.is_settled_by_line() {
+            let axis = self
+                .axis
+                .map_or_else(|| text::axis_file(&path_text(file)), quoted_path);
+            let check = format!("stiction check {} --axis {axis}", quoted_path(file));
+            return Some(after(&format!("with that line in {axis}:"), &check));
+        }
+        if code == Code::LogFormat || e.place.row.is_some() && code != Code::LogLimit {
+            return Some(after("correct the file, then", &again()));
+        }
+        match self.axis {
+            _ if !unclear.contains(&code) => None,
+            Some(axis) => Some(after(
+                &format!("with what is said above in {}:", quoted_path(axis)),
+                &again(),
+            )),
+            None => Some(after(
+                "for an axis file with the columns that are clear filled in:",
+                &begun(file),
+            )),
+        }
+    }
+
+    /// What leads on from a file that is missing, or something else than what the command takes: the one that is meant in a folder, what
+    /// that file is good for, or a look at the folder.
+    fn of_other(&self, file: &Path) -> Option<String> {
+        if self.axis == Some(file) && !matches!(self.command, Command::Plan(_)) && file.exists() {
+            return Some(after(
+                "for an axis file of that log:",
+                &begun(self.logs.first()?),
+            ));
+        }
+        if matches!(self.command, Command::Identify(own) if own.plan.as_deref() == Some(file)) {
+            return Some(next(&pasted(without("plan"))));
+        }
+        if !file.is_dir() {
+            return self
+                .use_of(file)
+                .map(|use_of| next(&use_of))
+                .or_else(|| shown(file));
+        }
+        let entries = std::fs::read_dir(file).ok()?.take(MOST_NAMES).flatten();
+        let mut files: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+        files.retain(|file| file.is_file());
+        files.sort();
+        let of = |wanted: Looks| files.iter().find(|file| looks(file) == Some(wanted));
+        let wanted = match self.command {
+            Command::Simulate(_) => of(Looks::Study),
+            Command::Plan(_) => of(Looks::Axis),
+            Command::Export(_) => of(Looks::Model),
+            _ => None,
         };
-    };
-    let arguments = with(file, instead);
-    Some(format!(
-        "next: {}",
-        stiction::commands::text::command(arguments.into_iter())
-    ))
+        if let Some(wanted) = wanted {
+            return Some(next(&in_place_of(file, wanted)));
+        }
+        if let Some(model) = of(Looks::Model) {
+            return self.use_of(model).map(|use_of| next(&use_of));
+        }
+        if of(Looks::Log).is_some() {
+            let axis = self.axis.map_or(String::new(), |axis| {
+                format!(" --axis {}", quoted_path(axis))
+            });
+            let out = quoted_path(&free_folder(&match file.file_name() {
+                Some(_) => file.with_file_name("batch"),
+                // `.` and `..` have none.
+                None => "batch".into(),
+            }));
+            let batch = format!(
+                "stiction batch {}{axis} --law lugre --out {out}",
+                quoted_path(file)
+            );
+            return Some(after("for every log of the folder:", &batch));
+        }
+        shown(file)
+    }
+
+    /// The command that a file is good for.
+    fn use_of(&self, file: &Path) -> Option<String> {
+        let path = quoted_path(file);
+        let beside = |name: &str| quoted_path(&file.with_file_name(name));
+        Some(match (looks(file)?, self.command) {
+            (Looks::Log, Command::Plan(_)) => begun(file),
+            (Looks::Log, Command::Drift(_)) => {
+                format!(
+                    "stiction batch {path} --law lugre --out {}",
+                    beside("batch")
+                )
+            }
+            (Looks::Log, _) => {
+                let out = quoted_path(&free_folder(&file.with_extension("")));
+                format!("stiction identify {path} --out {out}")
+            }
+            (Looks::Model, Command::Simulate(_)) => {
+                let study = quoted_path(&free_folder(&file.with_file_name("study.toml")));
+                format!("stiction simulate --init {study} --model {path}")
+            }
+            (Looks::Model, _) => {
+                let read = ModelFile::read(file).ok();
+                let cycle = cycle_option(read.and_then(|model| model.source.rate_hz));
+                let out = quoted_path(&free_folder(&file.with_file_name("c")));
+                format!("stiction export {path} --target c{cycle} --out {out}")
+            }
+            (Looks::Result, _) => {
+                let model = file.with_file_name("model.toml");
+                return (looks(&model)? == Looks::Model).then(|| self.use_of(&model))?;
+            }
+            (Looks::Study, _) => format!("stiction simulate {path} --out {}", beside("study")),
+            (Looks::Axis, _) => format!("stiction check --axis {path}"),
+            (Looks::Plan, _) => return None,
+        })
+    }
 }
 
-/// What makes an axis file where one is given to `--axis` that is none.
-fn for_axis(file: &Path) -> Option<String> {
-    let given = Typed::new()?
-        .values("axis")
-        .iter()
-        .any(|axis| axis == file.as_os_str());
-    let (takes, typed) = misplaced::typed()?;
-    let log = typed
-        .first()
-        .filter(|_| given && takes == misplaced::Takes::Logs)?;
-    let log = path_text(log);
-    let axis = stiction::commands::shell::new_axis_file(Path::new(&log));
-    Some(after(
-        "for an axis file of that log:",
-        &format!("stiction check {} --init {axis}", quoted(&log)),
-    ))
-}
-
-/// What leads on from a file whose content is refused: where to correct it, and the same command again.
-pub fn corrected(error: &Error) -> Option<String> {
-    let Error::File(error) = error else {
-        return None;
-    };
+/// What leads on from a typed file whose content is refused: where to correct it, and the same command again.
+fn corrected(error: &FileError) -> Option<String> {
     let mut files: Vec<(&Path, Vec<usize>)> = Vec::new();
     for (file, line) in error.to_correct() {
         match files.iter_mut().find(|(known, _)| *known == file) {
@@ -217,436 +434,134 @@ pub fn corrected(error: &Error) -> Option<String> {
         format!("{}{place}", quoted_path(file))
     });
     let places: Vec<String> = places.collect();
-    Some(after(
-        &format!("correct {}, then", places.join(" and ")),
-        &again(),
-    ))
+    let first = format!("correct {}, then", places.join(" and "));
+    Some(after(&first, &again()))
 }
 
-/// What leads on where there is a file already that an axis file was to be begun in: another name for it.
-pub fn another_init(error: &Error, file: &Path, log: &Path) -> Option<String> {
-    let Error::File(FileError::Output { path, .. }) = error else {
-        return None;
-    };
-    if path != file || path.symlink_metadata().is_err() {
-        return None;
-    }
-    let log_as_typed = quoted_path(log);
-    let begun = format!(
-        "stiction check {log_as_typed} --init {}",
-        stiction::commands::shell::new_axis_file(log)
-    );
-    if Axis::read(file).is_err() {
-        return Some(format!("next: {begun}"));
-    }
-    let own = format!("stiction check {log_as_typed} --axis {}", quoted_path(file));
-    Some(either(
-        "where that is the axis file of this log:",
-        &own,
-        "else:",
-        &begun,
-    ))
-}
+/// Most names of a folder that are looked at.
+const MOST_NAMES: usize = 10_000;
 
-/// What leads on from a folder of logs, where one log is wanted: all of them, one by one.
-pub fn many(error: &Error, logs: &[PathBuf]) -> Option<String> {
-    let Error::File(FileError::Log(e)) = error else {
-        return None;
-    };
-    let folder = e
-        .file
-        .as_deref()
-        .filter(|file| file.is_dir() && logs.iter().any(|log| log == file))?;
-    all_of(folder, logs)
-}
-
-/// The batch of all logs in a folder and the others that were typed beside it; where it holds none, what leads on from it.
-fn all_of(folder: &Path, logs: &[PathBuf]) -> Option<String> {
-    if !has_logs(folder, DEPTH) {
-        return misplaced::inside(misplaced::Takes::Logs, folder);
-    }
-    // The options of one log that are also those of many.
-    const SHARED: [&str; 8] = [
-        "axis",
-        "law",
-        "method",
-        "asymmetric",
-        "split",
-        "seed",
-        "threads",
-        "max-memory",
-    ];
-    let typed = Typed::new()?;
-    let mut command = vec!["batch".to_string()];
-    command.extend(logs.iter().map(|log| path_text(log)));
-    command.extend(typed.again(&SHARED));
-    let out = typed.again(&["out"]);
-    match out.is_empty() {
-        true => command.extend(["--out".to_string(), path_text(&beside(folder, "batch"))]),
-        false => command.extend(out),
-    }
-    let command = stiction::commands::text::command(command.into_iter());
-    Some(after("for every log of the folder:", &command))
-}
-
-/// What leads on from a folder without a table of results: one in a folder below it, else what makes one of the logs in it.
-pub fn table(error: &Error, folder: &Path) -> Option<String> {
-    if !folder.is_dir()
-        || !matches!(error, Error::File(FileError::Config { file, .. }) if file == folder)
-    {
-        return None;
-    }
-    let entries = std::fs::read_dir(folder).ok()?.take(MOST_NAMES).flatten();
-    let mut tables: Vec<PathBuf> = entries
-        .map(|entry| entry.path().join("results.parquet"))
-        .collect();
-    tables.retain(|table| table.is_file());
-    if let Some(table) = tables.iter().min() {
-        return Some(format!("next: {}", in_place_of(folder, table)));
-    }
-    if !has_logs(folder, DEPTH) {
-        return misplaced::inside(misplaced::Takes::Table, folder);
-    }
-    let out = beside(folder, "batch");
-    let table = out.join("results.parquet");
-    let [folder, out, table] = [folder, &out, &table].map(quoted_path);
-    let batch = format!("stiction batch {folder} --law lugre --out {out}");
-    let drift = format!("stiction drift {table}");
-    Some(format!(
-        "where it is a folder of logs:\n{}",
-        in_turn(&batch, &drift)
-    ))
-}
-
-/// What leads on from a table of which no log was identified: why the first one was not; and from a limit of another: one that is.
-pub fn not_followed(error: &Error, table: &Path, has_limit: bool) -> Option<String> {
-    if error.code() != Code::Usage || !table.is_file() {
-        return None;
-    }
-    let mut first = None;
-    let mut followed = None;
-    read_results(table, |row| {
-        let mut known = row.parameters.iter().filter(|p| p.identifiable);
-        followed = followed.take().or_else(|| Some(known.next()?.name.clone()));
-        first.get_or_insert(row);
-        Ok(())
-    })
-    .ok()?;
-    if let Some(parameter) = followed.filter(|_| has_limit) {
-        // What is wrong is a limit that was typed.
-        let limit = quoted(&format!("{parameter} > 1.3"));
-        let table = quoted_path(table);
-        let example = format!("stiction drift {table} --limit {limit}");
-        return Some(after("as an example:", &example));
-    }
-    let row = first?;
-    let axis = row
-        .axis
-        .map_or(String::new(), |axis| format!(" --axis {}", quoted(&axis)));
-    Some(after(
-        "what the first log shows:",
-        &format!("stiction check {}{axis}", quoted(&row.path)),
-    ))
-}
-
-/// A folder of this name beside another one.
-fn beside(folder: &Path, name: &str) -> PathBuf {
-    match folder.file_name() {
-        Some(_) => folder.with_file_name(name),
-        // `.` and `..` have none.
-        None => PathBuf::from(name),
-    }
-}
-
-/// The whole command, where nothing but the folder for what is written is missing.
-fn without_out() -> Option<String> {
-    let typed: Vec<_> = std::env::args_os().collect();
-    let Typed { command: name, .. } = Typed::new()?;
-    let (_, files) = misplaced::typed()?;
-    let first = files.first()?;
-    if first.is_dir() && matches!(name.as_str(), "check" | "identify") {
-        return all_of(first, &files);
-    }
-    let out = match name.as_str() {
-        "plan" | "batch" | "compare" => first.with_file_name(&name),
-        _ => first.with_extension(""),
-    };
-    let out = match out == *first {
-        true => first.with_file_name("result"),
-        false => out,
-    };
-    let whole = typed
-        .iter()
-        .cloned()
-        .chain(["--out".into(), out.clone().into_os_string()]);
-    Arguments::command().try_get_matches_from(whole).ok()?;
-    let mut words: Vec<String> = typed
-        .iter()
-        .skip(1)
-        .map(|a| path_text(Path::new(a)))
-        .collect();
-    words.extend(["--out".to_string(), path_text(&out)]);
-    Some(format!(
-        "next: {}",
-        stiction::commands::text::command(words.into_iter())
-    ))
-}
-
-/// The command that was typed.
-pub fn again() -> String {
-    let arguments = std::env::args_os().skip(1);
-    stiction::commands::text::command(arguments.map(|a| path_text(Path::new(&a))))
-}
-
-/// The command that was typed, with another path in place of one.
-pub fn in_place_of(file: &Path, instead: &Path) -> String {
-    stiction::commands::text::command(with(file, instead).into_iter())
-}
-
-/// What leads on from a log of which not all is clear: its axis file where one of that name is there, else one to begin.
-pub fn begun(log: &Path) -> String {
-    let log_as_typed = quoted_path(log);
-    let file = stiction::commands::text::axis_file(&path_text(log));
-    let new = stiction::commands::shell::new_axis_file(log);
-    let begin = "for an axis file with the columns that are clear filled in:";
-    let command = format!("stiction check {log_as_typed} --init {new}");
-    match file == new {
-        true => after(begin, &command),
-        false => either(
-            &format!("where {file} is the axis file of this log:"),
-            &format!("stiction check {log_as_typed} --axis {file}"),
-            &format!("else, {begin}"),
-            &command,
-        ),
-    }
-}
-
-/// What was typed, with another path in place of one.
-fn with(file: &Path, instead: &Path) -> Vec<String> {
-    let arguments = std::env::args_os().skip(1);
-    let arguments = arguments.map(|a| match Path::new(&a) == file {
-        true => path_text(instead),
-        false => path_text(Path::new(&a)),
-    });
-    arguments.collect()
-}
-
-/// What is wrong with the file of a command of which another argument is missing, and what leads on.
-pub fn incomplete() -> Option<(Option<Error>, String)> {
-    let misplaced = || {
-        let (takes, typed) = misplaced::typed()?;
-        let (error, next) = typed
-            .iter()
-            .find_map(|file| misplaced::refused(takes, file))?;
-        Some((Some(error), next))
-    };
-    incomplete_export()
-        .or_else(misplaced)
-        .or_else(|| Some((None, without_out()?)))
-}
-
-/// What leads on from an export without its target or its folder: the whole command, and before it what is wrong with the file that
-/// it names.
-fn incomplete_export() -> Option<(Option<Error>, String)> {
-    let optional = |export: clap::Command| export.mut_args(|argument| argument.required(false));
-    let command = Arguments::command().mut_subcommand("export", optional);
-    let typed = command.try_get_matches().ok()?;
-    let export = typed.subcommand_matches("export")?;
-    let file: &PathBuf = export.get_one("model")?;
-    let refused = ModelFile::read(file).err();
-    let model = match &refused {
-        None => file,
-        Some(FileError::OtherForm { instead, .. }) => instead.as_ref()?,
-        Some(_) => return None,
-    };
-    let mut arguments = with(file, model);
-    let rate = ModelFile::read(model).ok().and_then(|m| m.source.rate_hz);
-    if export.value_source("cycle_time") != Some(ValueSource::CommandLine)
-        && let Some(rate) = rate
-    {
-        arguments.extend(["--cycle-time".to_string(), cycle_time(rate).to_string()]);
-    }
-    let target: Option<&Target> = export.get_one("target");
-    if target.is_none() {
-        arguments.extend(["--target".to_string(), "c".to_string()]);
-    }
-    if !export.contains_id("out") {
-        let named = target.and_then(ValueEnum::to_possible_value);
-        let dir = model.with_file_name(named.as_ref().map_or("c", |value| value.get_name()));
-        arguments.extend(["--out".to_string(), path_text(&free_folder(&dir))]);
-    }
-    let next = stiction::commands::text::command(arguments.into_iter());
-    Some((refused.map(Error::from), format!("next: {next}")))
-}
-
-/// What leads on from a folder for what is written that holds something else: the same command into one that is free.
-pub fn another_folder(error: &Error) -> Option<String> {
-    let Error::File(FileError::Taken { remedy, .. }) = error else {
-        return None;
-    };
-    let out = Typed::new()?.values("out");
-    let out = Path::new(out.first()?);
-    let free = match remedy {
-        Remedy::Folder => return None,
-        Remedy::AnotherFolder | Remedy::AnotherFolderOrForce => free_folder(out),
-    };
-    let command = with_value("out", &path_text(&free));
-    (free != out).then(|| format!("next: {command}"))
-}
-
-/// What leads on from a checkpoint that is where the result is written: one beside that folder.
-pub fn another_checkpoint(error: &Error, identify: &Identify) -> Option<String> {
-    let checkpoint = identify.searching.checkpoint.as_deref()?;
-    let is_of_it =
-        matches!(error, Error::File(FileError::Output { path, .. }) if path == checkpoint);
-    if !is_of_it || check_apart(&identify.out, checkpoint).is_ok() {
-        return None;
-    }
-    let mut name = identify.out.file_name()?.to_os_string();
-    name.push(".checkpoint");
-    let beside = identify.out.with_file_name(name);
-    let command = with_value("checkpoint", &path_text(&beside));
-    Some(format!("next: {command}"))
-}
-
-/// What leads on from a log that is given by two paths, or as two copies: the same command with one of them.
-pub fn once(logs: &[PathBuf]) -> Option<String> {
-    let bytes = |log: &PathBuf| is_regular(log).then(|| sha256(log).ok()).flatten();
-    let bytes: Vec<Option<String>> = logs.iter().map(bytes).collect();
-    let twin = (1..logs.len()).find(|k| bytes[*k].is_some() && bytes[..*k].contains(&bytes[*k]))?;
-    let mut before = logs[..twin]
-        .iter()
-        .filter(|log| *log == &logs[twin])
-        .count();
-    let arguments = std::env::args_os().skip(1).filter(|argument| {
-        let is_twin = Path::new(argument) == logs[twin] && before == 0;
-        before = before.saturating_sub(usize::from(Path::new(argument) == logs[twin]));
-        !is_twin
-    });
-    let arguments = arguments.map(|a| path_text(Path::new(&a)));
-    let command = stiction::commands::text::command(arguments);
-    Some(format!("next: {command}"))
-}
-
-/// What leads on from what is no regular file, where nothing else does: what there is beside it, or in it.
-pub fn not_regular(error: &Error) -> Option<String> {
-    let path = match error {
-        Error::File(FileError::Log(e)) => e.file.as_deref()?,
-        Error::File(FileError::Config { file, .. } | FileError::OtherForm { file, .. }) => file,
-        Error::Checkpoint { file, .. } => file,
-        _ => return None,
-    };
-    match (
-        path.symlink_metadata().is_err() || is_regular(path),
-        path.is_dir(),
-    ) {
-        (true, _) => None,
-        (false, true) => shown(path),
-        (false, false) => shown(folder(path)),
-    }
-}
-
-/// Of which motion the `min_speed` of an axis file is, by its unit.
-pub fn motion_of_min_speed(axis: &Path) -> Motion {
-    const ROTARY: [&str; 8] = ["rad", "deg", "°", "rev", "rpm", "U/min", "1/min", "arc"];
-    let text = std::fs::read_to_string(axis).unwrap_or_default();
-    let mut lines = text.lines().map(str::trim_start);
-    let line = lines.find(|line| line.starts_with("min_speed"));
-    match line.is_some_and(|line| ROTARY.iter().any(|unit| line.contains(unit))) {
-        true => Motion::Rotary,
-        false => Motion::Linear,
-    }
-}
-
-/// What leads on where the disk is full.
-pub fn no_room(error: &Error) -> Option<String> {
-    let Error::File(e @ FileError::Output { path, .. }) = error else {
-        return None;
-    };
-    if !e.is_full_disk() {
-        return None;
-    }
-    let there = path.ancestors().map(or_here).find(|dir| dir.is_dir())?;
-    let arguments = std::env::args_os().skip(1);
-    let mut arguments: Vec<String> = arguments.map(|a| path_text(Path::new(&a))).collect();
-    // What was done by then is kept in the folder.
-    let resume = "--resume".to_string();
-    let mut folders = path.ancestors().filter(|dir| !dir.as_os_str().is_empty());
-    if folders.any(has_runs) && !arguments.contains(&resume) {
-        arguments.push(resume);
-    }
-    Some(after(
-        &format!(
-            "make room (df -h {} shows how much there is), then",
-            quoted_path(there)
-        ),
-        &stiction::commands::text::command(arguments.into_iter()),
-    ))
+/// The command that shows what is in the nearest folder of a path that is there.
+fn shown(path: &Path) -> Option<String> {
+    let mut folders = path
+        .ancestors()
+        .map(|dir| match dir.as_os_str().is_empty() {
+            true => Path::new("."),
+            false => dir,
+        });
+    let there = folders.find(|dir| dir.is_dir())?;
+    let ls = format!("ls {}", quoted_path(there));
+    Some(after("which files there are:", &ls))
 }
 
 /// The folder of a path.
 fn folder(path: &Path) -> &Path {
-    or_here(path.parent().unwrap_or(Path::new("")))
+    let folder = path.parent().filter(|dir| !dir.as_os_str().is_empty());
+    folder.unwrap_or(Path::new("."))
 }
 
-fn or_here(dir: &Path) -> &Path {
-    match dir.as_os_str().is_empty() {
-        true => Path::new("."),
-        false => dir,
-    }
+/// The command that begins an axis file of a log.
+fn begun(log: &Path) -> String {
+    format!(
+        "stiction check {} --init {}",
+        quoted_path(log),
+        new_axis_file(log)
+    )
 }
 
-/// Most letters in which the name of a file that was meant differs from what was typed.
-const MOST_SLIPS: usize = 2;
-/// Most names of a folder that are looked at.
-const MOST_NAMES: usize = 10_000;
-
-/// The file of the folder whose name is closest to the one that was typed, if one is close.
-fn meant(path: &Path, folder: &Path) -> Option<PathBuf> {
-    let typed = path.file_name()?.to_str()?.to_lowercase();
-    let entries = std::fs::read_dir(folder).ok()?.take(MOST_NAMES).flatten();
-    let close = entries.filter_map(|entry| {
-        let name = entry.file_name().into_string().ok()?;
-        let slips = slips(&typed, &name.to_lowercase());
-        let close = slips <= MOST_SLIPS && 2 * slips < typed.chars().count();
-        (close && entry.path().is_file()).then_some((slips, name))
-    });
-    let (_, name) = close.min()?;
-    Some(path.with_file_name(name))
+/// The words behind the name of the program.
+fn words() -> Vec<String> {
+    let words = std::env::args_os().skip(1);
+    words.map(|word| path_text(Path::new(&word))).collect()
 }
 
-/// How many letters have to be put in, left out or changed to make one word of another.
-fn slips(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, c) in a.chars().enumerate() {
-        let mut corner = row[0];
-        row[0] = i + 1;
-        for (j, d) in b.iter().enumerate() {
-            let changed = corner + usize::from(c != *d);
-            corner = row[j + 1];
-            row[j + 1] = changed.min(row[j] + 1).min(corner + 1);
+fn pasted(words: Vec<String>) -> String {
+    text::command(words.into_iter())
+}
+
+/// Whether a command can be read.
+fn is_read(words: &[String]) -> bool {
+    let whole = std::iter::once("stiction").chain(words.iter().map(String::as_str));
+    Arguments::command().try_get_matches_from(whole).is_ok()
+}
+
+/// The command that was typed.
+fn again() -> String {
+    pasted(words())
+}
+
+/// The command that was typed, with another path in place of one.
+pub fn in_place_of(file: &Path, instead: &Path) -> String {
+    let words = words()
+        .into_iter()
+        .map(|word| match Path::new(&word) == file {
+            true => path_text(instead),
+            false => word,
+        });
+    text::command(words)
+}
+
+/// The command that was typed, with another value of an option; added where it was not typed.
+pub fn with_value(option: &str, value: &str) -> String {
+    let mut words = words();
+    let mut is_typed = false;
+    for k in 0..words.len() {
+        let Some(own) = words[k].strip_prefix("--") else {
+            continue;
+        };
+        if own == option && k + 1 < words.len() {
+            words[k + 1] = value.into();
+            is_typed = true;
+        } else if own.split_once('=').is_some_and(|(name, _)| name == option) {
+            words[k] = format!("--{option}={value}");
+            is_typed = true;
         }
     }
-    row[b.len()]
+    if !is_typed {
+        words.extend([format!("--{option}"), value.into()]);
+    }
+    pasted(words)
 }
 
-#[cfg(test)]
-mod tests {
-    use super::slips;
-
-    #[test]
-    fn slips_are_counted() {
-        for (a, b, count) in [
-            ("run.csv", "run.csv", 0),
-            ("rum.csv", "run.csv", 1),
-            ("run1.csv", "run.csv", 1),
-            ("rn.csv", "run.csv", 1),
-            ("", "ab", 2),
-            ("abc", "", 3),
-            ("kitten", "sitting", 3),
-        ] {
-            assert_eq!(slips(a, b), count, "{a} {b}");
+/// What was typed without an option and its values.
+fn without(option: &str) -> Vec<String> {
+    let typed = words();
+    let known = Arguments::command();
+    let command = typed.iter().find_map(|word| known.find_subcommand(word));
+    let own = command.and_then(|c| c.get_arguments().find(|a| a.get_long() == Some(option)));
+    let most = match own {
+        Some(own) if own.get_action().takes_values() => own
+            .get_num_args()
+            .map_or(1, |count| count.max_values().max(1)),
+        _ => 0,
+    };
+    let (name, joined) = (format!("--{option}"), format!("--{option}="));
+    let mut kept = Vec::new();
+    let mut words = typed.into_iter().peekable();
+    while let Some(word) = words.next() {
+        if word == name {
+            let mut left = most;
+            let is_value = |word: &String| most == 1 || !word.starts_with("--");
+            while left > 0 && words.next_if(is_value).is_some() {
+                left -= 1;
+            }
+        } else if !word.starts_with(&joined) {
+            kept.push(word);
         }
+    }
+    kept
+}
+
+/// A number of two digits with a power of ten that is not below it.
+fn rounded_up(count: u64) -> String {
+    let mut power = 0;
+    let mut digits = count;
+    while digits >= 100 {
+        digits = digits.div_ceil(10);
+        power += 1;
+    }
+    match power {
+        0 => digits.to_string(),
+        _ => format!("{digits}e{power}"),
     }
 }

@@ -5,7 +5,6 @@ use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory};
 use std::ffi::OsString;
 use std::path::PathBuf;
-use stiction::commands::shell::text as path_text;
 
 /// A command as it was typed.
 pub struct Typed {
@@ -42,20 +41,5 @@ impl Typed {
         }
         let values = self.matches.get_raw(id).into_iter().flatten();
         values.map(|value| value.to_os_string()).collect()
-    }
-
-    /// These options as they are typed again, each with its values; without any it is a flag.
-    pub fn again(&self, options: &[&str]) -> Vec<String> {
-        let one = |name: &&str| {
-            let values = self.values(&name.replace('-', "_"));
-            let is_flag = matches!(values.as_slice(), [one] if one == "true");
-            let values = values.iter().filter(|_| !is_flag);
-            let values: Vec<String> = values.map(|v| path_text(v.as_ref())).collect();
-            match values.is_empty() && !is_flag {
-                true => Vec::new(),
-                false => std::iter::once(format!("--{name}")).chain(values).collect(),
-            }
-        };
-        options.iter().flat_map(one).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! What an error says at the terminal: as the library says it, with options named as they are typed.
 
 use stiction::commands::export::ExportError;
-use stiction::commands::{FileError, Remedy, Setting};
+use stiction::commands::{FileError, Setting};
 use stiction::{Code, Error};
 
 /// The message of an error, a line for each thing that is wrong, each with its code.
@@ -37,34 +37,35 @@ pub fn message(error: &Error) -> String {
         Error::File(FileError::Taken {
             path,
             found,
-            remedy,
-        }) => format!("{}: {found}; {}", path.display(), way_out(*remedy)),
+            may_force,
+        }) => {
+            let force = match may_force {
+                true => " or add --force to write into it all the same",
+                false => "",
+            };
+            format!("{}: {found}; choose another --out{force}", path.display())
+        }
         Error::Export(ExportError::RatedForce { .. }) => format!("{error}, with --rated-force"),
         _ => error.to_string(),
     }
 }
 
-/// An option as it is typed, with its value where there is one.
-fn typed(setting: Setting, value: Option<&str>) -> String {
-    let name = match setting {
+/// The name of an option.
+pub fn option(setting: Setting) -> String {
+    match setting {
         // Here the names differ from those of the library.
         Setting::Statics => "static".into(),
         Setting::Decades => "box".into(),
         _ => setting.field().replace('_', "-"),
-    };
-    match value {
-        Some(value) => format!("--{name} {value}"),
-        None => format!("--{name}"),
     }
 }
 
-fn way_out(remedy: Remedy) -> &'static str {
-    match remedy {
-        Remedy::AnotherFolder => "choose another --out",
-        Remedy::AnotherFolderOrForce => {
-            "choose another --out or add --force to write into it all the same"
-        }
-        Remedy::Folder => "--out takes a folder",
+/// An option as it is typed, with its value where there is one.
+fn typed(setting: Setting, value: Option<&str>) -> String {
+    let name = option(setting);
+    match value {
+        Some(value) => format!("--{name} {value}"),
+        None => format!("--{name}"),
     }
 }
 

@@ -85,29 +85,15 @@ pub enum Error {
         reason: String,
     },
     /// The output folder, or a file in it, is something that would be lost.
-    #[error("{}: {found}; {remedy}", .path.display())]
+    #[error("{}: {found}; choose another folder{}", .path.display(), if *.may_force { ", or ask for it to be written into all the same" } else { "" })]
     Taken {
         /// The folder or file.
         path: PathBuf,
         /// What is there.
         found: Cow<'static, str>,
-        /// What to do.
-        remedy: Remedy,
+        /// Whether it may be written into all the same, where that is asked for.
+        may_force: bool,
     },
-}
-
-/// What to do where an output folder is taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Remedy {
-    /// Another folder is to be given.
-    #[error("choose another folder")]
-    AnotherFolder,
-    /// It may be written into all the same, where that is asked for.
-    #[error("choose another folder, or ask for it to be written into all the same")]
-    AnotherFolderOrForce,
-    /// What is given must be a folder.
-    #[error("give a folder")]
-    Folder,
 }
 
 impl Error {
@@ -156,11 +142,11 @@ impl Error {
         }
     }
 
-    pub(crate) fn taken(path: &Path, found: impl Into<Cow<'static, str>>, remedy: Remedy) -> Self {
+    pub(crate) fn taken(path: &Path, found: impl Into<Cow<'static, str>>, may_force: bool) -> Self {
         Error::Taken {
             path: path.to_path_buf(),
             found: found.into(),
-            remedy,
+            may_force,
         }
     }
 }

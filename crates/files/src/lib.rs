@@ -41,7 +41,7 @@ pub mod visible;
 
 pub use axis::Axis;
 pub use config::{Looks, looks, refuse_as_log};
-pub use error::{Error, Remedy, Warning};
+pub use error::{Error, Warning};
 pub use hash::{Hash, sha256, sha256_of};
 pub use model::ModelFile;
 pub use output::{

@@ -95,22 +95,13 @@ impl fmt::Display for Place {
     }
 }
 
-/// Where in the axis file a line can settle what is refused; `allowed` has the line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Settled {
-    /// Under `[text]`.
-    InText,
-    /// Where `allowed` says.
-    Elsewhere,
-}
-
 /// What few errors have.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Rest {
     /// The key of the axis file that it is about.
     setting: Option<Cow<'static, str>>,
-    /// Where a line of the axis file settles it.
-    settled: Option<Settled>,
+    /// Whether a line of the axis file, which `allowed` has, settles it.
+    settled: bool,
     /// What else is wrong with the same recording.
     others: Vec<Error>,
 }
@@ -159,14 +150,14 @@ impl Error {
 
     /// The same problem, which a line of the axis file settles.
     #[must_use]
-    pub(crate) fn settled(mut self, settled: Settled) -> Self {
-        self.rest.get_or_insert_default().settled = Some(settled);
+    pub(crate) fn settled_by_line(mut self) -> Self {
+        self.rest.get_or_insert_default().settled = true;
         self
     }
 
-    /// Where a line of the axis file settles a row that cannot be read as it is; `None` where the recording is to be mended.
-    pub fn settled_by_line(&self) -> Option<Settled> {
-        self.rest.as_ref()?.settled
+    /// Whether a line of the axis file, which `allowed` has, settles it; else the recording is to be corrected.
+    pub fn is_settled_by_line(&self) -> bool {
+        self.rest.as_ref().is_some_and(|rest| rest.settled)
     }
 
     /// The same problem, with what is allowed for it and for everything else that is wrong in other words.

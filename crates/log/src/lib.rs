@@ -59,7 +59,7 @@ mod watch;
 #[cfg(feature = "xlsx")]
 mod xlsx;
 
-pub use error::{Counted, Error, Kind, Place, Settled};
+pub use error::{Counted, Error, Kind, Place};
 pub use findings::{Finding, Severity};
 pub use join::{Elsewhere, Joined, Offset};
 pub use limits::{Limits, allow_memory, allowed_memory, within_memory};

@@ -37,7 +37,6 @@ mod held;
 pub(crate) mod overflow;
 pub(crate) mod unwrap;
 
-use crate::error::Settled;
 use crate::findings::{self, Finding, Severity};
 use crate::join::Joined;
 use crate::mapping::{
@@ -386,7 +385,7 @@ impl Log {
         findings::begins_again(self, position).then(|| {
             Error::new(Kind::Value, jump.message.clone(), "")
                 .in_column("position")
-                .settled(Settled::Elsewhere)
+                .settled_by_line()
         })
     }
 

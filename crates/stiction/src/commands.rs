@@ -25,7 +25,7 @@ pub mod recording {
 }
 
 /// Why a recording was refused.
-pub use stiction_log::{Error as LogError, Settled, is_regular};
+pub use stiction_log::{Error as LogError, is_regular};
 
 /// A table as its file has it.
 pub mod log_table {
@@ -34,7 +34,7 @@ pub mod log_table {
 
 /// Forms of files, and how they are written.
 pub use stiction_files::{
-    Bundle, Error as FileError, Kept, Looks, Remedy, Runs, axis, check_apart, check_folder,
+    Bundle, Error as FileError, Kept, Looks, Runs, axis, check_apart, check_folder,
     check_folder_of, check_inputs, compare_file, has_runs, looks, plan, refuse_as_log,
     reproduce_file, sha256, shell, study, visible, write_atomic,
 };
@@ -69,7 +69,7 @@ pub use stiction_workflows::compare::{
 };
 /// An identification from paths.
 pub use stiction_workflows::identify::{Files, Outcome, Simulated, identify};
-pub use stiction_workflows::identify::{lowered, presliding_length, slowest_turn};
+pub use stiction_workflows::identify::{presliding_length, slowest_turn};
 /// Forms in which a controller takes a planned motion, and how well a parameter is to be known.
 pub use stiction_workflows::plan::{Carrier, Want};
 /// A planned motion, from an axis file.

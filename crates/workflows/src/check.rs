@@ -12,7 +12,7 @@ pub use shows::Shows;
 pub use tracking::{Peak, Tracking, TrackingChange};
 
 use crate::error::Error;
-use crate::identify::{Asked, GIVEN_ONCE, Options, Outcome, identify_asked, lowered};
+use crate::identify::{Asked, Options, Outcome, identify_asked};
 use crate::source::{self, Source};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -183,9 +183,11 @@ fn refuse_twice(logs: &[PathBuf]) -> Result<(), Error> {
 }
 
 fn given_twice(one: &Path, another: &Path) -> Error {
-    let [one, another] = [one.display(), another.display()];
-    let found = format!("{one} and {another} are the same log");
-    Error::usage(found, GIVEN_ONCE)
+    Error::SameLog {
+        first: one.to_path_buf(),
+        second: another.to_path_buf(),
+        copied: None,
+    }
 }
 
 /// The same of logs that are in memory already, read with this axis.
@@ -293,7 +295,6 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
         clock,
     };
     let is_overflown = log.overflow().is_some();
-    let motion = log.motion;
     match identify_asked(asked, vec![source], Vec::new(), observer) {
         Ok(outcome) => {
             out.refused = untrusted(&outcome);
@@ -335,15 +336,10 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
             if e.code() == Code::TooFewSamples && simulates && slides {
                 out.next = Action::Simulate;
             }
-            let line = e.losses().and_then(|(losses, needed)| {
-                lowered(losses, needed, axis.conditioning.decimate, motion)
-            });
-            if let Some(line) = line {
-                out.next = Action::Line {
-                    table: "conditioning".into(),
-                    line,
-                    replaces: true,
-                };
+            if let Error::Identify { action, .. } = &e
+                && matches!(**action, Action::Line { .. } | Action::Remove { .. })
+            {
+                out.next = (**action).clone();
             }
         }
         Err(Error::File(stiction_files::Error::Log(e))) => {

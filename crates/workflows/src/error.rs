@@ -4,6 +4,7 @@ use crate::wording::Wording;
 use std::path::PathBuf;
 use stiction_codes::Code;
 use stiction_files::Axis;
+use stiction_files::result::Action;
 use stiction_number::{full, shortest};
 
 /// A workflow that could not be carried out.
@@ -20,6 +21,18 @@ pub enum Error {
         inputs: String,
         /// Why.
         source: stiction_identify::Error,
+        /// What leads on.
+        action: Box<Action>,
+    },
+    /// One log was given twice.
+    #[error("{} and {} are the same {}; give each log once, and validate on logs that are not fitted", .first.display(), .second.display(), same(.copied))]
+    SameLog {
+        /// Its path.
+        first: PathBuf,
+        /// The other path.
+        second: PathBuf,
+        /// The samples that agree, where the files differ.
+        copied: Option<usize>,
     },
     /// A checkpoint that cannot be taken up.
     #[error("{}: {found}; {allowed}", .file.display())]
@@ -98,14 +111,14 @@ impl Error {
             Error::Export(_) | Error::ExportModel { .. } | Error::NotFed { .. } => {
                 Code::NotExported
             }
-            Error::Usage { .. } => Code::Usage,
+            Error::Usage { .. } | Error::SameLog { .. } => Code::Usage,
         }
     }
 
     /// The same error with the place of the key whose value the engine refused, if the axis file has that key.
     pub(crate) fn at_axis(self, axis: &Axis) -> Self {
         use stiction_identify::{Error as Fit, SignalError};
-        let Error::Identify { inputs, source } = &self else {
+        let Error::Identify { inputs, source, .. } = &self else {
             return self;
         };
         let (name, found, allowed) = match source {
@@ -144,12 +157,28 @@ impl Error {
         }
     }
 
+    /// Logs that cannot be identified, which are to be looked at.
+    pub(crate) fn identify(inputs: impl Into<String>, source: stiction_identify::Error) -> Self {
+        Error::Identify {
+            inputs: inputs.into(),
+            source,
+            action: Box::new(Action::CHECK),
+        }
+    }
+
     pub(crate) fn usage(found: impl Into<Wording>, allowed: impl Into<Wording>) -> Self {
         Error::Usage {
             found: found.into(),
             allowed: allowed.into(),
         }
     }
+}
+
+/// What two files have in common.
+fn same(copied: &Option<usize>) -> String {
+    copied.map_or("log".into(), |samples| {
+        format!("recording: time, motion and force agree in all {samples} samples")
+    })
 }
 
 /// What the engine says of a log without its number, where the path stands before it.

@@ -22,6 +22,7 @@ pub use stiction_plan::carrier::Carrier;
 pub use wanted::Want;
 
 use crate::error::Error;
+use crate::wording::Setting;
 use std::path::Path;
 use stiction_files::Axis;
 use stiction_files::plan::InputEntry;
@@ -82,8 +83,18 @@ pub fn plan(
 ) -> Result<Option<Planned>, Error> {
     let [least, most] = TIMES;
     if !(least..=most).contains(&options.longest()) {
-        let found = format!("--time {} s", stiction_number::full(options.longest()));
-        return Err(Error::usage(found, format!("{least} s to {most} s")));
+        let asked = options.longest();
+        let nearest = if asked.is_finite() {
+            asked.clamp(least, most)
+        } else {
+            most
+        };
+        let found = Setting::Time.is(format!("{} s", stiction_number::full(asked)));
+        let allowed = [
+            format!("{least} s to {most} s, such as ").into(),
+            Setting::Time.is(format!("{nearest}s")),
+        ];
+        return Err(Error::usage(found, allowed));
     }
     let axis = Axis::read(axis_file)?;
     let law = law::asked(&axis, axis_file, options)?;

@@ -62,11 +62,15 @@ pub enum Setting {
     Decades,
     /// What integrates the candidates.
     Integrator,
+    /// A wish for an interval of a plan.
+    Want,
+    /// Where the axis stands when a plan starts.
+    Start,
 }
 
 impl Setting {
     /// Every option.
-    pub const ALL: [Setting; 24] = [
+    pub const ALL: [Setting; 26] = [
         Setting::Law,
         Setting::Asymmetric,
         Setting::Method,
@@ -91,6 +95,8 @@ impl Setting {
         Setting::OtherLaw,
         Setting::Decades,
         Setting::Integrator,
+        Setting::Want,
+        Setting::Start,
     ];
 
     /// Name of the field.
@@ -120,6 +126,8 @@ impl Setting {
             Setting::OtherLaw => "other_law",
             Setting::Decades => "decades",
             Setting::Integrator => "integrator",
+            Setting::Want => "want",
+            Setting::Start => "start",
         }
     }
 
@@ -199,6 +207,14 @@ impl Wording {
             Part::Setting(setting, value) => name(*setting, value.as_deref()),
         });
         parts.collect()
+    }
+
+    /// The options that the words name.
+    pub fn settings(&self) -> impl Iterator<Item = Setting> {
+        self.0.iter().filter_map(|part| match part {
+            Part::Setting(setting, _) => Some(*setting),
+            Part::Text(_) => None,
+        })
     }
 
     /// The value that the words give an option.

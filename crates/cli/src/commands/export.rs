@@ -2,8 +2,8 @@
 
 use crate::arguments::{self, Common};
 use crate::exit::Exit;
+use crate::next::with_value;
 use crate::output;
-use crate::usage::with_value;
 use clap::ValueEnum;
 use stiction::{Error, ExportOptions, Feedforward, Target};
 

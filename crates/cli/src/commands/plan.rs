@@ -7,10 +7,32 @@ use crate::interrupt;
 use crate::output;
 use crate::progress::Bar;
 use std::io::Write;
+use std::path::Path;
+use stiction::commands::shell::text as path_text;
 use stiction::commands::{
-    Carrier, Known, PlanOptions, Want, check_folder_of, check_inputs, plan_motion,
+    Carrier, Known, PlanOptions, Want, check_folder_of, check_inputs, limits_to_fill_in,
+    plan_motion,
 };
 use stiction::{Error, LawKind, bundle};
+
+/// Writes the lines of `[limits]` that an axis file lacks for a plan, as they are pasted.
+pub fn limits(error: &Error, plan: &arguments::Plan) {
+    let Error::File(refused) = error else { return };
+    // What is missing has no line.
+    let is_lacking = |(file, line): &(&Path, Option<usize>)| *file == plan.axis && line.is_none();
+    if !refused.to_correct().iter().any(is_lacking) {
+        return;
+    }
+    if let Some(lines) = limits_to_fill_in(&plan.axis, plan.log.as_deref()) {
+        // With standard error closed there is nowhere to say it.
+        let _ = writeln!(
+            std::io::stderr(),
+            "stiction: lines for {}, under [limits], to be filled in:\n{}",
+            output::line(&path_text(&plan.axis)),
+            output::plain(&lines)
+        );
+    }
+}
 
 /// Designs the motion and writes it.
 pub fn run(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {

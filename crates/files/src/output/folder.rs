@@ -3,7 +3,7 @@
 use super::replace::replace;
 use super::staged::{PREFIX, clean, sweep};
 use super::{describe, pending, taken::writable_above};
-use crate::error::{Error, Remedy};
+use crate::error::Error;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::Path;
@@ -29,7 +29,7 @@ pub fn write_folder<'f>(
     let files: Vec<_> = files.into_iter().collect();
     if dir.symlink_metadata().is_ok() {
         if !dir.is_dir() {
-            return Err(Error::taken(dir, "is not a folder", Remedy::Folder));
+            return Err(Error::taken(dir, "is not a folder", false));
         }
         clean(dir)?;
         if !force {
@@ -79,7 +79,7 @@ pub fn write_folder<'f>(
 /// Refuses a folder that holds something, but no file of an earlier call, or in which a file would be lost that somebody wrote or
 /// changed.
 fn refuse_foreign(dir: &Path, files: &[(&str, &[u8])]) -> Result<(), Error> {
-    let refuse = |path: &Path, found| Err(Error::taken(path, found, Remedy::AnotherFolderOrForce));
+    let refuse = |path: &Path, found| Err(Error::taken(path, found, true));
     let entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)));
     let is_empty = entries?.next().is_none();
     let changed = |name: &str| dir.join(name).metadata().and_then(|m| m.modified()).ok();

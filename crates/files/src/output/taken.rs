@@ -2,7 +2,7 @@
 
 use super::staged::{self, clean, probe};
 use super::{describe, runs};
-use crate::error::{Error, Remedy};
+use crate::error::Error;
 use std::fs;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ pub fn check_inputs(
         let name = real.file_name().and_then(|name| name.to_str());
         if real.parent() == Some(out.as_path()) && name.is_some_and(|n| WRITTEN.contains(&n)) {
             let found = "is an input, or a checkpoint, and would be overwritten";
-            return Err(Error::taken(input, found, Remedy::AnotherFolder));
+            return Err(Error::taken(input, found, false));
         }
     }
     Ok(())
@@ -125,7 +125,7 @@ pub fn check_folder_of(dir: impl AsRef<Path>, schema: &str, force: bool) -> Resu
     let names = WRITTEN.iter().map(|name| dir.join(name));
     if let Some(folder) = names.chain([dir.join("study.toml")]).find(is_folder) {
         let found = "is a folder, and a file of this name may be written";
-        return Err(Error::taken(&folder, found, Remedy::AnotherFolder));
+        return Err(Error::taken(&folder, found, false));
     }
     let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
     // Runs that were kept until the outcome is there are nothing that would be lost.
@@ -141,7 +141,7 @@ pub fn check_folder_of(dir: impl AsRef<Path>, schema: &str, force: bool) -> Resu
         Some(there) => format!("holds {there} of a newer stiction; this one writes {schema}"),
         None => "is not empty and holds no result of stiction".into(),
     };
-    Err(Error::taken(dir, found, Remedy::AnotherFolderOrForce))
+    Err(Error::taken(dir, found, true))
 }
 
 /// The nearest folder that exists, `dir` or one above it, in which something can be written.
@@ -166,7 +166,7 @@ pub(super) fn writable_above(dir: &Path) -> Result<&Path, Error> {
         .find(|a| a.symlink_metadata().is_ok())
         .unwrap_or(Path::new("."));
     if !existing.is_dir() {
-        return Err(Error::taken(existing, "is not a folder", Remedy::Folder));
+        return Err(Error::taken(existing, "is not a folder", false));
     }
     probe(&existing.join("probe")).map_err(|e| Error::output(existing, describe(&e)))?;
     Ok(existing)

@@ -1,7 +1,6 @@
 //! Time stamps to seconds: overflow, order, crop, duplicates.
 
 use super::coarse::Coarse;
-use crate::error::Settled;
 use crate::findings::{Finding, Severity, count, full, median, short};
 use crate::mapping::{LARGEST_VALUE, Mapping, Role, Source};
 use crate::{Error, Kind, Table};
@@ -226,7 +225,7 @@ fn stamped(
                 _ => "time stamps that go on; give the rate instead of the time column, as in rate = \"1 kHz\" above [columns] of axis.toml"
                     .to_string(),
             };
-            let error = Error::new(Kind::Time, found, allowed).settled(Settled::Elsewhere);
+            let error = Error::new(Kind::Time, found, allowed).settled_by_line();
             return Err(error.at_data_row(first as u64 + 1));
         }
         let message = format!(
@@ -391,7 +390,7 @@ fn backward(raw: &[f64], row: usize, end: Option<f64>) -> Error {
     };
     let error = Error::new(Kind::Time, found, allowed).at_data_row(row as u64 + 1);
     match in_order {
-        true => error.settled(Settled::Elsewhere),
+        true => error.settled_by_line(),
         false => error,
     }
 }

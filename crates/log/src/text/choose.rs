@@ -13,7 +13,6 @@ use super::scope::Scope;
 use super::source::Source;
 use super::split::{self, Ends};
 use super::twincat;
-use crate::error::Settled;
 use crate::open::Wanted;
 use crate::{Column, Error, Kind, Table};
 
@@ -264,7 +263,7 @@ fn best(lines: &[Line], skip: usize, row_end: u8, options: &TextOptions) -> Resu
                 ),
                 "separator = \"comma\" or separator = \"blanks\" under [text] of the axis file",
             )
-            .settled(Settled::InText)
+            .settled_by_line()
             .at_line(lines[row].number))
         }
     }

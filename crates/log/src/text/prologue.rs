@@ -8,7 +8,6 @@ use super::lines::Line;
 use super::options::{Decimal, Separator, TextOptions};
 use super::problem;
 use super::split::{self, Ends};
-use crate::error::Settled;
 use crate::{Error, Kind};
 
 /// What the lines above the samples say.
@@ -130,7 +129,7 @@ pub(super) fn read(
                 lines[last].number
             ),
         )
-        .settled(Settled::InText)
+        .settled_by_line()
         .at_line(lines[last].number));
     }
     if adjacent
@@ -186,7 +185,7 @@ pub(super) fn wrong_header(line: u64, names: usize, fit: &Fit) -> Error {
                 "one name for each cell (separator {separator}), or header = false under [text] of the axis file"
             ),
         )
-        .settled(Settled::InText),
+        .settled_by_line(),
     };
     error.at_line(line)
 }
@@ -224,7 +223,7 @@ fn refuse_counted_row(lines: &[Line], fit: &Fit) -> Result<(), Error> {
         ),
         "header = true (column numbers) or header = false (a sample) under [text] of the axis file",
     )
-    .settled(Settled::InText)
+    .settled_by_line()
     .at_line(line.number))
 }
 
@@ -274,7 +273,7 @@ pub(super) fn refuse_comma_twice(
             }
         ),
     )
-    .settled(Settled::InText)
+    .settled_by_line()
     .at_line(line.number)
     .in_column(column.to_string()))
 }

@@ -52,10 +52,7 @@ pub(super) fn subject(
         .map(|s| s.path.display().to_string())
         .collect();
     let name = name.join(", ");
-    let refused = |source| Error::Identify {
-        inputs: name.clone(),
-        source,
-    };
+    let refused = |source| Error::identify(name.clone(), source);
     let cost = options.cost.unwrap_or(Cost::Six);
     let bounds = match (options.decades, cost) {
         (None, Cost::Separable) => {

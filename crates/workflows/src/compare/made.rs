@@ -181,10 +181,8 @@ pub(super) fn from_axis(options: &CompareOptions, axis: &KnownAxis) -> Result<Su
             }),
         };
         add_noise(&mut force, noise);
-        let record = record(step, velocity, force).map_err(|source| Error::Identify {
-            inputs: axis.name.into(),
-            source,
-        })?;
+        let record =
+            record(step, velocity, force).map_err(|source| Error::identify(axis.name, source))?;
         let data = Data::Record {
             thinned: thinned(&record).map(Box::new),
             record: Box::new(record),

@@ -188,10 +188,7 @@ impl Subject {
     }
 
     fn refused(&self, source: engine::Error) -> Error {
-        Error::Identify {
-            inputs: self.name.clone(),
-            source,
-        }
+        Error::identify(self.name.clone(), source)
     }
 }
 

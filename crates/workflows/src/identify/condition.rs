@@ -225,11 +225,9 @@ fn refuse_rest(record: &Record, sources: &[Source], motion: Motion) -> Result<()
     if top > 0.0 && !still {
         return Ok(());
     }
-    Err(Error::Identify {
-        inputs: paths(sources).join(", "),
-        source: engine::Error::NoMotion {
-            bound: top,
-            unit: symbols::speed_unit(motion),
-        },
-    })
+    let source = engine::Error::NoMotion {
+        bound: top,
+        unit: symbols::speed_unit(motion),
+    };
+    Err(Error::identify(paths(sources).join(", "), source))
 }

@@ -90,10 +90,8 @@ fn at_once(
     let options = asked.options;
     let mut ladder = ladder(asked, conditioned);
     let settings = &conditioned.settings;
-    let refused = |source: engine::Error| Error::Identify {
-        inputs: paths(&loaded.sources).join(", "),
-        source,
-    };
+    let refused =
+        |source: engine::Error| Error::identify(paths(&loaded.sources).join(", "), source);
     let law = law(asked);
     let choice = match options.law {
         Some(_) => {

@@ -137,9 +137,6 @@ fn is_copy(a: &Log, b: &Log) -> bool {
         && both(&a.force, &b.force)
 }
 
-/// What is allowed where one log is given twice.
-pub(crate) const GIVEN_ONCE: &str = "give each log once, and validate on logs that are not fitted";
-
 /// All logs must be of one kind of axis, with force in one unit, and no log may count twice.
 pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<(), Error> {
     let Some(first) = sources.first() else {
@@ -158,15 +155,11 @@ pub(super) fn check_together(sources: &[Source], held_out: &[Source]) -> Result<
             !apart(other, log) && (same_bytes(other) || is_copy(&other.log, &log.log))
         };
         if let Some(twin) = all[..i].iter().find(same) {
-            let [first, second] = [twin.path.display(), log.path.display()];
-            let found = match same_bytes(twin) {
-                true => format!("{first} and {second} are the same log"),
-                false => format!(
-                    "{first} and {second} are the same recording: time, motion and force agree in all {} samples",
-                    log.log.time.len()
-                ),
-            };
-            return Err(Error::usage(found, GIVEN_ONCE));
+            return Err(Error::SameLog {
+                first: twin.path.clone(),
+                second: log.path.clone(),
+                copied: (!same_bytes(twin)).then_some(log.log.time.len()),
+            });
         }
     }
     for other in sources.iter().chain(held_out).skip(1) {

@@ -3,6 +3,7 @@
 use crate::error::Error;
 use crate::source::Source;
 use stiction_codes::Code;
+use stiction_files::result::Action;
 use stiction_files::{Axis, Warning};
 use stiction_identify as engine;
 use stiction_identify::Samples;
@@ -28,9 +29,11 @@ pub(super) fn refused(sources: &[Source], source: engine::Error) -> Error {
     // The engine knows logs by their number; a message gives the path.
     let one = source.log().and_then(|log| sources.get(log - 1));
     let named = one.map_or(sources, std::slice::from_ref);
+    let logs = paths(named);
     Error::Identify {
-        inputs: paths(named).join(", "),
+        inputs: logs.join(", "),
         source,
+        action: Box::new(Action::Check { logs }),
     }
 }
 

@@ -51,11 +51,10 @@ pub fn predict(outcome: &Outcome, log: &Source) -> Result<Prediction, Error> {
         false => record,
     };
     let series = engine::predict(&record, &fitted.estimate);
-    let quality =
-        Fit::new(&series.measured, &series.residual()).ok_or_else(|| Error::Identify {
-            inputs: log.path.display().to_string(),
-            source: engine::Error::NoForce { value: 0.0 },
-        })?;
+    let quality = Fit::new(&series.measured, &series.residual()).ok_or_else(|| {
+        let source = engine::Error::NoForce { value: 0.0 };
+        Error::identify(log.path.display().to_string(), source)
+    })?;
     let quality = entries::fit(&quality, "force", &outcome.force_unit);
     Ok(Prediction { series, quality })
 }

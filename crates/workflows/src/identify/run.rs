@@ -14,6 +14,7 @@ use super::outcome::{ForceFit, Found, Outcome};
 use super::outside;
 use super::planned;
 use super::procedure::{static_map, step};
+use super::remedy;
 use super::simulate;
 use super::stated;
 use super::weight;
@@ -164,6 +165,7 @@ pub(crate) fn identify_asked(
     let plan = asked.options.procedures.plan.as_deref();
     let plan = plan.map(|file| planned::read(file, &sources)).transpose()?;
     let loaded = load(asked, sources, held_out)?;
+    let motion = loaded.sources[0].log.motion;
     let outcome = match asked.options.procedures.method {
         Method::Static => static_map::run(asked, loaded, observer),
         Method::PreslidingStep => step::run(asked, loaded, observer),
@@ -175,7 +177,7 @@ pub(crate) fn identify_asked(
     // Between two overflows there may be too little left of anything.
     let outcome = outcome.map_err(|e| match (e.losses(), overflown) {
         (Some(_), Some(refused)) => refused,
-        _ => e.at_axis(asked.axis),
+        _ => remedy::led_on(e, asked, motion).at_axis(asked.axis),
     });
     let mut outcome = outcome?;
     if let Some(plan) = &plan {

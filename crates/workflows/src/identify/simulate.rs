@@ -118,10 +118,8 @@ pub(super) fn run(
         engine::output_error(&recordings, law, &terms, &simulation, observer).map_err(fail)?;
     let mut unseen = Vec::new();
     for (name, recording) in unseen_logs {
-        let one = engine::simulate_unseen(&[recording], &found, observer).map_err(|source| {
-            let inputs = name.clone();
-            Error::Identify { inputs, source }
-        })?;
+        let one = engine::simulate_unseen(&[recording], &found, observer)
+            .map_err(|source| Error::identify(name.clone(), source))?;
         unseen.push((name, one));
     }
 

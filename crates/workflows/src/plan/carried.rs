@@ -5,6 +5,7 @@ use super::assume::Given;
 use super::judged::refused;
 use super::outcome::Planned;
 use crate::error::Error;
+use crate::wording::Setting;
 use stiction_log::{Dimension, Motion, Value};
 use stiction_plan::carrier::{Carried, Carrier, Job};
 use stiction_plan::{HandMade, Motion as Path, hand_made};
@@ -24,7 +25,7 @@ pub(super) fn start(motion: Motion, options: &PlanOptions) -> Result<f64, Error>
     let value = Value::parse(text).and_then(|value| value.si_of(wanted));
     let refused = |why: &str| {
         let allowed = format!("the position at which the axis stands, such as {example}: {why}");
-        Error::usage(format!("--start {text:?}"), allowed)
+        Error::usage(Setting::Start.is(text), allowed)
     };
     let value = value.map_err(|e| refused(&e.to_string()))?;
     // Beside it small motions would be rounded away.

@@ -2,6 +2,7 @@
 
 use super::{Known, PlanOptions};
 use crate::error::Error;
+use crate::wording::{Setting, TOGETHER_WITH};
 use std::path::Path;
 use stiction_files::Axis;
 use stiction_parameters::LawKind;
@@ -27,10 +28,13 @@ pub(super) fn asked(
     let Some(kind) = law else { return Ok(None) };
     if !PLANNED.contains(&kind) {
         let names = PLANNED.map(LawKind::name).join(", ");
-        return Err(Error::usage(format!("--law {kind}"), names));
+        return Err(Error::usage(Setting::Law.is(kind), names));
     }
     if kind.has_elements() && options.known.is_none() {
-        let found = format!("--law {kind} with the limits of the axis alone");
+        let found = [
+            Setting::Law.is(kind),
+            " with the limits of the axis alone".into(),
+        ];
         let allowed = format!(
             "a first log or model, since limits say neither how many elements there are nor where they yield: {}",
             steps(file, kind)
@@ -38,7 +42,11 @@ pub(super) fn asked(
         return Err(Error::usage(found, allowed));
     }
     if kind.has_elements() && options.asymmetric {
-        let found = format!("--law {kind} --asymmetric");
+        let found = [
+            Setting::Asymmetric.into(),
+            TOGETHER_WITH.into(),
+            Setting::Law.is(kind),
+        ];
         return Err(Error::usage(found, BOTH_WAYS));
     }
     Ok(law)

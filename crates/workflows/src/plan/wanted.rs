@@ -2,6 +2,7 @@
 
 use super::design::half_interval;
 use crate::error::Error;
+use crate::wording::Setting;
 use stiction_files::plan::WantedEntry;
 use stiction_number::full;
 use stiction_parameters::{Name, Quantity, Side};
@@ -34,13 +35,17 @@ impl Want {
     /// Where it is none, with what is allowed.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let refused = || {
-            let allowed = format!(
-                "a parameter, < and a percentage from {} to {}, such as \"sigma0 < 2 %\"; parameters: {}, or {ALL}",
-                full(RANGE[0]),
-                full(RANGE[1]),
-                NAMES.join(", ")
-            );
-            Error::usage(format!("--want {text:?}"), allowed)
+            let allowed = [
+                format!(
+                    "a parameter, < and a percentage from {} to {}, such as ",
+                    full(RANGE[0]),
+                    full(RANGE[1])
+                )
+                .into(),
+                Setting::Want.is("all < 2 %"),
+                format!("; parameters: {}, or {ALL}", NAMES.join(", ")).into(),
+            ];
+            Error::usage(Setting::Want.is(text), allowed)
         };
         let (name, percent) = text.split_once('<').ok_or_else(refused)?;
         let (name, percent) = (name.trim(), percent.trim());
@@ -112,7 +117,7 @@ pub(super) fn are_planned(wants: &[Want], subject: &Subject) -> Result<(), Error
     let lacks = |want: &&Want| want.parameter.is_some() && !names.contains(&want.name());
     match wants.iter().find(lacks) {
         Some(want) => {
-            let found = format!("--want \"{want}\"");
+            let found = Setting::Want.is(want);
             let allowed = format!(
                 "what this axis is planned for: {}, or {ALL}",
                 names.join(", ")

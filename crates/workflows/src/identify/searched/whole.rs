@@ -44,10 +44,7 @@ pub(in crate::identify) struct Found {
 
 /// Searches, then descends from the best point found.
 pub(in crate::identify) fn search(task: Task, observer: &mut dyn Observer) -> Result<Found, Error> {
-    let refused = |source: engine::Error| Error::Identify {
-        inputs: paths(task.inputs).join(", "),
-        source,
-    };
+    let refused = |source: engine::Error| Error::identify(paths(task.inputs).join(", "), source);
     let six = match task.options.searching.cost {
         Some(cost) => cost == CostKind::Six,
         None => task.paper() && task.six_allowed(),

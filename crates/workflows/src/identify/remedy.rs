@@ -1,16 +1,57 @@
-//! The line of `[conditioning]` with which samples are left, where the one that is there leaves too few.
+//! What leads on where too few samples are left, or none moves.
 
-use stiction_identify::Losses;
+use super::{Asked, Method};
+use crate::error::Error;
+use stiction_files::result::Action;
+use stiction_identify::{Error as Fit, LawKind, Losses};
 use stiction_log::Motion;
 use stiction_number::short;
 
 /// Part of the fastest sample that a lower limit of the speed is: most samples of a motion are faster.
 const OF_THE_FASTEST: f64 = 0.1;
-/// Samples that are left by another decimation: ten for each of thirty unknowns.
+/// Samples that are left by another decimation, and those with which a simulation goes on for any law: ten for each of thirty unknowns.
 const ENOUGH: usize = 300;
 
+/// The same error with what leads on: a line of the axis file that leaves more samples, a line to leave out of it, or a simulation, which
+/// filters nothing.
+pub(super) fn led_on(mut error: Error, asked: Asked, motion: Motion) -> Error {
+    let (axis, options) = (asked.axis, asked.options);
+    let left_out = |line: &str| Action::Remove {
+        table: "[log]".into(),
+        line: line.into(),
+    };
+    let Error::Identify { source, action, .. } = &mut error else {
+        return error;
+    };
+    match source {
+        Fit::TooFewSamples { losses, needed, .. } => {
+            let is_simulated = matches!(options.procedures.method, Method::Separable)
+                && axis.has_inertia()
+                && options.law != Some(LawKind::ElastoPlastic);
+            if let Some(line) = lowered(losses, *needed, axis.conditioning.decimate, motion) {
+                **action = Action::Line {
+                    table: "conditioning".into(),
+                    line,
+                    replaces: true,
+                };
+            } else if axis.mapping.force_limit.is_some()
+                && losses.excluded * losses.decimate.max(1) > losses.logged / 2
+            {
+                **action = left_out("force_limit");
+            } else if is_simulated && losses.left_to_simulate() >= ENOUGH.max(*needed) {
+                **action = Action::Simulate;
+            }
+        }
+        Fit::NoMotion { .. } if axis.mapping.resolution.is_some() => {
+            **action = left_out("resolution");
+        }
+        _ => {}
+    }
+    error
+}
+
 /// The line in place of the one that leaves too few samples; none where another cause does. `decimate` is what the axis file gives.
-pub fn lowered(
+fn lowered(
     losses: &Losses,
     needed: usize,
     decimate: Option<usize>,
