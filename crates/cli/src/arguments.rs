@@ -33,7 +33,7 @@ pub struct Common {
     #[arg(long, global = true, display_order = 102, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024), allow_negative_numbers = true)]
     pub threads: Option<u16>,
     /// Memory that a log and its fit may take, such as 2GB or 500MiB; a log that needs more is refused before it is taken
-    /// [default: half of this machine].
+    /// [default: a quarter of this machine].
     #[arg(long, global = true, display_order = 103, value_name = "SIZE", value_parser = memory, allow_hyphen_values = true)]
     pub max_memory: Option<u64>,
 }

@@ -88,6 +88,9 @@ pub fn of_arguments(error: &clap::Error) -> String {
 fn completed() -> Option<String> {
     let typed = Typed::new()?;
     let file = typed.files().into_iter().next()?;
+    if !(file.is_file() || typed.command == "batch" && file.is_dir()) {
+        return None;
+    }
     let mut kept = words();
     let out = match typed.command.as_str() {
         "export" => {
@@ -188,6 +191,7 @@ impl<'a> Given<'a> {
         let named: Vec<_> = found.settings().collect();
         if let Some((setting, value)) = named
             .iter()
+            .rev()
             .find_map(|setting| Some((*setting, allowed.value(*setting)?)))
         {
             return Some(next(&with_value(&wording::option(setting), value)));
@@ -201,6 +205,9 @@ impl<'a> Given<'a> {
             .or_else(|| match self.command {
                 Command::Drift(drift) if !drift.limit.is_empty() => {
                     Some(next(&pasted(without("limit"))))
+                }
+                Command::Batch(batch) => {
+                    self.of_other(batch.inputs.iter().find(|input| input.is_dir())?)
                 }
                 _ => None,
             })
@@ -307,10 +314,20 @@ impl<'a> Given<'a> {
                 &format!("with what is said above in {}:", quoted_path(axis)),
                 &again(),
             )),
-            None => Some(after(
-                "for an axis file with the columns that are clear filled in:",
-                &begun(file),
-            )),
+            None => {
+                let own = text::axis_file(&path_text(file));
+                let (first, command) = match own == new_axis_file(file) {
+                    true => (
+                        "for an axis file with the columns that are clear filled in:",
+                        begun(file),
+                    ),
+                    false => (
+                        "with its axis file:",
+                        format!("stiction check {} --axis {own}", quoted_path(file)),
+                    ),
+                };
+                Some(after(first, &command))
+            }
         }
     }
 
@@ -346,8 +363,8 @@ impl<'a> Given<'a> {
         if let Some(wanted) = wanted {
             return Some(next(&in_place_of(file, wanted)));
         }
-        if let Some(model) = of(Looks::Model) {
-            return self.use_of(model).map(|use_of| next(&use_of));
+        if let Some(use_of) = of(Looks::Model).and_then(|model| self.use_of(model)) {
+            return Some(next(&use_of));
         }
         if of(Looks::Log).is_some() {
             let axis = self.axis.map_or(String::new(), |axis| {
@@ -383,6 +400,7 @@ impl<'a> Given<'a> {
                 let out = quoted_path(&free_folder(&file.with_extension("")));
                 format!("stiction identify {path} --out {out}")
             }
+            (Looks::Model | Looks::Result, Command::Drift(_)) => return None,
             (Looks::Model, Command::Simulate(_)) => {
                 let study = quoted_path(&free_folder(&file.with_file_name("study.toml")));
                 format!("stiction simulate --init {study} --model {path}")

@@ -34,6 +34,8 @@ pub(crate) fn law_beside(entry: &LawEntry) -> String {
 
 /// The laws that predict as well as the one of the result; `None` where there are no others.
 pub(crate) fn as_good(laws: &[LawEntry]) -> Option<String> {
+    // Of a law that was asked for the others may be better.
+    laws.iter().find(|law| law.reported && law.as_good)?;
     let others = laws
         .iter()
         .filter(|law| law.as_good && !law.reported && law.held_back.is_none());

@@ -292,15 +292,24 @@ fn next_step(result: &ResultFile, folder: &Path) -> Text {
     let line = first.line.as_ref().map_or(String::new(), |line| {
         format!(": {}", line.text.replace('\n', " and "))
     });
-    let step = format!(
-        "Next: {}{line}. In the folder it was identified in: ",
-        first.what
-    );
-    let step = Text::from(step).code(first.command);
+    let exports = *next == Action::Export;
+    let place = |step: next::Step, is_own: bool| match is_own && exports {
+        // The report does not depend on where it is written.
+        true => (
+            "In the folder of this report",
+            next::command(next, result, Path::new("")),
+        ),
+        false => ("In the folder it was identified in", step.command),
+    };
+    let what = format!("Next: {}{line}", first.what);
+    let (there, command) = place(first, or.is_none());
+    let step = Text::from(format!("{what}. {there}: ")).code(command);
     match or {
-        Some(or) => step
-            .plain(format!(" Or without it: {}: ", or.what))
-            .code(or.command),
+        Some(or) => {
+            let what = format!(" Or without it: {}", or.what);
+            let (there, command) = place(or, true);
+            step.plain(format!("{what}. {there}: ")).code(command)
+        }
         None => step,
     }
 }

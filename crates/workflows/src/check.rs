@@ -159,7 +159,7 @@ pub fn check(
         let goes_on = [Action::IDENTIFY, Action::Simulate].contains(&found.next);
         if never_fitted && goes_on && !any_fitted {
             found.next = Action::Remove {
-                table: "[log]".into(),
+                table: "[[log]]".into(),
                 line: "validate = \"all\"".into(),
             };
         } else if never_fitted && goes_on || all_listed && found.next == Action::IDENTIFY {
@@ -370,6 +370,7 @@ fn verdicts(outcome: &Outcome) -> Vec<ParameterCheck> {
             unit: p.unit.clone(),
             identifiable: outcome.result.trust.constants.contains(&p.name),
             reason: match p.identifiable {
+                _ if outcome.result.trust.constants.contains(&p.name) => String::new(),
                 false => p.reason.clone(),
                 // Beside one level for both directions.
                 true if p.name == "offset" && outcome.result.trust.trustworthy => {

@@ -250,12 +250,12 @@ fn of_what_cannot_be_combined() {
         (
             "identify log.csv --method ga --law coulomb-viscous --out out",
             "this law has no parameter that a search could look for",
-            "next: stiction identify log.csv --law coulomb-viscous --out out",
+            "next: stiction identify log.csv --method separable --law coulomb-viscous --out out",
         ),
         (
             "identify log.csv speed.csv --out out",
             "log.csv: a fit together with a log that has no position needs a velocity channel",
-            "which channels it has (logs that are fitted together have the same):\nstiction: next: stiction check log.csv\n",
+            "stiction: next: stiction check log.csv\n",
         ),
     ] {
         let output = Command::new(env!("CARGO_BIN_EXE_stiction"))

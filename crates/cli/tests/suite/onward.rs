@@ -418,7 +418,6 @@ fn exports_have_the_cycle_of_the_log() {
         for misplaced in [
             "identify result/model.toml --out out",
             "export result/model.toml",
-            "export log.csv --target c --out out",
         ] {
             let (code, _, err) = run(at, misplaced);
             assert_eq!(code, 2, "{err}");

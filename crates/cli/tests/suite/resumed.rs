@@ -267,8 +267,9 @@ fn a_study_that_is_too_large_says_how_to_run_it() {
     );
     let next = err.lines().last().unwrap();
     let typed = next.strip_prefix("stiction: next: stiction ").unwrap();
-    let (command, samples) = typed.split_once(" --max-samples ").unwrap();
-    assert_eq!(command, "simulate study.toml --out 'a b' --quiet");
+    let (command, samples) = typed.split_once(" --max-samples=").unwrap();
+    assert_eq!(command, "simulate study.toml --out 'a b'");
+    let samples = samples.strip_suffix(" --quiet").unwrap();
     let words = [
         "simulate",
         "study.toml",

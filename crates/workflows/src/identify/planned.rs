@@ -142,8 +142,11 @@ fn parameters(plan: &ReadPlan, result: &ResultFile) -> Vec<PlannedParameter> {
             None => (1.0, Some(found.value)),
             Some((of, times)) => (*times, value(result, of)),
         };
-        let half = found.range().zip(per);
-        let half = half.map(|((low, high), per)| 50.0 * times * (high - low) / per.abs());
+        // A plan promises what the same test gives at once.
+        let range = || found.range().map(|(low, high)| 0.5 * (high - low));
+        let half = found.half_width.map(|half| half.at_once).or_else(range);
+        let half = half.zip(per);
+        let half = half.map(|(half, per)| 100.0 * times * half / per.abs());
         let half = half.filter(|percent| percent.is_finite());
         let status = match half {
             _ if !found.identifiable => "open",
