@@ -36,6 +36,8 @@ pub fn why(action: &Action) -> &'static str {
 
 /// What to do, with the command that does it.
 pub(crate) struct Step {
+    /// What it does.
+    pub action: Action,
     /// Why, and what to do.
     pub what: String,
     /// The line to write into the axis file first.
@@ -84,6 +86,7 @@ pub(crate) struct Steps {
 /// What leads on from the result in a folder: what the cause of the error, or a better law, asks for before what the verdict does.
 pub(crate) fn steps(result: &ResultFile, dir: &Path) -> Steps {
     let step = |what: String, action: &Action| Step {
+        action: action.clone(),
         what,
         line: line(action, result),
         command: command(action, result, dir),
@@ -113,8 +116,18 @@ pub(crate) fn steps(result: &ResultFile, dir: &Path) -> Steps {
         let (first, or) = (own(), None);
         return Steps { first, or };
     };
-    let or = (trust.trustworthy && !ends).then(own);
-    Steps { first, or }
+    // One more value of a key that was taken in already is worth little: a result that may be used is used, or the steps never end.
+    let is_more = first.line.as_ref().is_some_and(|line| line.replaces);
+    match trust.trustworthy && !ends {
+        true if is_more => Steps {
+            first: own(),
+            or: Some(first),
+        },
+        uses => Steps {
+            first,
+            or: uses.then(own),
+        },
+    }
 }
 
 /// Where elements were asked for and one bristle predicts better: what the shape of one bristle leads to is then no better than it, and

@@ -289,27 +289,24 @@ fn next_step(result: &ResultFile, folder: &Path) -> Text {
         return format!("Next: {}.", next::why(next)).into();
     }
     let next::Steps { first, or } = next::steps(result, folder);
-    let line = first.line.as_ref().map_or(String::new(), |line| {
-        format!(": {}", line.text.replace('\n', " and "))
-    });
-    let exports = *next == Action::Export;
-    let place = |step: next::Step, is_own: bool| match is_own && exports {
+    let said = |step: next::Step| {
+        let line = step.line.as_ref().map_or(String::new(), |line| {
+            format!(": {}", line.text.replace('\n', " and "))
+        });
         // The report does not depend on where it is written.
-        true => (
-            "In the folder of this report",
-            next::command(next, result, Path::new("")),
-        ),
-        false => ("In the folder it was identified in", step.command),
+        let (there, command) = match step.action {
+            Action::Export => (
+                "In the folder of this report",
+                next::command(&Action::Export, result, Path::new("")),
+            ),
+            _ => ("In the folder it was identified in", step.command),
+        };
+        (format!("{}{line}. {there}: ", step.what), command)
     };
-    let what = format!("Next: {}{line}", first.what);
-    let (there, command) = place(first, or.is_none());
-    let step = Text::from(format!("{what}. {there}: ")).code(command);
-    match or {
-        Some(or) => {
-            let what = format!(" Or without it: {}", or.what);
-            let (there, command) = place(or, true);
-            step.plain(format!("{what}. {there}: ")).code(command)
-        }
+    let (what, command) = said(first);
+    let step = Text::from(format!("Next: {what}")).code(command);
+    match or.map(said) {
+        Some((what, command)) => step.plain(format!(" Or: {what}")).code(command),
         None => step,
     }
 }

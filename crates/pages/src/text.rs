@@ -276,7 +276,8 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
     }
     let _ = writeln!(out, "next: {}", first.command);
     if let Some(or) = or {
-        let _ = writeln!(out, "or without it: {}\n  {}", or.what, or.command);
+        let line = or.line.as_ref().map_or(String::new(), written);
+        let _ = writeln!(out, "or: {}\n{line}  {}", or.what, or.command);
     }
     if let Some(command) = next::planned(result, dir) {
         let _ = writeln!(
@@ -295,9 +296,10 @@ pub fn next_in_short(result: &ResultFile, dir: &Path, study: Option<&Path>) -> S
         format!("to simulate it first: {}\n", next::simulate(study, dir))
     });
     let line = first.line.as_ref().map_or(String::new(), written);
-    let or = or.map_or(String::new(), |or| {
-        format!("or use it as it is: {}\n", or.command)
-    });
+    let or = match or.filter(|or| or.line.is_none()) {
+        Some(or) => format!("or use it as it is: {}\n", or.command),
+        None => String::new(),
+    };
     let next = format!("{simulate}{line}next: {}\n{or}", first.command);
     let planned = next::planned(result, dir);
     let planned =

@@ -4,9 +4,10 @@ use std::fmt::Write;
 use std::path::Path;
 use std::process::Command;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
+use stiction_testkit::{DEFAULT_RUNS, gate, recordings};
 
 /// Commands after the first one that may lead to the end.
-const MOST_STEPS: usize = 3;
+const MOST_STEPS: usize = 4;
 
 fn run(dir: &Path, command: &str) -> (i32, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
@@ -25,8 +26,8 @@ fn run(dir: &Path, command: &str) -> (i32, String) {
 /// What is to be done first.
 struct Lead {
     command: String,
-    /// The line to write into the axis file, and whether it takes the place of another one.
-    line: Option<(String, bool)>,
+    /// The line to write into the axis file, and where: below `under [TABLE]`, or `in place of the line KEY`.
+    line: Option<(String, String)>,
 }
 
 impl Lead {
@@ -36,32 +37,39 @@ impl Lead {
         let line = above[0].strip_prefix("    ");
         Self {
             command: next.lines().next().unwrap().to_owned(),
-            line: line.map(|line| (line.to_owned(), above[1].contains("in place of the line"))),
+            line: line.map(|line| (line.to_owned(), above[1].trim().to_owned())),
         }
     }
 
     /// Does to the axis file what is said.
     fn edit(&self, dir: &Path) {
-        let Some((line, replaces)) = &self.line else {
+        let Some((line, place)) = &self.line else {
             return;
         };
         let mut words = self.command.split_whitespace();
         let file = words.find(|word| *word == "--axis").and(words.next());
         let file = dir.join(file.unwrap());
-        let before = std::fs::read_to_string(&file).unwrap_or_else(|_| "[terms]\n".into());
         let key = line.split(' ').next().unwrap();
-        let mut after = String::new();
-        for own in before.lines() {
-            if !(*replaces && own.starts_with(key)) {
-                let _ = writeln!(after, "{own}");
-            }
+        let replaces = place.contains("in place of the line");
+        let (_, table) = place.split_once('[').unwrap_or_default();
+        let table = format!("[{}]", table.split(']').next().unwrap());
+        let mut after = std::fs::read_to_string(&file).unwrap_or_default();
+        if replaces {
+            let lines = after.lines().map(|own| match own.starts_with(key) {
+                true => line,
+                false => own,
+            });
+            after = lines.collect::<Vec<_>>().join("\n");
+        } else if after.contains(&table) {
+            after = after.replace(&table, &format!("{table}\n{line}"));
+        } else {
+            let _ = writeln!(after, "\n{table}\n{line}");
         }
-        let _ = writeln!(after, "{line}");
         std::fs::write(file, after).unwrap();
     }
 
     /// The command and what it reads, without the place of what it writes.
-    fn seen(&self) -> (String, Option<(String, bool)>) {
+    fn seen(&self) -> (String, Option<(String, String)>) {
         let (command, _) = self
             .command
             .split_once(" --out ")
@@ -90,19 +98,16 @@ fn written(
     std::fs::write(file, text).unwrap();
 }
 
-fn leads_to_an_end(machine: Machine, world: World, motion: Motion) {
-    let dir = tempfile::tempdir().unwrap();
-    written(
-        &dir.path().join("log.csv"),
-        &machine,
-        motion,
-        world,
-        |x, f| (x, f),
-    );
-    let mut command = "identify log.csv --out result".to_owned();
+/// Follows what is to be done next, from a command on a log in a folder, until another log is to be recorded or a compensator is written:
+/// every command is accepted and none leads back.
+fn walk(dir: &Path, log: &str, first: &str) {
+    let mut command = first.to_owned();
     let mut seen = vec![(command.replace(" --out result", ""), None)];
     for _ in 0..=MOST_STEPS {
-        let (_, out) = run(dir.path(), &command);
+        let (_, out) = run(dir, &command);
+        if command.starts_with("export") {
+            return;
+        }
         let lead = Lead::of(&out);
         assert!(
             !seen.contains(&lead.seen()),
@@ -110,14 +115,35 @@ fn leads_to_an_end(machine: Machine, world: World, motion: Motion) {
             lead.command
         );
         println!("{}: {:?}", lead.command, lead.line);
-        if !lead.command.starts_with("identify log.csv") {
+        if !lead.command.starts_with("export") && !lead.command.contains(log) {
             return;
         }
-        lead.edit(dir.path());
+        lead.edit(dir);
         seen.push(lead.seen());
         command = lead.command;
     }
     panic!("{seen:?} and on");
+}
+
+fn leads_to_an_end(machine: Machine, world: World, motion: Motion) {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("log.csv");
+    written(&file, &machine, motion, world, |x, f| (x, f));
+    walk(dir.path(), "log.csv", "identify log.csv --out result");
+}
+
+/// From a first look at each measured recording, with its columns and units named.
+#[cfg(unix)]
+#[test]
+fn of_recordings() {
+    let Some(data) = recordings() else { return };
+    for own in gate(4, DEFAULT_RUNS) {
+        let dir = tempfile::tempdir().unwrap();
+        std::fs::copy(data.join(own.axis), dir.path().join("axis.toml")).unwrap();
+        std::os::unix::fs::symlink(data.canonicalize().unwrap(), dir.path().join("data")).unwrap();
+        let log = format!("data/{}", own.log);
+        walk(dir.path(), &log, &format!("check {log} --axis axis.toml"));
+    }
 }
 
 #[test]
