@@ -6,7 +6,7 @@ mod measure;
 
 use std::fmt::Write;
 use std::path::Path;
-use stiction::result::Next;
+use stiction::result::Action;
 use stiction_testkit::{CASES, DEFAULT_RUNS, recordings, workspace};
 
 fn main() -> std::io::Result<()> {
@@ -16,18 +16,17 @@ fn main() -> std::io::Result<()> {
     let mut out = String::from(
         "# Validation on measured recordings\n\n\
          Written by `cargo xtask validation`; do not edit. The recordings are not part of the project \
-         (see [decisions](decisions/)); the axis files that map them are in `validation/`.\n\n\
-         Relative error = 100 rms(residual) / rms(measured force). Conditioning as \
-         in [identification](identification.md#conditioning): cut-offs chosen by the data, delay \
-         fitted. Where a recording is treated otherwise, its recipe says so. Fits by simulation (`--method \
-         output-error`) compare the position as measured.\n",
+         ([decision 0010](decisions/0010-recordings-are-not-committed.md)); their axis files are in `validation/`.\n\n\
+         Relative error = 100 rms(residual) / rms(measured force). Unless the axis file says otherwise, cut-offs are \
+         chosen by the data and the delay is fitted ([identification](identification.md#conditioning)). Fits by \
+         simulation (`--method output-error`) compare the position as measured.\n",
     );
     defaults(&data, &mut out);
     let mut last = "";
     for case in CASES {
         if case.name != last {
-            let axis = std::fs::read_to_string(workspace().join("validation").join(case.axis))?;
-            let _ = writeln!(out, "\n## {}\n\n```toml\n{}```", case.name, axis);
+            let (name, axis) = (case.name, case.axis);
+            let _ = writeln!(out, "\n## {name}\n\nAxis file: [`{axis}`](../validation/{axis}).");
             last = case.name;
         }
         let outcome = measure::run(case, &data);
@@ -48,10 +47,6 @@ fn main() -> std::io::Result<()> {
         if !case.validate.is_empty() {
             let _ = writeln!(out, "Unseen: {}.", case.validate.join(", "));
         }
-        let _ = writeln!(out);
-        for note in &outcome.result.axis.conditioning {
-            let _ = writeln!(out, "- {note}");
-        }
         let _ = writeln!(out, "\n| what | measured | at most | |\n|---|---|---|---|");
         for limit in case.limits {
             let found = measure::measure(case, limit, &outcome, &data);
@@ -64,26 +59,6 @@ fn main() -> std::io::Result<()> {
                 found.most
             );
         }
-        let _ = writeln!(
-            out,
-            "\n| parameter | value | unit | std | |\n|---|---|---|---|---|"
-        );
-        for p in &outcome.result.parameters {
-            let std = match p.std {
-                Some(std) if p.value != 0.0 => format!("{:.2} %", 100.0 * std / p.value.abs()),
-                _ => "–".into(),
-            };
-            let flag = if p.identifiable {
-                ""
-            } else {
-                "not identifiable"
-            };
-            let _ = writeln!(
-                out,
-                "| {} | {:.5e} | {} | {std} | {flag} |",
-                p.name, p.value, p.unit
-            );
-        }
     }
     stiction::commands::write_atomic(workspace().join("docs/validation.md"), out.as_bytes())
         .map_err(std::io::Error::other)
@@ -93,10 +68,9 @@ fn main() -> std::io::Result<()> {
 fn defaults(data: &Path, out: &mut String) {
     out.push_str(
         "\n## Default runs\n\n\
-         `stiction identify LOG --axis AXIS.toml --out DIR` with an axis file that names columns and units and \
-         nothing else, no option. Left: rms of the residual over that of the friction, on samples that the law \
-         was not fitted to. Best: the least held-out error of the laws that can be exported. Time: of the whole \
-         command but its report, on two threads.\n\n\
+         `stiction identify LOG --axis AXIS.toml --out DIR` with an axis file that names columns and units only. \
+         Best: the least held-out error of the laws that can be exported. Friction left: rms of the residual over \
+         that of the friction, on held-out samples. Time: of the whole command without its report, two threads.\n\n\
          | recording | exit | law | held-out error | best | friction left | time | next |\n\
          |---|---|---|---|---|---|---|---|\n",
     );
@@ -119,18 +93,9 @@ fn defaults(data: &Path, out: &mut String) {
             law.held_out_error_percent.unwrap_or(f64::NAN),
             left.map_or(f64::NAN, |seen| seen.friction_left_percent),
             result.search.wall_s,
-            match result.trust.next {
-                Next::Export => "`stiction export DIR/model.toml --target c --out DIR/c`",
-                Next::Simulate => "`--method output-error`",
-                Next::Check | Next::CheckTheOther => "`stiction check`",
-                Next::Record => "another recording",
-                Next::LetTheDataChoose
-                | Next::AnotherLaw
-                | Next::IdentifyTheOther
-                | Next::FirstLog
-                | Next::Again
-                | Next::Finish => "identify again",
-                Next::AxisFile => "correct the axis file",
+            match &result.trust.next {
+                Action::Export => "`stiction export DIR/model.toml --target c --out DIR/c`",
+                other => stiction::commands::text::why(other),
             }
         );
     }
