@@ -26,7 +26,10 @@ fn main() -> std::io::Result<()> {
     for case in CASES {
         if case.name != last {
             let (name, axis) = (case.name, case.axis);
-            let _ = writeln!(out, "\n## {name}\n\nAxis file: [`{axis}`](../validation/{axis}).");
+            let _ = writeln!(
+                out,
+                "\n## {name}\n\nAxis file: [`{axis}`](../validation/{axis})."
+            );
             last = case.name;
         }
         let outcome = measure::run(case, &data);

@@ -3,8 +3,9 @@
 use crate::common::{Bench, both_ways, friction, noise, options};
 use std::f64::consts::PI;
 use std::path::Path;
-use stiction::commands::check::{Check, Lead, check, init};
+use stiction::commands::check::{Check, check, init};
 use stiction::commands::text;
+use stiction::result::Action;
 use stiction::{Axis, LawKind, Silent};
 
 fn checked(log: &Path, axis: Option<&Path>) -> Check {
@@ -154,14 +155,20 @@ fn every_log_leads_on() {
     let rubs = |i: usize, t: f64| friction(both_ways(t)) + noise(4, i);
     let fast = |t: f64| 0.005 * (60.0 * t).sin();
     let logs = [
-        (bench.log("good.csv", 4000, moves, rubs), Lead::Identify),
-        (bench.log("short.csv", 100, fast, rubs), Lead::Simulate),
-        (bench.log("off.csv", 4000, moves, |_, _| 0.0), Lead::Record),
-        (bench.log("still.csv", 4000, |_| 0.1, rubs), Lead::Record),
-        (bench.log("away.csv", 4000, |t| 0.1 * t, rubs), Lead::Record),
+        (bench.log("good.csv", 4000, moves, rubs), Action::IDENTIFY),
+        (bench.log("short.csv", 100, fast, rubs), Action::Simulate),
+        (
+            bench.log("off.csv", 4000, moves, |_, _| 0.0),
+            Action::Record,
+        ),
+        (bench.log("still.csv", 4000, |_| 0.1, rubs), Action::Record),
+        (
+            bench.log("away.csv", 4000, |t| 0.1 * t, rubs),
+            Action::Record,
+        ),
     ];
     for (log, expected) in logs {
-        let next = checked(&log, None).logs[0].next;
+        let next = checked(&log, None).logs[0].next.clone();
         assert_eq!(next, expected, "{}", log.display());
     }
 }
@@ -190,11 +197,11 @@ fn what_the_axis_file_lacks_is_named() {
     let found = checked(&log, None);
     let refused = found.logs[0].refused.as_deref().unwrap_or_default();
     assert!(refused.contains("invert = true"), "{refused}");
-    assert_eq!(found.logs[0].next, Lead::AxisFile);
+    assert_eq!(found.logs[0].next, Action::AxisFile);
     assert!(found.logs[0].parameters.iter().all(|p| !p.identifiable));
     let found = checked(&bench.write("arm.csv", &gravity), None);
     let arm = &found.logs[0];
-    assert_eq!(arm.next, Lead::Identify, "{:?}", arm.refused);
+    assert_eq!(arm.next, Action::IDENTIFY, "{:?}", arm.refused);
     let of_gravity = |name: &str| arm.parameters.iter().any(|p| p.name == name);
     assert!(of_gravity("gravity_sin") && of_gravity("gravity_cos"));
 }

@@ -449,7 +449,10 @@ fn a_motion_with_another_friction_than_the_map_is_named() {
             warning.message
         );
         assert!(!result.trust.trustworthy);
-        assert_eq!(result.trust.next, stiction::result::Next::LetTheDataChoose);
+        assert_eq!(
+            result.trust.next,
+            stiction::result::Action::LetTheDataChoose
+        );
         for name in ["coulomb", "static", "sigma0", "sigma1", "mass"] {
             assert!(
                 result.trust.open.iter().any(|open| open == name),
@@ -550,7 +553,7 @@ fn a_search_alone() {
         asked.searching.evaluations = Some(600);
         let outcome = run(&asked).unwrap();
         let result = &outcome.result;
-        assert_eq!(result.trust.next, stiction::result::Next::Finish);
+        assert_eq!(result.trust.next, stiction::result::Action::Finish);
         assert!(result.trust.reasons[0].contains("no intervals"), "{cost}");
         let searched = result.searched.as_ref().unwrap();
         assert_eq!(searched.cost, cost);

@@ -1,7 +1,7 @@
 //! Several logs of one axis: what is said where they tell the same, and where they do not.
 
 use crate::common::identified::identified;
-use stiction::result::Next;
+use stiction::result::Action;
 use stiction::{Axis, Code, Fit, Options};
 use stiction_testkit::gate;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
@@ -94,7 +94,7 @@ fn a_fifth_between_logs_is_named_and_counted() {
 fn logs_of_two_axes_are_not_used_as_one() {
     let (fit, _) = twice(1, Motion::Sine, 3.0);
     let trust = &fit.result().trust;
-    assert!(!trust.trustworthy && trust.next == Next::FirstLog);
+    assert!(!trust.trustworthy && trust.next == Action::FirstLog);
     assert!(trust.reasons[0].contains("coulomb"), "{:?}", trust.reasons);
 }
 
@@ -198,7 +198,7 @@ fn a_log_with_the_sign_turned_is_named() {
             "{trust:#?}"
         );
         assert!(
-            trust.next == Next::FirstLog && trust.cause.is_none(),
+            trust.next == Action::FirstLog && trust.cause.is_none(),
             "{trust:#?}"
         );
         assert!(

@@ -39,7 +39,7 @@ fn a_size_of_no_machine_is_not_trusted() {
         .unwrap()
         .result;
     assert!(!result.trust.trustworthy);
-    assert_eq!(result.trust.next, stiction::result::Next::AxisFile);
+    assert_eq!(result.trust.next, stiction::result::Action::AxisFile);
     assert!(
         result
             .trust
