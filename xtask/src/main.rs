@@ -115,7 +115,7 @@ const TASKS: &[Task] = &[
     },
     Task {
         name: "policy",
-        help: "print every threshold of a verdict with its value, unit, meaning and source",
+        help: "print every threshold with its value, unit, meaning and source",
         run: policy,
     },
     Task {

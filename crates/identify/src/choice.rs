@@ -2,18 +2,8 @@
 
 use crate::crossval::LawScore;
 use crate::fit::MOST_LAGS;
+use stiction_policy::choice;
 use stiction_signal::effective_sample_size;
-
-/// A law counts as equal to the best while its held-out error is above the least by no more than this
-/// many standard errors of the difference (the one-standard-error rule of Breiman, Friedman, Olshen
-/// and Stone 1984, section 3.4.3), or is within [`AS_GOOD_RATIO`] of it, and never above [`NEVER_EQUAL_RATIO`].
-const EQUAL_STANDARD_ERRORS: f64 = 1.0;
-/// Ratio of two held-out errors up to which the law with fewer parameters is taken. With it ten repeats of one servo test choose
-/// one law in eight, three parts of four robot joints in ten of twelve; with the least error they choose another from day to day.
-const AS_GOOD_RATIO: f64 = 1.05;
-/// Ratio of two held-out errors above which the laws are never equal, however uncertain that ratio is: who compensates
-/// with the simpler law would leave a tenth more.
-pub const NEVER_EQUAL_RATIO: f64 = 1.1;
 
 /// How a law compares with the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,8 +76,8 @@ pub fn choose(scores: &[LawScore]) -> Vec<Standing> {
 
 /// Whether an error above the least, as a logarithm with its standard error, is none.
 fn is_as_good((ratio, std): (f64, f64)) -> bool {
-    let [least, most] = [AS_GOOD_RATIO, NEVER_EQUAL_RATIO].map(libm::log);
-    ratio <= (EQUAL_STANDARD_ERRORS * std).clamp(least, most)
+    let [least, most] = [choice::MAX_SIMPLER_ERROR, choice::MAX_CERTAIN_ERROR].map(libm::log);
+    ratio <= (choice::MAX_EQUAL_DEVIATIONS * std).clamp(least, most)
 }
 
 /// The law with the fewest parameters among those as good as the best.

@@ -6,9 +6,6 @@ use stiction_signal::effective_sample_size;
 /// Largest lag of an autocorrelation: with more, a long record costs more than its search, and an error
 /// that stays correlated that long is model error of the law.
 pub(crate) const MOST_LAGS: usize = 2000;
-/// Ratio of two held-out errors, dimensionless, up to which they count as equal, and the one with fewer parameters is taken.
-/// A choice: a difference of less than 1 % has no practical use, however certain it is.
-pub(crate) const EQUAL_ERROR_RATIO: f64 = 1.01;
 
 /// Size of the residual on one set of samples.
 #[derive(Clone, Copy, Debug, PartialEq)]

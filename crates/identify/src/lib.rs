@@ -93,7 +93,7 @@ mod watch;
 pub use agreement::{Disagreement, NOT_CONSTANT};
 pub use alignment::{Alignment, alignment};
 pub use along::{Along, Fall, SlipAlong, asymmetric_lugre_along, lugre_along, slip_along};
-pub use choice::{NEVER_EQUAL_RATIO, Standing, choose};
+pub use choice::{Standing, choose};
 pub use conditioning::accelerometer::Accelerometer;
 pub use conditioning::channels::Channels;
 pub use conditioning::losses::Losses;

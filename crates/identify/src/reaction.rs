@@ -21,8 +21,7 @@ const HIGHEST_NOISE_CUTOFF: f64 = 0.2;
 const OCTAVES_BELOW: u32 = 5;
 /// Standard deviations of the noise in an octave that a sample of it must exceed.
 const OUTSTANDING_SAMPLE: f64 = 4.0;
-/// Readings above that band, in the root mean square of counts or in medians, beyond which they may be motion that was asked for;
-/// and how long before and after them it may be so, periods of the cut-off, over which the filter spreads it.
+/// How long before and after a large reading motion may have been asked for, periods of the cut-off: the filter spreads it.
 const LARGEST_OF_COUNTS: f64 = 4.0;
 const LARGEST_OF_MEDIAN: f64 = 6.0;
 const SPREAD: f64 = 2.0;

@@ -1,85 +1,54 @@
-//! Every threshold that decides a verdict, by meaning, with its unit and where its value comes from.
+//! Every threshold that steers a verdict, a warning or a choice, by meaning, with its unit and where its value comes from.
+//!
+//! A number is a threshold if another value would decide otherwise: of a law, of what is said of a log or a fit, of which samples count.
+//! Tolerances and bounds of solvers and searches, grids, sizes, constants of physics or mathematics, what is believed before a log, and
+//! ranges of what users may write are none; they stand where they are used.
 //!
 //! ```
-//! use stiction_policy::VERDICT;
-//! assert!(VERDICT.most_friction_left < 1.0);
+//! let choice = stiction_policy::TABLES.iter().find(|(name, _)| *name == "choice").unwrap();
+//! assert!(choice.1.iter().all(|row| !row.source.is_empty()));
 //! ```
 
-/// A table of thresholds: a struct of numbers, the values that are used, and rows to print.
+/// Thresholds of one meaning: constants, and rows to print.
 macro_rules! thresholds {
-    ($(#[$about:meta])* $table:ident, $used:ident: $($(#[doc = $doc:literal])+ $name:ident = $value:expr, $unit:literal, $source:literal;)*) => {
-        $(#[$about])*
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        pub struct $table {
-            $($(#[doc = $doc])+ #[doc = concat!("\n\nUnit: ", $unit, ". Source: ", $source, ".")] pub $name: f64,)*
-        }
+    ($($name:ident: $type:ty = $value:expr, $unit:literal, $meaning:literal, $source:literal;)*) => {
+        $(#[doc = concat!($meaning, "\n\nUnit: ", $unit, ". Source: ", $source, ".")] pub const $name: $type = $value;)*
 
-        /// The values that are used.
-        pub const $used: $table = $table { $($name: $value,)* };
-
-        impl $table {
-            /// Each threshold as a row.
-            pub fn rows(&self) -> Vec<Row> {
-                vec![$(Row {
-                    table: stringify!($table),
-                    name: stringify!($name),
-                    value: self.$name,
-                    unit: $unit,
-                    meaning: concat!($($doc),+),
-                    source: $source,
-                },)*]
-            }
-        }
+        pub(crate) const ROWS: &[crate::Row] = &[$(crate::Row {
+            name: stringify!($name),
+            value: stringify!($value),
+            unit: $unit,
+            meaning: $meaning,
+            source: $source,
+        },)*];
     };
 }
+
+/// The tables, a file each.
+macro_rules! tables {
+    ($($table:ident),*) => {
+        $(pub mod $table;)*
+
+        /// Every table with its name.
+        pub const TABLES: &[(&str, &[Row])] = &[$((stringify!($table), $table::ROWS)),*];
+    };
+}
+
+pub use verdict::{VERDICT, Verdict};
+
+tables! { choice, verdict }
 
 /// A threshold, to be printed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Row {
-    /// The table that it belongs to.
-    pub table: &'static str,
     /// Its name.
     pub name: &'static str,
-    /// Its value.
-    pub value: f64,
+    /// Its value, as it is written.
+    pub value: &'static str,
     /// Its unit.
     pub unit: &'static str,
     /// What it decides.
     pub meaning: &'static str,
     /// Where its value comes from.
     pub source: &'static str,
-}
-
-thresholds! {
-    /// When a law is refused for compensation.
-    Verdict, VERDICT:
-
-    /// Least explained part of the variance.
-    least_r2 = 0.5, "1", "choice: a law that leaves more than it explains is not the law of the axis";
-    /// Relative error of a fit above which a wrong axis file is looked for.
-    poor_fit = 0.25, "1", "choice";
-    /// Largest part of the points that lie off a static map.
-    most_outlying = 1.0 / 3.0, "1", "choice: what two thirds agree on may be the curve";
-    /// Largest part of the samples with saturated force.
-    most_saturated = 0.2, "1", "choice: they are left out, and with them the accelerations that determine the mass";
-    /// Ratio of the held-out error of another law below which this one is refused.
-    better_law = 0.5, "1", "choice: half of the error";
-    /// Independent samples of the residual for each unknown of an open loop.
-    least_samples_per_unknown = 5.0, "1", "choice: with fewer, the parameters fit the drift that a force error integrates to";
-    /// Ratio of the residual to that of encoder steps alone below which the encoder explains it.
-    encoder_residual = 2.0, "1", "choice";
-    /// Ratio of the position error on unseen data to that of the fit.
-    most_position_error = 3.0, "1", "choice";
-    /// Part of the friction that a law may leave on held-out samples.
-    most_friction_left = 1.0 / 3.0, "1", "with a third left, what is wrong in the compensation is half of what is right";
-    /// Ratio of the error of a validation to that of the fit above which the law does not hold there.
-    validation_error = 2.0, "1", "choice";
-    /// Part of the friction that a validation may leave in any case.
-    little_friction_left = 0.1, "1", "choice: a tenth is little for a compensator";
-    /// Reversals from which a law may be used that leaves its Coulomb level open.
-    least_reversals = 3.0, "1", "the third may confirm what the first two suggest";
-    /// Ratio of a level of friction to the largest force of the log above which it is an extrapolation.
-    extrapolated_level = 1.25, "1", "choice";
-    /// Difference of a level or a mass between two logs from which they are not of one axis.
-    several_axes = 0.5, "1", "choice: warmth and lubricant change friction by tens of percent";
 }

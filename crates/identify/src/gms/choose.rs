@@ -4,11 +4,11 @@ use super::ladder::Rung;
 use super::score::ElementsScore;
 use crate::conditioning::blocks::Folds;
 use crate::conditioning::record::Record;
-use crate::fit::EQUAL_ERROR_RATIO;
 use crate::law::terms::Terms;
 use crate::left_out::Whole;
 use crate::separable::objective::Objective;
 use crate::watch::Watch;
+use stiction_policy::choice;
 use stiction_search::Stage;
 
 /// Parts of the record, each left out in turn.
@@ -54,7 +54,7 @@ pub(super) fn best(scores: &[ElementsScore], rungs: &[Rung], record: &Record) ->
     };
     let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
     (0..scores.len())
-        .filter(|&i| errors[i] <= EQUAL_ERROR_RATIO * least)
+        .filter(|&i| errors[i] <= choice::MAX_EQUAL_ERROR * least)
         .min_by_key(|&i| scores[i].elements)
         .unwrap_or(0)
 }

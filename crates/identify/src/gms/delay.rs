@@ -19,7 +19,6 @@ use super::search::{ELEMENTS_ABOVE, search};
 use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::estimate::uncertainty::sandwich;
-use crate::fit::EQUAL_ERROR_RATIO;
 use crate::held_delay;
 use crate::law::Law;
 use crate::law::terms::{Delay, DelayFrom, Terms};
@@ -31,6 +30,7 @@ use crate::separable::settings::Settings;
 use crate::watch::Watch;
 use parabola::Parabola;
 use profile::{NARROW, Profile};
+use stiction_policy::choice;
 use stiction_search::{Observer, Stage, Status};
 
 /// How much earlier than where the cost is least elements are looked for anew, samples.
@@ -108,7 +108,7 @@ fn found(
         let again = self::search(record, law, &near, settings, &mut *watch.observer)?;
         watch.counts.add(&again.counts);
         watch.stopped |= again.status == Status::Interrupted;
-        if again.evaluation.cost <= EQUAL_ERROR_RATIO * EQUAL_ERROR_RATIO * cost {
+        if again.evaluation.cost <= choice::MAX_EQUAL_ERROR * choice::MAX_EQUAL_ERROR * cost {
             profile = Profile::new(record, again.law, terms, record.step())?;
             cost = again.evaluation.cost;
             elements = again.elements;

@@ -17,10 +17,8 @@ use nalgebra::{DMatrix, DVector};
 use std::f64::consts::PI;
 use stiction_friction::compensator::WAVES;
 use stiction_parameters::Quantity;
+use stiction_policy::choice;
 use stiction_search::{Observer, Status};
-
-/// What a parameter costs in AIC.
-const AIC: f64 = 2.0;
 
 /// A map, over the stroke of a record once [`Terms::about`] has taken it from there.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -158,6 +156,6 @@ fn carried(fitted: &FittedLaw, terms: usize) -> usize {
     };
     match least(0, libm::log(fitted.fit.effective_samples)) {
         0 => 0,
-        _ => least(1, AIC),
+        _ => least(1, choice::AIC_PER_PARAMETER),
     }
 }

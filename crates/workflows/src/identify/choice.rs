@@ -8,12 +8,10 @@ use stiction_files::result::{BetterLaw, LawEntry};
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
 use stiction_parameters::Quantity;
+use stiction_policy::choice;
 
 /// The families that the data choose from.
 pub(super) const FAMILIES: [LawKind; 3] = [LawKind::CoulombViscous, LawKind::Dahl, LawKind::LuGre];
-
-/// The same in standard deviations.
-const SURELY: f64 = 3.0;
 
 /// Elements with which a law of elements is tried beside one with a bristle: whether they hold better shows with few (of six servo logs
 /// each, with 4 to 8 elements of its own choice), and to choose their number takes most of the time of such a fit.
@@ -22,9 +20,6 @@ const TRIAL_ELEMENTS: usize = 4;
 /// Why a law that holds static friction at Coulomb friction is not taken where the axis rests.
 const SHOWN_BY_THE_COUNTS: &str =
     "the counts of the encoder show a static friction above Coulomb friction";
-
-/// Error on held-out samples, percent, from which on a law says nothing of them: as much as without any force.
-const NOTHING_HOLDS: f64 = 100.0;
 
 /// A fitted law and the laws it was compared with.
 pub(super) struct Choice {
@@ -117,7 +112,7 @@ fn beside(
             let best = climb.best_of(&able.collect::<Vec<_>>());
             let holds = |law: &&LawEntry| {
                 let error = law.held_out_error_percent;
-                error.is_none_or(|error| error < NOTHING_HOLDS)
+                error.is_none_or(|error| error < choice::MAX_HELD_OUT_PERCENT)
             };
             let best = best.map(|i| &laws[i]);
             let best = best.filter(|best| !best.reported).filter(holds);
@@ -396,7 +391,9 @@ fn is_another_shape(fitted: &Estimate, assumed: f64) -> bool {
     let exponent = fitted.parameter(Quantity::StribeckExponent);
     exponent.filter(|p| p.identifiable).is_some_and(|p| {
         let off = libm::log(p.value / assumed).abs();
-        off > EXPONENT_APART && p.std.is_some_and(|std| off > SURELY * std / p.value)
+        off > EXPONENT_APART
+            && p.std
+                .is_some_and(|std| off > choice::MIN_EXPONENT_DEVIATIONS * std / p.value)
     })
 }
 
@@ -427,10 +424,6 @@ fn held<'a>(climb: &Climb, ladder: &'a Ladder, asymmetric: bool) -> Vec<Candidat
     next
 }
 
-/// Cost of a law that holds something, in parts of that of the same law without it, from which on the search of the latter has ended
-/// beside the best: with one more unknown no less can be explained.
-const MISSED: f64 = 0.99;
-
 /// Laws that leave more than the same law with something held, fitted again from there.
 fn caught_up(
     mut climb: Climb,
@@ -446,7 +439,9 @@ fn caught_up(
             let own = other.estimate.law;
             let is_held = own.flat && own == law.flat() || own.undamped && own == law.undamped();
             let bent = |rung: &Rung| rung.estimate.terms.quadratic_viscous;
-            is_held && bent(other) == bent(rung) && cost(other) < MISSED * cost(rung)
+            is_held
+                && bent(other) == bent(rung)
+                && cost(other) < choice::MAX_SIMPLER_COST * cost(rung)
         };
         let nearest = climb.rungs.iter().filter(holds_more);
         let nearest = nearest.min_by(|a, b| cost(a).total_cmp(&cost(b)));
@@ -501,7 +496,7 @@ fn of_the_counts(
 ) -> Option<(usize, Estimate)> {
     let own = &climb.rungs[at];
     let law = &own.estimate.law;
-    let most = engine::NEVER_EQUAL_RATIO * own.held_out_error();
+    let most = choice::MAX_CERTAIN_ERROR * own.held_out_error();
     let is_as_good = |&i: &usize| {
         let rung = &climb.rungs[i];
         let other = &rung.estimate.law;

@@ -15,7 +15,7 @@ const MOST_PARTS: f64 = 100_000.0;
 const SAME: f64 = 1e-9;
 /// Part of a wave by which a pitch that is rounded to fewer digits may be off over the stroke.
 const OFF_OF_A_NUMBER: f64 = 0.002;
-/// Strokes in a wave whose middle is as straight as a spring is, and in one that is there already and not straight enough.
+/// Digits in which a pitch is written, at least and at most.
 const STRAIGHT: f64 = 200.0;
 const BENT: f64 = 2.0;
 const FEWEST_DIGITS: usize = 2;

@@ -23,10 +23,7 @@ use stiction_identify::{
     Delay, Estimate, Fit, Hold, Law, LawKind, Observer, Recording, Series, Signals, Simulation,
     SimulationFit, Status, Terms,
 };
-
-/// Part of the variance of the force that a separable fit must explain for the search to start from it,
-/// dimensionless: a fit that explains less may lie in the valley of another minimum.
-const GOOD_START_R2: f64 = 0.9;
+use stiction_policy::choice;
 
 /// Laws that can be simulated.
 fn is_simulated(law: LawKind) -> bool {
@@ -270,7 +267,7 @@ fn separable(
     let settings = settings(seed);
     let low_speed = engine::low_speed_bound(&record);
     let (found, _) = engine::fit_law(&record, law, terms, low_speed, &settings, observer).ok()?;
-    (found.status == Status::Converged && found.fit.r2 >= GOOD_START_R2).then_some(found)
+    (found.status == Status::Converged && found.fit.r2 >= choice::MIN_START_R2).then_some(found)
 }
 
 fn series(signals: &Signals) -> Series {

@@ -17,6 +17,7 @@ use stiction_identify::procedure::{
 };
 use stiction_identify::{Dependence, LawKind, Observer, Terms};
 use stiction_log::Motion;
+use stiction_policy::choice;
 use stiction_search::Counts;
 
 /// Different speeds in each direction below which a map is warned of: twelve show the Stribeck curve from well below its
@@ -24,9 +25,6 @@ use stiction_search::Counts;
 const ADVISED_SPEEDS: usize = 12;
 /// Difference of two speeds, as a part of the lower one, up to which they count as one, dimensionless.
 const SAME_SPEED_WITHIN: f64 = 0.02;
-
-/// Part of its loss up to which a map counts as the same, dimensionless: far above rounding, far below any other minimum.
-const SAME_LOSS_WITHIN: f64 = 1e-6;
 
 /// A map with what goes into the result.
 pub(super) struct Mapped {
@@ -74,7 +72,7 @@ pub(super) fn map(
             let near = static_map_near(&found.points, &settings, &step.near);
             let near = near.map_err(|e| refused(sources, e))?;
             match !asked.options.searching.no_finish
-                && everywhere.loss < near.loss * (1.0 - SAME_LOSS_WITHIN)
+                && everywhere.loss < near.loss * (1.0 - choice::MAX_EQUAL_LOSS)
             {
                 true => (everywhere, true),
                 false => (near, false),
@@ -177,7 +175,8 @@ fn warnings(
             format!(
                 "{pos} different speeds in the positive direction and {neg} in the negative one; a \
                  static map should have {ADVISED_SPEEDS} each way, evenly spaced in their logarithm, from \
-                 well below the Stribeck velocity to the top speed"
+                 well below the Stribeck velocity to the top speed",
+                procedure::MIN_SPEEDS
             ),
         ));
     }

@@ -23,6 +23,7 @@ use stiction_identify::{
 use stiction_log::Motion;
 use stiction_number::Percent;
 use stiction_parameters::{Name, Quantity};
+use stiction_policy::choice;
 
 /// Difference of a parameter between the two ways, in standard deviations of the joint fit, above which it is explained:
 /// two, as the 95 % intervals.
@@ -31,8 +32,6 @@ const EXPLAINED_DIFFERENCE: f64 = 2.0;
 const CHANCE: f64 = 4.0;
 /// Standard deviations beyond which their number says nothing more.
 const MOST_DEVIATIONS_WRITTEN: f64 = 100.0;
-/// Part of its residual up to which a fit counts as the same, dimensionless: far above rounding.
-const SAME_ERROR_WITHIN: f64 = 1e-6;
 /// Correlation of two parameters in the joint fit, 0 to 1, from which they are named as hard to tell apart.
 const CONFUSED_CORRELATION: f64 = 0.9;
 
@@ -135,7 +134,7 @@ pub(in crate::identify) fn two_step(
             None => None,
         };
         if let Some(everywhere) = everywhere
-            && everywhere.fit.rmse < estimate.fit.rmse * (1.0 - SAME_ERROR_WITHIN)
+            && everywhere.fit.rmse < estimate.fit.rmse * (1.0 - choice::MAX_EQUAL_RESIDUAL)
         {
             estimate = everywhere;
             warnings.push(Warning::new(
