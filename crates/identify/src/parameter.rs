@@ -9,14 +9,7 @@ use physical::Physical;
 pub(crate) use quantile::{NORMAL_Q95, quantile};
 use stiction_number::{LARGEST_PERCENT, Percent};
 use stiction_parameters::{Dimension, Name, Quantity};
-
-/// Relative half width of the interval of a repeat above which a parameter counts as not determined by the data.
-pub const IDENTIFIABLE: f64 = 0.20;
-/// Half width of the interval of a delay up to which it counts as determined, samples: a command that is held from its sample on is
-/// ahead of its motion by as much.
-const KNOWN_DELAY: f64 = 0.5;
-/// Shift by the conditioning, in parts of the value, up to which it is taken off.
-const CORRECTED: f64 = 0.10;
+use stiction_policy::interval;
 
 /// What is added to the variances of some parameters.
 #[derive(Debug, Default)]
@@ -141,14 +134,16 @@ impl Parameter {
         let sized = |value: f64| match p.name.dimension() {
             _ if p.is_positive() => (value.abs(), "its value"),
             Dimension::Time => (
-                value.abs().max(KNOWN_DELAY / IDENTIFIABLE * level),
+                value
+                    .abs()
+                    .max(interval::MAX_DELAY_HALF_WIDTH / interval::MAX_HALF_WIDTH * level),
                 "its value or of two and a half samples",
             ),
             _ => (value.abs().max(level), "its value or of the Coulomb level"),
         };
         let (size, _) = sized(p.value);
         let shift = bias.filter(|b| known && b.is_finite()).unwrap_or(0.0);
-        let corrected = shift.abs() <= CORRECTED * size;
+        let corrected = shift.abs() <= interval::MAX_CORRECTED_SHIFT * size;
         let value = if !corrected || shift == 0.0 {
             p.value
         } else if p.is_share() {
@@ -178,7 +173,7 @@ impl Parameter {
             // Relative to the value that is stated, so that a table of both is consistent.
             let (size, of) = sized(value);
             let relative = reach / size;
-            if has_size && (relative > IDENTIFIABLE || relative.is_nan()) {
+            if has_size && (relative > interval::MAX_HALF_WIDTH || relative.is_nan()) {
                 reason = too_uncertain(relative, of);
             } else if !corrected {
                 reason = format!(
@@ -191,12 +186,12 @@ impl Parameter {
             if p.is_share() {
                 // Normal in the logarithm of the odds, so that it stays between 0 and 1.
                 let r = reach / (p.value * (1.0 - p.value));
-                (r.is_finite() && r <= WIDEST_INTERVAL)
+                (r.is_finite() && r <= interval::MAX_LOG_HALF_WIDTH)
                     .then(|| (share_at(value, -r), share_at(value, r)))
             } else if p.is_positive() {
                 // Wider than a factor of e^4 to each side, the interval counts as no bound on either side.
                 let r = reach / p.value;
-                (r.is_finite() && r <= WIDEST_INTERVAL)
+                (r.is_finite() && r <= interval::MAX_LOG_HALF_WIDTH)
                     .then(|| (value * libm::exp(-r), value * libm::exp(r)))
             } else {
                 Some((value - reach, value + reach))
@@ -248,7 +243,7 @@ impl Parameter {
             true => Some((now * libm::exp(-reach), now * libm::exp(reach))),
             false => Some((self.value - repeat, self.value + repeat)),
         };
-        if is_relative && self.identifiable && reach > IDENTIFIABLE {
+        if is_relative && self.identifiable && reach > interval::MAX_HALF_WIDTH {
             self.identifiable = false;
             self.reason = too_uncertain(reach, "its value");
         }
@@ -259,6 +254,3 @@ impl Parameter {
 fn share_at(share: f64, odds: f64) -> f64 {
     1.0 / (1.0 + libm::exp(-odds) * (1.0 - share) / share)
 }
-
-/// Half-width in the logarithm beyond which an interval gives no useful information.
-pub(crate) const WIDEST_INTERVAL: f64 = 4.0;

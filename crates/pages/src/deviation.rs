@@ -1,9 +1,9 @@
 //! How well a parameter is known, as tables say it.
 
 use stiction_files::result::{ParameterEntry, ResultFile};
-use stiction_identify::IDENTIFIABLE;
 use stiction_number::{Percent, sig};
 use stiction_parameters::{Dimension, Name, Quantity};
+use stiction_policy::interval;
 
 /// 97.5 % quantile of the normal distribution.
 const NORMAL: f64 = 1.96;
@@ -56,7 +56,7 @@ impl Deviation {
         let size = p.value.abs();
         let name: Option<Name> = p.name.parse().ok();
         let may_be_zero = name.is_some_and(|n| !n.quantity.allowed().is_never_negative());
-        if may_be_zero && half > IDENTIFIABLE * size {
+        if may_be_zero && half > interval::MAX_HALF_WIDTH * size {
             // The scale by which it is judged: the Coulomb level where the parameter is a force, the sample time for
             // a delay.
             let level = match name.map(|n| n.dimension()) {

@@ -4,12 +4,7 @@
 use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
 use stiction_parameters::{Name, Quantity};
-
-/// Correlation from which a pair of parameters is named. At .9 the standard deviation is 2.3 times what
-/// it would be with the other parameter known.
-const NAMED_CORRELATION: f64 = 0.9;
-/// Most partners that are named.
-const MOST_PARTNERS: usize = 2;
+use stiction_policy::interval;
 
 /// Adds correlated parameters and advice to every parameter that is not identifiable.
 pub(crate) fn explain(parameters: &mut [Parameter], covariance: &Covariance) {
@@ -23,12 +18,14 @@ pub(crate) fn explain(parameters: &mut [Parameter], covariance: &Covariance) {
         let mut partners: Vec<(Name, f64)> =
             covariance.place(parameter.name).map_or_else(Vec::new, |i| {
                 (0..correlation.len())
-                    .filter(|&j| j != i && correlation[i][j].abs() >= NAMED_CORRELATION)
+                    .filter(|&j| {
+                        j != i && correlation[i][j].abs() >= interval::MIN_NAMED_CORRELATION
+                    })
                     .map(|j| (covariance.names[j], correlation[i][j]))
                     .collect()
             });
         partners.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        partners.truncate(MOST_PARTNERS);
+        partners.truncate(interval::MAX_NAMED_PARTNERS);
         parameter.moves_with = partners;
         parameter.advice = cure(parameter.name.quantity).into();
     }

@@ -1,13 +1,10 @@
 //! Whether a log says more of a parameter than is known of any machine, and than the ends of a search do.
 
 use crate::parameter::physical::Physical;
-use crate::parameter::{IDENTIFIABLE, NORMAL_Q95, Parameter};
+use crate::parameter::{NORMAL_Q95, Parameter};
 use crate::scatter::Scatter;
 use crate::separable::optimum::Optimum;
-
-/// Variance from the log alone, in parts of that beside what is known before, from which on the latter decides: of a quantity that is
-/// known before, half of its deviation is then left.
-const DECIDES: f64 = 4.0 / 3.0;
+use stiction_policy::interval;
 
 /// Flags the parameters that the log alone leaves open, and what is known of any machine does not: what is stated would be what was
 /// assumed.
@@ -18,8 +15,8 @@ pub(super) fn flag_what_says_no_more_than_before(
 ) {
     for p in raw.iter().filter(|p| p.is_positive()) {
         let [alone, both] = [unknowns.alone(p), unknowns.beside_prior(p)];
-        let known = IDENTIFIABLE / NORMAL_Q95 * p.value;
-        if alone <= DECIDES * both || alone <= known * known {
+        let known = interval::MAX_HALF_WIDTH / NORMAL_Q95 * p.value;
+        if alone <= interval::MIN_PRIOR_VARIANCE * both || alone <= known * known {
             continue;
         }
         let own = parameters.iter_mut().find(|own| own.name == p.name);
@@ -29,10 +26,6 @@ pub(super) fn flag_what_says_no_more_than_before(
         }
     }
 }
-
-/// Square of the correlation with an unknown from which on a parameter is known only as well as that: its deviation is twice what
-/// it would be beside a known one.
-const GOES_ALONG: f64 = 0.75;
 
 /// Flags the parameters that go along with an unknown at the end of its search range, where nothing but that end holds them.
 pub(super) fn flag_what_an_end_holds(
@@ -48,7 +41,7 @@ pub(super) fn flag_what_an_end_holds(
             let both = p.variance(&unknowns.bread) * unknowns.bread[(i, i)];
             let own = parameters.iter_mut().find(|own| own.name == p.name);
             let own = own.filter(|own| own.identified && own.identifiable);
-            if let Some(own) = own.filter(|_| with * with > GOES_ALONG * both) {
+            if let Some(own) = own.filter(|_| with * with > interval::MIN_SHARED_VARIANCE * both) {
                 own.identifiable = false;
                 own.reason = "moves with what is at the bound of its search range".into();
             }

@@ -21,12 +21,8 @@ use crate::separable::optimum::Optimum;
 use crate::state_space::{self, Counts, Known};
 use crate::watch::Watch;
 use stiction_parameters::Quantity;
+use stiction_policy::interval;
 use stiction_search::{Observer, Stage};
-
-/// Least half width of a 95 % interval, in parts of the value. Long logs average noise down to less, but not what a fit leaves
-/// of second order: noise of an encoder in the regressors, the force between two samples, how roughly filters are undone. Of 160
-/// logs of another simulator, narrower intervals were wrong by up to this, eight of their half widths.
-pub const LEAST_HALF_WIDTH: f64 = 5e-4;
 
 /// States the intervals of an estimate in full: counts what encoder steps, filters and derivatives shift, what logs have
 /// differently, and what another motion changes.
@@ -184,7 +180,7 @@ fn conditioned(
                 _ => 0.0,
             };
             let own = strokes[i].at_once;
-            let least = LEAST_HALF_WIDTH * raw[i].value / NORMAL_Q95;
+            let least = interval::MIN_HALF_WIDTH * raw[i].value / NORMAL_Q95;
             let total = shift.as_ref().map_or(own, |s| s.total(i, own));
             total + pressed.as_ref().map_or(0.0, |s| s[i]) + jumps + least * least
         })

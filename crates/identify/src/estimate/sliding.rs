@@ -8,6 +8,7 @@
 use crate::conditioning::record::Record;
 use crate::parameter::Parameter;
 use stiction_parameters::{Quantity, Side};
+use stiction_policy::interval;
 
 /// Parameters that show while the axis slides.
 const SLIDING: [Quantity; 4] = [
@@ -58,7 +59,11 @@ fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
     never_turned_over(stroke, parameters);
     // Elements slip at their yield, bristles never quite.
     let has_elements = parameters.iter().any(is_yield);
-    let reaches = if has_elements { 1.0 } else { REACHES };
+    let reaches = if has_elements {
+        1.0
+    } else {
+        interval::MIN_TRAVELS
+    };
     let Some(ways) = ways(stroke, parameters).filter(|ways| *ways < reaches) else {
         return;
     };
@@ -66,7 +71,7 @@ fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
         true => "the stroke is shorter than the travel of the bristles from one side to the other"
             .to_string(),
         false => format!(
-            "the stroke is {ways:.1} times the travel of the bristles from one side to the other, of which they need {REACHES} to come \
+            "the stroke is {ways:.1} times the travel of the bristles from one side to the other, of which they need {reaches} to come \
              within a twentieth of the level"
         ),
     };
@@ -79,10 +84,6 @@ fn stays_in_presliding(stroke: f64, parameters: &mut [Parameter]) {
         p.reason.clone_from(&reason);
     }
 }
-
-/// Strokes in travels of the bristles from one side to the other from which on these come within a twentieth of their level: from
-/// the other side they are at `1 - 2 exp(-2 n)` of it after n such travels (LuGre, eq. 1 and 2 of Canudas de Wit et al. 1995).
-const REACHES: f64 = 1.85;
 
 /// Flags the elements that never slip from one side to the other, and what they take part in: such an element is a spring as far
 /// as the motion shows.
@@ -126,9 +127,6 @@ fn is_yield(p: &Parameter) -> bool {
     matches!(p.name.quantity, Quantity::ElementYield(_))
 }
 
-/// Ways of the bristles from one side to the other within which an axis that never reached its static level may have crept.
-const CREPT: f64 = 2.0;
-
 /// Flags the parameters of sliding after a simulation in which the axis never breaks away, and the mass where its inertia
 /// is less than what the simulation leaves. Returns whether that is so.
 ///
@@ -151,7 +149,7 @@ pub(crate) fn flag_what_never_breaks_away(
     let Some(stiffness) = of(Quantity::Sigma0).next() else {
         return false;
     };
-    let is_short = stroke * stiffness < CREPT * 2.0 * level;
+    let is_short = stroke * stiffness < interval::MAX_CREEP * 2.0 * level;
     if !(is_short && largest_friction < level || is_presliding(stroke, parameters)) {
         return false;
     }

@@ -14,10 +14,7 @@ use crate::law::terms::Side;
 use crate::law::transmitted::Transmitted;
 use std::f64::consts::TAU;
 use stiction_parameters::{Quantity, Wave};
-
-/// Change of temperature over which a dependence on it is judged, K; a log that spans more is judged
-/// over what it spans.
-const USUAL_SPAN: f64 = 10.0;
+use stiction_policy::interval;
 
 /// A part of friction and what it changes with. References are where `coulomb` and `sigma2` hold;
 /// [`Terms::about`](crate::Terms::about) takes them from a record.
@@ -299,7 +296,7 @@ impl Factor {
             .fold(0.0, |most: f64, x| most.max(x.abs()));
         match self {
             Factor::Load(reference) => largest.max(reference.abs()),
-            Factor::Temperature(_) => largest.max(USUAL_SPAN),
+            Factor::Temperature(_) => largest.max(interval::TEMPERATURE_SPAN),
             Factor::Position(_) | Factor::Driven(_) => largest,
             Factor::Transmitted(of) => largest.max(of.reference),
             Factor::Sine(_)

@@ -10,9 +10,10 @@ use crate::conditioning::shift::Shift;
 use crate::law::dependence::{Dependence, Factor};
 use crate::law::terms::{ColumnKind, Delay, LinearTerm, Terms};
 use crate::law::{Law, LawKind};
-use crate::parameter::{IDENTIFIABLE, Parameter};
+use crate::parameter::Parameter;
 use crate::separable::objective::Objective;
 use stiction_parameters::{Quantity, Wave};
+use stiction_policy::interval;
 
 /// Rounds in which a first weight is found, of a law without a bristle: each leaves about a tenth of the error of the last,
 /// and the fits of the law itself begin there.
@@ -202,7 +203,7 @@ pub(crate) fn flag_parts_of_an_open_weight(terms: &Terms, parameters: &mut [Para
     let spread = [Wave::Sine, Wave::Cosine].map(deviation);
     let known = match spread {
         [Some(sine), Some(cosine)] => {
-            libm::hypot(of.growth[0] * sine, of.growth[1] * cosine) <= IDENTIFIABLE
+            libm::hypot(of.growth[0] * sine, of.growth[1] * cosine) <= interval::MAX_HALF_WIDTH
         }
         _ => false,
     };

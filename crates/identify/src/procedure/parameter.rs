@@ -1,7 +1,8 @@
 //! A value and its variance as a parameter with interval and flag.
 
-use crate::parameter::{IDENTIFIABLE, NORMAL_Q95, Parameter, too_uncertain};
+use crate::parameter::{NORMAL_Q95, Parameter, too_uncertain};
 use stiction_parameters::Name;
+use stiction_policy::interval;
 
 /// Two-sided 95 % quantile of Student's t for `free` degrees of freedom, by the expansion of
 /// Abramowitz and Stegun, 26.7.5; within 1 % from 3 degrees on.
@@ -40,7 +41,7 @@ impl Found {
         };
         if reason.is_empty() {
             match std.map(|s| s / size) {
-                Some(r) if r <= IDENTIFIABLE => {}
+                Some(r) if r <= interval::MAX_HALF_WIDTH => {}
                 Some(r) if r < 1e3 => {
                     reason = too_uncertain(r, "its value");
                 }

@@ -16,9 +16,10 @@ use crate::error::Error;
 use crate::estimate::advice;
 use crate::estimate::uncertainty::ROUNDED_EIGENVALUE;
 use crate::parameter::covariance::Covariance;
-use crate::parameter::{IDENTIFIABLE, NORMAL_Q95, Parameter, too_uncertain};
+use crate::parameter::{NORMAL_Q95, Parameter, too_uncertain};
 use nalgebra::{DMatrix, SymmetricEigen};
 use stiction_parameters::{Name, Quantity, Side};
+use stiction_policy::interval;
 
 /// Smallest assumed resolution of a force, relative to its range. Without it noise-free points would give
 /// parameters with a certainty that no measurement can reach.
@@ -306,7 +307,7 @@ fn scattered(found: &Disagreement, parameters: &mut [Parameter]) {
         let reach = NORMAL_Q95 * wider / p.value;
         p.std = Some(wider);
         p.ci95 = Some((p.value * libm::exp(-reach), p.value * libm::exp(reach)));
-        if p.identifiable && reach > IDENTIFIABLE {
+        if p.identifiable && reach > interval::MAX_HALF_WIDTH {
             p.identifiable = false;
             p.reason = too_uncertain(reach, "its value");
         }

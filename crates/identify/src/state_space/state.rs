@@ -2,14 +2,13 @@
 
 use crate::estimate::Estimate;
 use crate::exponential::exp;
-use crate::parameter::{
-    Added, IDENTIFIABLE, IntervalKind, NORMAL_Q95, Parameter, WIDEST_INTERVAL, too_uncertain,
-};
+use crate::parameter::{Added, IntervalKind, NORMAL_Q95, Parameter, too_uncertain};
 use crate::state_space::fit::Likely;
 use crate::state_space::unknowns::{UNKNOWNS, lanes};
 use crate::student;
 use nalgebra::{DMatrix, DVector};
 use stiction_parameters::{Name, Quantity};
+use stiction_policy::interval;
 
 /// A parameter as the likelihood has it.
 struct Own {
@@ -178,9 +177,9 @@ fn write(parameter: &mut Parameter, own: &Own) {
     parameter.std = Some(relative * value);
     parameter.bias = None;
     parameter.interval = IntervalKind::StateSpace;
-    parameter.ci95 =
-        (own.reach <= WIDEST_INTERVAL).then(|| (value * exp(-own.reach), value * exp(own.reach)));
-    parameter.identifiable = own.reach <= IDENTIFIABLE;
+    parameter.ci95 = (own.reach <= interval::MAX_LOG_HALF_WIDTH)
+        .then(|| (value * exp(-own.reach), value * exp(own.reach)));
+    parameter.identifiable = own.reach <= interval::MAX_HALF_WIDTH;
     parameter.reason = match parameter.identifiable {
         true => String::new(),
         false => too_uncertain(own.reach, "its value"),

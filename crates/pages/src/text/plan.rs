@@ -6,8 +6,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use stiction_files::plan::PlanFile;
 use stiction_files::shell::{quoted, quoted_path, text};
-use stiction_identify::LEAST_HALF_WIDTH;
 use stiction_number::{Percent, four_digits as short, unit};
+use stiction_policy::interval;
 use stiction_workflows::plan::{Known, Planned};
 
 /// The interval above which a parameter is said to stay open on some axes, percent.
@@ -234,7 +234,7 @@ fn expected(file: &PlanFile) -> String {
 const LONGEST: f64 = stiction_workflows::plan::TIMES[1];
 
 /// Least half of a 95 % interval that an identification states, percent.
-const LEAST: f64 = 100.0 * LEAST_HALF_WIDTH;
+const LEAST: f64 = 100.0 * interval::MIN_HALF_WIDTH;
 
 /// Each wish, whether it is granted, and what would grant it.
 fn wanted(planned: &Planned, axis: &Path, written: &Path) -> String {

@@ -3,9 +3,7 @@
 use super::{ExportOptions, Reserve, Target};
 use stiction_files::ModelFile;
 use stiction_parameters::{Name, Quantity};
-
-/// Half width of an interval, percent, up to which the whole force may be let out in the end (decision 0020: some percent).
-const KNOWN_WITHIN: f64 = 5.0;
+use stiction_policy::interval;
 
 /// The gain of an export that asked for none, where friction is known better than it needs.
 pub(super) fn of(file: &ModelFile, options: &ExportOptions, gain: f64) -> Option<Reserve> {
@@ -27,7 +25,7 @@ pub(super) fn of(file: &ModelFile, options: &ExportOptions, gain: f64) -> Option
         });
         within = within.zip(half).map(|(a, b)| a.max(b));
     }
-    let within = within.filter(|within| *within <= KNOWN_WITHIN)?;
+    let within = within.filter(|within| *within <= interval::MAX_RESERVE_HALF_WIDTH)?;
     Some(Reserve {
         gain,
         known_within_percent: within,

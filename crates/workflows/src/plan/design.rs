@@ -15,12 +15,12 @@ use stiction_files::plan::{
     PlanFile, RangeEntry, RigEntry, SCHEMA,
 };
 use stiction_friction::ParamError;
-use stiction_identify::LEAST_HALF_WIDTH;
 use stiction_parameters::LawKind;
 use stiction_plan::{
     Aim, Atom, Belief, Candidate, Choice, Entry, HandMade, Limits, Motion, Nameplate, Peaks,
     Spread, Subject, Table, dictionary, hand_made, nested, places, select,
 };
+use stiction_policy::interval;
 use stiction_search::{Control, Observer, Progress, Shared, Stage};
 
 /// Axes on which pieces are simulated, and whole motions, at least and at most.
@@ -433,7 +433,7 @@ fn percent(deviation: f64) -> f64 {
 
 /// Half of a 95 % interval, percent, of a predicted deviation; no identification states less than its least.
 pub(super) fn half_interval(deviation: f64) -> f64 {
-    (HALF_INTERVAL * percent(deviation)).max(100.0 * LEAST_HALF_WIDTH)
+    (HALF_INTERVAL * percent(deviation)).max(100.0 * interval::MIN_HALF_WIDTH)
 }
 
 /// What is expected of each parameter.

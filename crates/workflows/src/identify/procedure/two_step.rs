@@ -23,7 +23,7 @@ use stiction_identify::{
 use stiction_log::Motion;
 use stiction_number::Percent;
 use stiction_parameters::{Name, Quantity};
-use stiction_policy::choice;
+use stiction_policy::{choice, interval};
 
 /// Difference of a parameter between the two ways, in standard deviations of the joint fit, above which it is explained:
 /// two, as the 95 % intervals.
@@ -32,8 +32,6 @@ const EXPLAINED_DIFFERENCE: f64 = 2.0;
 const CHANCE: f64 = 4.0;
 /// Standard deviations beyond which their number says nothing more.
 const MOST_DEVIATIONS_WRITTEN: f64 = 100.0;
-/// Correlation of two parameters in the joint fit, 0 to 1, from which they are named as hard to tell apart.
-const CONFUSED_CORRELATION: f64 = 0.9;
 
 /// What the two steps work on.
 pub(in crate::identify) struct TwoStep<'a> {
@@ -393,7 +391,7 @@ impl TwoSteps {
         let mut out = Vec::new();
         for (i, (a, row)) in covariance.names.iter().zip(&correlation).enumerate() {
             for (b, x) in covariance.names.iter().zip(row).skip(i + 1) {
-                if steady(a) && steady(b) && x.abs() >= CONFUSED_CORRELATION {
+                if steady(a) && steady(b) && x.abs() >= interval::MIN_CONFUSED_CORRELATION {
                     out.push(((*a, *b), *x));
                 }
             }
