@@ -8,8 +8,8 @@
 mod levels;
 mod points;
 
+pub use levels::Disagreement;
 use levels::Levels;
-pub use levels::{Disagreement, NOT_CONSTANT};
 pub(crate) use points::{Placed, disagreement};
 
 /// What the logs of a fit tell: the levels of each.

@@ -90,7 +90,7 @@ mod student;
 mod tune;
 mod watch;
 
-pub use agreement::{Disagreement, NOT_CONSTANT};
+pub use agreement::Disagreement;
 pub use alignment::{Alignment, alignment};
 pub use along::{Along, Fall, SlipAlong, asymmetric_lugre_along, lugre_along, slip_along};
 pub use choice::{Standing, choose};

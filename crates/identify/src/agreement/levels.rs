@@ -8,14 +8,8 @@ use crate::separable::logs::Logs;
 use crate::separable::objective::{Evaluation, Objective};
 use nalgebra::DMatrix;
 use stiction_parameters::{Name, Quantity};
+use stiction_policy::agreement;
 
-/// Deviations of a difference from which it is no chance: 1 in 1000 with the nine degrees of freedom of ten replicas.
-pub(super) const CERTAIN: f64 = 4.8;
-/// Difference of two logs, in parts of the value, from which it is named.
-pub(super) const NAMED: f64 = 0.03;
-/// Difference of two logs, in parts of the value, from which the value is no constant of the machine: the deviation from which
-/// a parameter counts as unknown.
-pub const NOT_CONSTANT: f64 = 0.1;
 /// What is compared.
 const COMPARED: [Quantity; 4] = [
     Quantity::Coulomb,
@@ -121,7 +115,9 @@ impl Logs {
                     let apart = high.0 - low.0;
                     let deviation = (low.1 + high.1).sqrt();
                     let sure = apart / deviation;
-                    if sure > f64::max(surest, CERTAIN) && apart > NAMED * size {
+                    if sure > f64::max(surest, agreement::MIN_CERTAIN_DEVIATIONS)
+                        && apart > agreement::MIN_NAMED_DIFFERENCE * size
+                    {
                         surest = sure;
                         found = Some(Disagreement {
                             name: p.name,

@@ -1,14 +1,13 @@
 //! Whether logs of constant velocities tell the same level of friction.
 
-use super::levels::{CERTAIN, Disagreement, NAMED};
+use super::levels::Disagreement;
 use crate::parameter::NORMAL_Q95;
 use crate::procedure::StaticPoint;
 use crate::student;
 use std::f64::consts::FRAC_PI_2;
 use stiction_parameters::{Name, Quantity};
+use stiction_policy::agreement;
 
-/// Fewest points of a log among the speeds that two logs share, for its scatter to be known.
-const FEWEST_POINTS: usize = 6;
 /// Standard deviation over median deviation of a normal distribution.
 const DEVIATION_OF_MEDIAN: f64 = 1.4826;
 
@@ -34,7 +33,7 @@ pub(crate) fn disagreement(placed: &[Placed], coulomb: f64) -> Option<Disagreeme
     let mut logs: Vec<usize> = placed.iter().map(|p| p.point.log).collect();
     logs.sort_unstable();
     logs.dedup();
-    let mut surest = CERTAIN;
+    let mut surest = agreement::MIN_CERTAIN_DEVIATIONS;
     let mut found = None;
     for (i, &a) in logs.iter().enumerate() {
         for &b in &logs[i + 1..] {
@@ -47,7 +46,7 @@ pub(crate) fn disagreement(placed: &[Placed], coulomb: f64) -> Option<Disagreeme
             };
             let deviation = (x.variance + y.variance).sqrt();
             let apart = high - low;
-            if apart > NAMED && apart > surest * deviation {
+            if apart > agreement::MIN_NAMED_DIFFERENCE && apart > surest * deviation {
                 surest = apart / deviation;
                 found = Some(Disagreement {
                     name: Name::from(Quantity::Coulomb),
@@ -95,7 +94,7 @@ fn compared(placed: &[Placed], logs: [usize; 2]) -> Option<[Level; 2]> {
 fn level(points: &[Placed]) -> Option<Level> {
     let parts = points.iter().map(|p| p.residual / p.friction);
     let mut parts: Vec<f64> = parts.filter(|part| part.is_finite()).collect();
-    if parts.len() < FEWEST_POINTS {
+    if parts.len() < agreement::MIN_POINTS {
         return None;
     }
     let part = median(&mut parts);

@@ -13,6 +13,7 @@ use stiction_identify::{
 };
 use stiction_number::{Percent, four_digits, full};
 use stiction_parameters::{Name, Quantity};
+use stiction_policy::agreement;
 
 /// Distance of a fitted Stribeck exponent from another one, of logarithms, that filters and encoder may have made: on simulated axes up to
 /// 0.14 (decision 0064).
@@ -132,9 +133,6 @@ struct Stated {
     to_do: &'static str,
 }
 
-/// How many times larger or smaller than `limits.mass` what moves may be (docs/axis.md).
-const OF_LIMITS: f64 = 2.0;
-
 /// Says that the mass that was found is not the one of `[limits]`, which is meant within a factor of two; `None` where it is, none is
 /// given, or the log leaves it open.
 pub(super) fn against_limits(
@@ -147,7 +145,8 @@ pub(super) fn against_limits(
     (log.force_unit == symbols::force_unit(log.motion)).then_some(())?;
     let found = of(found, Quantity::Mass).filter(|p| p.identified && p.identifiable)?;
     let (low, high) = found.ci95?;
-    (low > OF_LIMITS * mass || high < mass / OF_LIMITS).then_some(())?;
+    (low > agreement::MAX_LIMIT_RATIO * mass || high < mass / agreement::MAX_LIMIT_RATIO)
+        .then_some(())?;
     let unit = symbols::unit(found.name.dimension(), log.motion, &log.force_unit, "");
     let [limit, value, low, high] = [mass, found.value, low, high].map(four_digits);
     Some(Warning::new(

@@ -5,9 +5,7 @@ use crate::source::Source;
 use stiction_codes::Code;
 use stiction_identify::Disagreement;
 use stiction_parameters::Quantity;
-
-/// Ratio of the sizes of the masses of two logs, at most, where their signs differ by that of the force alone.
-const ALIKE: f64 = 2.0;
+use stiction_policy::agreement;
 
 /// The logs that have the sign turned and the others; `None` where none or all of them have.
 pub(super) fn named(sources: &[Source], found: &[Disagreement]) -> Option<(String, String)> {
@@ -37,5 +35,6 @@ fn lighter_than_nothing(found: &[Disagreement]) -> Option<Vec<usize>> {
     let of_mass = found.iter().find(|d| d.name.quantity == Quantity::Mass)?;
     let [low, high] = of_mass.values;
     let ratio = -low / high;
-    ((1.0 / ALIKE..ALIKE).contains(&ratio)).then(|| vec![of_mass.logs[0]])
+    ((1.0 / agreement::MAX_MASS_RATIO..agreement::MAX_MASS_RATIO).contains(&ratio))
+        .then(|| vec![of_mass.logs[0]])
 }

@@ -15,7 +15,6 @@ use stiction_files::result::{
 };
 use stiction_files::symbols;
 use stiction_identify as engine;
-use stiction_identify::NOT_CONSTANT;
 use stiction_identify::procedure::{dynamic_conditioned, dynamic_near};
 use stiction_identify::{
     Accelerometer, Delay, Estimate, FittedLaw, Law, LawKind, Observer, Record, Settings, Terms,
@@ -23,13 +22,8 @@ use stiction_identify::{
 use stiction_log::Motion;
 use stiction_number::Percent;
 use stiction_parameters::{Name, Quantity};
-use stiction_policy::{choice, interval};
+use stiction_policy::{agreement, choice, interval};
 
-/// Difference of a parameter between the two ways, in standard deviations of the joint fit, above which it is explained:
-/// two, as the 95 % intervals.
-const EXPLAINED_DIFFERENCE: f64 = 2.0;
-/// Standard deviations of a difference that chance explains.
-const CHANCE: f64 = 4.0;
 /// Standard deviations beyond which their number says nothing more.
 const MOST_DEVIATIONS_WRITTEN: f64 = 100.0;
 
@@ -185,7 +179,9 @@ fn changed(estimate: &mut Estimate, joint: &Estimate) -> Vec<Changed> {
         };
         let difference = p.value - held.value;
         let deviation = p.std.unwrap_or(0.0).hypot(held.std.unwrap_or(0.0));
-        if difference.abs() >= NOT_CONSTANT * held.value && difference.abs() > CHANCE * deviation {
+        if difference.abs() >= agreement::MAX_CONSTANT_DIFFERENCE * held.value
+            && difference.abs() > agreement::MAX_CHANCE_DEVIATIONS * deviation
+        {
             found.push((p.name, [held.value, p.value]));
         }
     }
@@ -312,12 +308,13 @@ impl TwoSteps {
             .iter()
             .filter(|p| {
                 p.difference_in_std
-                    .is_some_and(|d| d.abs() > EXPLAINED_DIFFERENCE)
+                    .is_some_and(|d| d.abs() > agreement::MIN_EXPLAINED_DEVIATIONS)
             })
             .collect();
         if apart.is_empty() {
             out.push(format!(
-                "No parameter differs by more than {EXPLAINED_DIFFERENCE} standard deviations of the joint fit."
+                "No parameter differs by more than {} standard deviations of the joint fit.",
+                agreement::MIN_EXPLAINED_DEVIATIONS
             ));
         } else {
             let list: Vec<String> = apart
