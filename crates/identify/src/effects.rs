@@ -25,25 +25,7 @@ use crate::conditioning::record::extent;
 use crate::law::terms::{ColumnKind, Terms};
 use crate::scatter::strokes::Strokes;
 use crate::separable::objective::{Evaluation, Objective};
-
-/// Part of the variance of the residual on strokes that were left out which an effect explains where it is named: on the *tuning* axes
-/// 22 explained .15 to .25, of which two were right.
-const LEAST: f64 = 0.25;
-/// Deviations of that gain over pieces of strokes: one piece alone gains 1, which may be chance, two alike 1.4.
-const SURE: f64 = 1.4;
-/// Largest relative deviation of a pitch, a frequency, a width or a factor that is known: on the *tuning* axes the four that
-/// were less known were wrong.
-const KNOWN: f64 = 0.12;
-/// Part of the squares of a column that the columns of the law have to leave for it to be another effect than they: errors of a few per
-/// cent in an acceleration leave as much of a position that goes with it, as on one sine.
-const APART: f64 = 0.05;
-/// Part of what a general effect explains from which a special one is the cause: dynamics and shapes follow many motions. With a half, a
-/// gap and a resonance more are named on the *tuning* axes, and none is named wrongly for it.
-const SPECIAL: f64 = 0.5;
-/// How much more an effect explains than in replicas of the fitted axis, whose encoder and filters make some of it.
-const REPLICAS: f64 = 2.0;
-/// Effects that are reported, at most.
-const MOST: usize = 3;
+use stiction_policy::effect;
 
 /// A force, or a change of friction, that a law does not have.
 #[derive(Clone, Debug, PartialEq)]
@@ -170,10 +152,6 @@ struct Fitted<'a> {
     mass: f64,
 }
 
-/// Fewest lengths of the bristles in a stroke along which something is said to change: on a shorter one friction itself goes with the
-/// position.
-const FEWEST_LENGTHS: f64 = 50.0;
-
 impl Fitted<'_> {
     /// Least and largest position, m or rad; `None` where the stroke is no longer than a few bristles.
     fn stroke(&self) -> Option<(f64, f64)> {
@@ -181,7 +159,7 @@ impl Fitted<'_> {
         let kappa = self.objective.law().layout().kappa;
         let length = kappa.map_or(0.0, |i| libm::exp(-self.p[i]));
         let stroke = high - low;
-        (stroke > FEWEST_LENGTHS * length && stroke > 0.0 && stroke.is_finite())
+        (stroke > effect::MIN_BRISTLE_LENGTHS * length && stroke > 0.0 && stroke.is_finite())
             .then_some((low, high))
     }
 }
@@ -246,7 +224,7 @@ pub(crate) fn sought(
     let fixed = stated::candidates(&fitted).into_iter();
     let fixed = fixed.chain(levels::candidates(&fitted));
     let fixed: Vec<Candidate> = fixed.chain(other_shape::candidates(&fitted)).collect();
-    while found.len() < MOST {
+    while found.len() < effect::MAX_REPORTED {
         let sized = waves::candidates(&fitted, &beside).into_iter();
         let sized = sized.chain(limit::candidate(&fitted, &beside));
         let sized = sized.chain(spring::candidates(&fitted, &beside));
@@ -255,7 +233,8 @@ pub(crate) fn sought(
             let score = held_out.score(&candidate.columns);
             let effect = (candidate.effect)(&score.coefficients)?;
             let is_new = found.iter().all(|own| !own.effect.is_like(&effect));
-            let apart = |column: &Vec<f64>| beside.part_outside(column) >= APART;
+            let apart =
+                |column: &Vec<f64>| beside.part_outside(column) >= effect::MIN_INDEPENDENT_PART;
             let is_apart = !effect.goes_with_the_mass() || candidate.columns.iter().all(apart);
             (is_new && is_sure(&score, all) && is_apart).then_some((candidate, score, effect))
         });
@@ -267,7 +246,8 @@ pub(crate) fn sought(
         let Some(best) = most(true) else {
             break;
         };
-        let special = most(false).filter(|own| own.1.gain >= SPECIAL * best.1.gain);
+        let special =
+            most(false).filter(|own| own.1.gain >= effect::MIN_SPECIAL_PART * best.1.gain);
         let (candidate, score, effect) = special.unwrap_or(best);
         let effect = *effect;
         let course = course(candidate, &fitted, beside.residual());
@@ -310,13 +290,15 @@ pub(crate) fn beyond(found: Vec<Found>, replicas: &[Found]) -> Vec<Found> {
         alike.map(|other| other.explains).fold(0.0, f64::max)
     };
     let kept = found.into_iter();
-    let known = |own: &Found| !own.effect.has_a_size() || own.deviation <= KNOWN;
-    kept.filter(|own| known(own) && own.explains > REPLICAS * made(own))
+    let known =
+        |own: &Found| !own.effect.has_a_size() || own.deviation <= effect::MAX_RELATIVE_DEVIATION;
+    kept.filter(|own| known(own) && own.explains > effect::MIN_OVER_REPLICAS * made(own))
         .collect()
 }
 
 fn is_sure(score: &Score, all: f64) -> bool {
-    score.gain >= LEAST * all && score.gain >= SURE * score.gain_deviation
+    score.gain >= effect::MIN_EXPLAINED * all
+        && score.gain >= effect::MIN_STROKE_DEVIATIONS * score.gain_deviation
 }
 
 /// Places at which the course of an effect is shown.

@@ -5,13 +5,12 @@
 //! times the derivative of the difference of both velocities.
 
 use super::beside::Beside;
-use super::spring::{LOAD, slope};
+use super::spring::slope;
 use super::{Candidate, Effect, Fitted};
 use crate::conditioning::record::extent;
 use crate::law::terms::ColumnKind;
+use stiction_policy::effect;
 
-/// Part that a gap explains of the kept samples alone from which it is looked at closely.
-const SUSPECTED: f64 = 0.06;
 /// Smallest width in encoder counts or, without them, in strokes; the largest in strokes; how many at most, each twice the
 /// one before.
 const COUNTS: f64 = 4.0;
@@ -48,7 +47,7 @@ pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
         for part in DRAGS {
             let column = column(width, part);
             let own = beside.explained(&column);
-            if LOAD.contains(&(own.coefficient / mass)) {
+            if effect::LOAD_SHARE.contains(&(own.coefficient / mass)) {
                 most = most.max(own.share);
                 if own.share > best.0 {
                     best = (own.share, Some((width, part, column)));
@@ -64,7 +63,8 @@ pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
     let slope = slope.collect();
     let mut candidate = Candidate::new(vec![own], move |c| {
         let load = c[0] / mass;
-        LOAD.contains(&load)
+        effect::LOAD_SHARE
+            .contains(&load)
             .then_some(Effect::Backlash { width, load })
     });
     (candidate.course, candidate.slope) = (course, Some(slope));
@@ -92,7 +92,7 @@ fn suspected(fitted: &Fitted, beside: &Beside, drag: f64) -> Option<f64> {
         return None;
     }
     let step = record.step() * record.decimate as f64;
-    let mut best = (SUSPECTED, None);
+    let mut best = (effect::MIN_SUSPECTED_GAP, None);
     let widths = (0..WIDTHS).map(|i| least * libm::pow(2.0, f64::from(i)));
     for width in widths.take_while(|w| *w <= OF_STROKE * stroke) {
         let mut difference = Vec::with_capacity(along.time.len());

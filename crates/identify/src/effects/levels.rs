@@ -4,20 +4,17 @@ use super::{Candidate, Effect, Fitted};
 use crate::conditioning::record::extent;
 use crate::law::dependence::Dependence;
 use std::f64::consts::PI;
+use stiction_policy::effect;
 
 /// Waves by which a level changes, in halves of what it changes with.
 const WAVES: usize = 3;
-/// Shortest log, s, over which friction is said to change with time: that of no machine changes within less.
-const SHORTEST: f64 = 2.0;
-/// Part of a change along the stroke that goes as a line from which a line describes it.
-const LINE: f64 = 0.8;
 
 pub(super) fn candidates(fitted: &Fitted) -> Vec<Candidate> {
     let measures = &fitted.measures;
     let has = |wanted: &str| (fitted.terms.dependences.iter()).any(|own| own.name() == wanted);
     let mut out = Vec::new();
     let (from, to) = extent(&measures.time);
-    if to - from >= SHORTEST {
+    if to - from >= effect::MIN_DRIFT_TIME {
         out.extend(smooth(fitted, &measures.time, |levels, _| {
             Effect::Drift(levels)
         }));
@@ -63,7 +60,10 @@ fn smooth(
             xy += x * (y - mean);
             yy += (y - mean) * (y - mean);
         }
-        Some(effect([low, high], xy * xy >= LINE * xx * yy))
+        Some(effect(
+            [low, high],
+            xy * xy >= effect::MIN_LINEAR_PART * xx * yy,
+        ))
     };
     let mut candidate = Candidate::new((0..WAVES).map(column).collect(), made);
     (candidate.along, candidate.is_of_level) = (along.to_vec(), true);

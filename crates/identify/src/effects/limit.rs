@@ -8,20 +8,13 @@ use super::waves::highest;
 use super::{Candidate, Effect, Fitted};
 use crate::conditioning::record::Record;
 use crate::conditioning::shift::Shift;
+use stiction_policy::effect;
 
 /// Limits that are tried, in parts of the largest force that was logged.
 const TRIED: std::ops::Range<u32> = 12..49;
 const STEP: f64 = 0.02;
 /// Steps of the search beside the best of them.
 const STEPS: usize = 8;
-/// Factors of what exceeds a limit that make it one: other laws leave only a part of a force that is large.
-const FACTORS: std::ops::Range<f64> = 0.8..1.2;
-/// Largest part of the samples beyond a limit: an axis whose drive gives less more often than that does not move as it is asked.
-const MOST_BEYOND: f64 = 0.2;
-/// Part of these samples that lie together, as many as half a period of the common cut-off has and no fewer than this: a drive stays
-/// at its limit, while spikes of a force that answers noise come and go.
-const TOGETHER: f64 = 0.8;
-const FEWEST_TOGETHER: usize = 5;
 
 /// The limit that explains most, where one does.
 pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
@@ -47,7 +40,8 @@ pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
     let count = forces().count() as f64;
     let beyond = |force: f64| forces().filter(|u| u.abs() > force).count() as f64 / count;
     let share = |part: f64| beside.explained(&column(part * largest)).share;
-    let tried = TRIED.skip_while(|i| beyond(STEP * f64::from(*i) * largest) > MOST_BEYOND);
+    let tried =
+        TRIED.skip_while(|i| beyond(STEP * f64::from(*i) * largest) > effect::MAX_LIMITED_SHARE);
     let first = tried.clone().next()?;
     let tried = tried.map(|i| (i, share(STEP * f64::from(i))));
     let (best, _) = tried.max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -60,9 +54,9 @@ pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
     let slope = high.iter().zip(&low).map(|(h, l)| (h - l) / (2.0 * small));
     let slope = slope.collect();
     let beyond = beyond(force);
-    (beyond <= MOST_BEYOND && stays(record, force)).then_some(())?;
+    (beyond <= effect::MAX_LIMITED_SHARE && stays(record, force)).then_some(())?;
     let mut candidate = Candidate::new(vec![own], move |c| {
-        FACTORS
+        effect::LIMIT_FACTORS
             .contains(&c[0])
             .then_some(Effect::Limit(force, beyond))
     });
@@ -72,7 +66,7 @@ pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
 
 /// Whether a force that is beyond a limit stays there.
 fn stays(record: &Record, limit: f64) -> bool {
-    let long = (5 * record.decimate / 4).max(FEWEST_TOGETHER);
+    let long = (5 * record.decimate / 4).max(effect::MIN_CONSECUTIVE_SAMPLES);
     let (mut all, mut together) = (0_usize, 0_usize);
     for segment in &record.segments {
         let alike = |a: &f64, b: &f64| (a.abs() > limit) == (b.abs() > limit);
@@ -83,5 +77,5 @@ fn stays(record: &Record, limit: f64) -> bool {
             }
         }
     }
-    together as f64 >= TOGETHER * all.max(1) as f64
+    together as f64 >= effect::MIN_CONSECUTIVE_SHARE * all.max(1) as f64
 }

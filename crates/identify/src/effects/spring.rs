@@ -12,10 +12,8 @@ use super::{Candidate, Effect, Fitted};
 use crate::conditioning::record::Record;
 use crate::separable::objective::Objective;
 use std::f64::consts::{PI, TAU};
+use stiction_policy::effect;
 
-/// Part of the moving mass that a load has, and one with the encoder on it: behind more, other laws of friction look alike.
-pub(super) const LOAD: std::ops::Range<f64> = 0.1..0.9;
-const LOAD_OF_ENCODER: std::ops::Range<f64> = 0.1..0.75;
 /// Damping ratio of a resonance, and of what is none. A gap and friction of another shape look like a load whose spring is
 /// damped strongly.
 const LIGHT: f64 = 0.02;
@@ -81,11 +79,13 @@ fn behind_the_motor(
     let mut candidate = Candidate::new(vec![own], move |c| {
         let load = c[0] / mass;
         let read_at_load = false;
-        LOAD.contains(&load).then_some(Effect::Resonance {
-            frequency,
-            load,
-            read_at_load,
-        })
+        effect::LOAD_SHARE
+            .contains(&load)
+            .then_some(Effect::Resonance {
+                frequency,
+                load,
+                read_at_load,
+            })
     });
     course.reverse();
     (candidate.course, candidate.slope) = (course, Some(slope));
@@ -132,7 +132,7 @@ fn before_the_encoder(fitted: &Fitted, acceleration: &[Vec<f64>]) -> Option<Cand
         let (held, free) = (c[0], c[1] / mass);
         let load = 1.0 - free / held;
         let frequency = 1.0 / (TAU * held.sqrt());
-        let is_one = held > 0.0 && free > 0.0 && LOAD_OF_ENCODER.contains(&load);
+        let is_one = held > 0.0 && free > 0.0 && effect::LOAD_SHARE_AT_ENCODER.contains(&load);
         let read_at_load = true;
         is_one.then_some(Effect::Resonance {
             frequency,

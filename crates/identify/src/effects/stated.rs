@@ -4,14 +4,7 @@ use super::{Candidate, Effect, Fitted};
 use crate::conditioning::record::extent;
 use crate::law::terms::{Delay, Mass, Terms};
 use crate::separable::objective::Objective;
-
-/// Least growth of a delay over the log, samples, and fewest reversals, each of which shows it at one instant.
-const LEAST_GROWTH: f64 = 0.1;
-const FEWEST_REVERSALS: usize = 4;
-/// Part of a stated mass, and samples of a stated delay, from which on another is named: less leaves the constants within their
-/// intervals.
-const MASS_APART: f64 = 0.02;
-const DELAY_APART: f64 = 0.1;
+use stiction_policy::effect;
 
 pub(super) fn candidates(fitted: &Fitted) -> Vec<Candidate> {
     let all = [spring_force, dynamics, clocks, mass, delay];
@@ -45,7 +38,8 @@ fn clocks(fitted: &Fitted) -> Option<Candidate> {
     let (objective, measures) = (fitted.objective, &fitted.measures);
     let record = objective.record();
     let one_log = record.segments.windows(2).all(|s| s[0].log == s[1].log);
-    let shows = one_log && objective.is_delayed() && fitted.reversals >= FEWEST_REVERSALS;
+    let shows =
+        one_log && objective.is_delayed() && fitted.reversals >= effect::MIN_DELAY_REVERSALS;
     let slope = fitted.at.slopes.last().filter(|_| shows)?;
     let (first, last) = extent(&measures.time);
     let (middle, step) = (0.5 * (first + last), record.step());
@@ -56,7 +50,7 @@ fn clocks(fitted: &Fitted) -> Option<Candidate> {
         .map(|(s, t)| s * (t - middle) / step);
     let duration = last - first;
     let mut candidate = Candidate::new(vec![column.collect()], move |c| {
-        ((c[0] * duration).abs() > LEAST_GROWTH * step).then_some(Effect::Clocks(c[0]))
+        ((c[0] * duration).abs() > effect::MIN_DELAY_GROWTH * step).then_some(Effect::Clocks(c[0]))
     });
     candidate.along = measures.time.clone();
     Some(candidate)
@@ -71,7 +65,7 @@ fn mass(fitted: &Fitted) -> Option<Candidate> {
     let column: Vec<f64> = force.iter().map(|f| f / mass).collect();
     (mass > 0.0 && !column.is_empty()).then_some(())?;
     Some(Candidate::new(vec![column], move |c| {
-        (c[0].abs() > MASS_APART * mass).then_some(Effect::Mass(mass + c[0]))
+        (c[0].abs() > effect::MIN_MASS_ERROR * mass).then_some(Effect::Mass(mass + c[0]))
     }))
 }
 
@@ -96,6 +90,6 @@ fn delay(fitted: &Fitted) -> Option<Candidate> {
         .filter(|slope| slope.len() == fitted.level.len())?;
     let step = record.step();
     Some(Candidate::new(vec![column.clone()], move |c| {
-        (c[0].abs() > DELAY_APART).then_some(Effect::Delay(delay + c[0] * step))
+        (c[0].abs() > effect::MIN_DELAY_ERROR).then_some(Effect::Delay(delay + c[0] * step))
     }))
 }

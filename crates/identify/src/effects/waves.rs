@@ -9,6 +9,7 @@ use crate::law::terms::Terms;
 use crate::separable::objective::{Evaluation, Objective};
 use std::f64::consts::TAU;
 use stiction_parameters::{Quantity, Wave as Part};
+use stiction_policy::effect;
 use stiction_signal::Lags;
 
 /// Places for each shortest wave, and the transform over the stroke in parts of itself: between two pitches the phase at the end of
@@ -18,16 +19,8 @@ const FINE: usize = 4;
 /// Most places, and fewest kept samples for each wave.
 const MOST_PLACES: usize = 1 << 14;
 const SAMPLES: usize = 8;
-/// Counts of the encoder in the shortest pitch.
-const COUNTS: f64 = 2.0;
-/// Waves over the stroke from which on it repeats.
-const FEWEST: f64 = 2.0;
 /// Steps of the golden section.
 const STEPS: usize = 24;
-/// Part of a wave by which a pitch that is fitted has to be off over the stroke to be another.
-const MOVED: f64 = 1e-3;
-/// Pitch over stroke from which a wave is a line on it, whose pitch says nothing.
-const STRAIGHT: f64 = 4.0;
 
 pub(super) fn candidates(fitted: &Fitted, beside: &Beside) -> Vec<Candidate> {
     let mut out = Vec::new();
@@ -74,8 +67,8 @@ pub(super) fn candidates(fitted: &Fitted, beside: &Beside) -> Vec<Candidate> {
             } = given;
             let found = pitch * (1.0 + off);
             let is_another = found > 0.0
-                && found <= STRAIGHT * stroke
-                && stroke * (1.0 / pitch - 1.0 / found).abs() >= MOVED;
+                && found <= effect::MAX_PITCH * stroke
+                && stroke * (1.0 / pitch - 1.0 / found).abs() >= effect::MIN_PITCH_SHIFT;
             if is_another {
                 let amplitude = factors[0].hypot(factors[1]);
                 let of = move |c: &[f64]| {
@@ -149,10 +142,12 @@ impl Along<'_> {
             .record()
             .resolution
             .filter(|count| *count > 0.0);
-        let by_counts = counts.map_or(f64::INFINITY, |count| self.stroke / (COUNTS * count));
+        let by_counts = counts.map_or(f64::INFINITY, |count| {
+            self.stroke / (effect::MIN_PITCH_COUNTS * count)
+        });
         let by_samples = (self.position.len() / SAMPLES) as f64;
         let most = by_counts.min(by_samples).min((MOST_PLACES / PLACES) as f64);
-        if most < FEWEST {
+        if most < effect::MIN_WAVES {
             return None;
         }
         let places = (PLACES * most.ceil() as usize)
@@ -168,12 +163,12 @@ impl Along<'_> {
         let waves = |k: usize| k as f64 / FINE as f64;
         let all = (0..power.len()).take_while(|k| waves(*k) <= most);
         let near = all
-            .filter(|k| waves(*k) >= FEWEST)
+            .filter(|k| waves(*k) >= effect::MIN_WAVES)
             .max_by(|a, b| power[*a].total_cmp(&power[*b]))?;
         let explained = |waves: f64| beside.pair(&self.wave(self.stroke / waves)).0;
         let step = 1.0 / FINE as f64;
         let found = highest(waves(near), step, STEPS, explained);
-        (found >= FEWEST).then_some(self.stroke / found)
+        (found >= effect::MIN_WAVES).then_some(self.stroke / found)
     }
 }
 

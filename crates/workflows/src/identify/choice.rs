@@ -2,13 +2,12 @@
 
 use super::heard::Heard;
 use super::ladder::{self, Candidate, Climb, Ladder, Rung};
-use super::stated::EXPONENT_APART;
 use super::trust::RICHER_LAW_WINS_BELOW;
 use stiction_files::result::{BetterLaw, LawEntry};
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
 use stiction_parameters::Quantity;
-use stiction_policy::choice;
+use stiction_policy::{choice, effect};
 
 /// The families that the data choose from.
 pub(super) const FAMILIES: [LawKind; 3] = [LawKind::CoulombViscous, LawKind::Dahl, LawKind::LuGre];
@@ -391,7 +390,7 @@ fn is_another_shape(fitted: &Estimate, assumed: f64) -> bool {
     let exponent = fitted.parameter(Quantity::StribeckExponent);
     exponent.filter(|p| p.identifiable).is_some_and(|p| {
         let off = libm::log(p.value / assumed).abs();
-        off > EXPONENT_APART
+        off > effect::MIN_EXPONENT_ERROR
             && p.std
                 .is_some_and(|std| off > choice::MIN_EXPONENT_DEVIATIONS * std / p.value)
     })

@@ -10,11 +10,10 @@ use stiction_files::{Warning, symbols};
 use stiction_identify::{Dependence, Effect, FittedLaw, Found, LawKind};
 use stiction_log::Motion;
 use stiction_number::{Percent, four_digits};
+use stiction_policy::effect;
 
 /// Deviations of a 95 % interval.
 const QUANTILE: f64 = 1.96;
-/// Cut-off below which an axis with a resonance is rigid but for a ninth, in parts of the frequency of its load.
-const RIGID: f64 = 1.0 / 3.0;
 
 /// What counts say of a curve that they are likelier with another exponent of, and the line that has it fitted.
 const ANOTHER_CURVE: &str = "friction falls off over the speed in another way than in this law: the counts of the encoder are likelier with an exponent of";
@@ -342,7 +341,7 @@ fn to_do(cure: &Action) -> String {
 fn by_hand(effect: &Effect) -> String {
     match effect {
         Effect::Resonance { frequency, .. } => {
-            let rigid = four_digits(RIGID * frequency);
+            let rigid = four_digits(effect::RIGID_CUTOFF * frequency);
             return format!(
                 "Record with less acceleration, or set common_cutoff = \"{rigid} Hz\" under [conditioning] in the axis file: below that \
                  the axis is rigid, and levels and mass are right"

@@ -6,6 +6,7 @@ use stiction_files::symbols;
 use stiction_identify::{FittedLaw, Wave};
 use stiction_log::Motion;
 use stiction_number::shortest;
+use stiction_policy::effect;
 
 /// Deviations of a 95 % interval.
 const QUANTILE: f64 = 1.96;
@@ -13,11 +14,7 @@ const QUANTILE: f64 = 1.96;
 const MOST_PARTS: f64 = 100_000.0;
 /// Difference of two pitches, as a part, up to which they are one.
 const SAME: f64 = 1e-9;
-/// Part of a wave by which a pitch that is rounded to fewer digits may be off over the stroke.
-const OFF_OF_A_NUMBER: f64 = 0.002;
 /// Digits in which a pitch is written, at least and at most.
-const STRAIGHT: f64 = 200.0;
-const BENT: f64 = 2.0;
 const FEWEST_DIGITS: usize = 2;
 const MOST_DIGITS: usize = 9;
 
@@ -65,11 +62,14 @@ pub(super) fn line(
 pub(super) fn straight(stroke: f64, law: &FittedLaw, motion: Motion) -> Option<String> {
     let mut pitches = law.terms.cogging.clone();
     // A second one would be the same.
-    if pitches.iter().any(|pitch| *pitch >= BENT * stroke) {
+    if pitches
+        .iter()
+        .any(|pitch| *pitch >= effect::MIN_BENT_PITCH * stroke)
+    {
         return None;
     }
     // Nothing follows from how long it is.
-    let pitch = STRAIGHT * stroke;
+    let pitch = effect::SPRING_PITCH * stroke;
     pitches.push(format!("{pitch:.1e}").parse().unwrap_or(pitch));
     // Levels for each direction stand for a constant force, which the law that follows may have again.
     let without = match law.terms.offset || law.law.asymmetric {
@@ -117,7 +117,8 @@ fn rounded(ripple: &Ripple, motion: Motion) -> f64 {
 /// The pitch in as few digits as are within its deviation and small against a wave over the stroke.
 fn number(ripple: &Ripple) -> f64 {
     let near = |pitch: &f64| {
-        (pitch - ripple.pitch).abs() <= ripple.deviation && ripple.off_by(*pitch) <= OFF_OF_A_NUMBER
+        (pitch - ripple.pitch).abs() <= ripple.deviation
+            && ripple.off_by(*pitch) <= effect::MAX_ROUNDED_PITCH_SHIFT
     };
     let digits = FEWEST_DIGITS..=MOST_DIGITS;
     let written = digits.filter_map(|n| format!("{:.*e}", n - 1, ripple.pitch).parse().ok());
@@ -173,8 +174,8 @@ mod tests {
     fn digits_are_enough_for_the_stroke() {
         // 62 waves: four digits would be off by a sixth of a wave.
         let found = ripple(0.0160123, 1e-4, 1.0);
-        assert!(found.off_by(number(&found)) <= OFF_OF_A_NUMBER);
-        assert!(found.off_by(0.01601) > OFF_OF_A_NUMBER);
+        assert!(found.off_by(number(&found)) <= effect::MAX_ROUNDED_PITCH_SHIFT);
+        assert!(found.off_by(0.01601) > effect::MAX_ROUNDED_PITCH_SHIFT);
     }
 
     #[test]

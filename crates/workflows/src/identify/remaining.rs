@@ -5,15 +5,12 @@
 
 use stiction_files::result::{RemainingEntry, ShapeEntry};
 use stiction_identify::Series;
+use stiction_policy::effect;
 
 /// Stretches of time and places, in each of which the level of friction is looked at.
 const PARTS: usize = 8;
 /// Places at which a force that differs from place to place is looked at.
 const PLACES: usize = 64;
-/// Least part of all samples on which a level is worth asking for.
-const LEAST_PART: f64 = 0.02;
-/// Part of the stroke by which a way back is a reversal.
-const REVERSED: f64 = 1e-4;
 /// Lengths that divide the way after a reversal, in presliding lengths.
 const LENGTHS: [f64; 6] = [0.25, 1.0, 4.0, 16.0, 64.0, 256.0];
 /// Largest value of `exp(-s/4) - exp(-s)`, the course of a shape.
@@ -57,7 +54,7 @@ pub(super) fn remaining(series: &Series, presliding: f64) -> Option<RemainingEnt
             *r -= levels[p] * f;
         }
     }
-    let ways = ways(series, REVERSED * stroke);
+    let ways = ways(series, effect::MIN_REVERSAL * stroke);
     let shapes = shapes(&ways, presliding, &mut left, white);
     let place = |x: &f64| (((x - low) / stroke * PLACES as f64) as usize).min(PLACES - 1);
     let place: Vec<usize> = series.position.iter().map(place).collect();
@@ -136,7 +133,7 @@ impl Along {
             p0 += f * r;
             p1 += f * r * x;
         }
-        let least = LEAST_PART * left.len() as f64;
+        let least = effect::MIN_LEVEL_SHARE * left.len() as f64;
         let levels = sums.map(
             |[product, square, count]| match count >= least && square > 0.0 {
                 true => product / square,

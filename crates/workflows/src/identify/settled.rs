@@ -5,15 +5,7 @@ use stiction_files::result::Action;
 use stiction_identify::Found;
 use stiction_log::Log;
 use stiction_number::short;
-
-/// Part of the whole change of the level that may be left in what counts as settled.
-const LEFT: f64 = 0.25;
-/// Least part of the log that has to be settled: of a level that goes on changing half is never left with a quarter of the change.
-const LEAST_PART: f64 = 0.5;
-/// The shortest part of a log that is worth fitting by itself, s.
-const SHORTEST: f64 = 3.0;
-/// Growth of a delay over a part of the log that hardly matters, samples.
-const HARDLY: f64 = 1.0;
+use stiction_policy::effect;
 
 /// The only log, unless a part of it was chosen already.
 fn whole(sources: &[Source]) -> Option<&Log> {
@@ -39,15 +31,15 @@ pub(super) fn part(drift: &Found, sources: &[Source]) -> Option<Action> {
     let from = begin + (to - begin) * first as f64 / levels.len() as f64;
     // In tenths of a second, the end not cut off.
     let tenth = |x: f64| (10.0 * x).ceil() / 10.0;
-    (to - from >= SHORTEST).then(|| crop(tenth(from), tenth(to + 0.05)))
+    (to - from >= effect::MIN_CROP).then(|| crop(tenth(from), tenth(to + 0.05)))
 }
 
 /// The part at the beginning of the log within which a delay that grows so fast (s/s) hardly does; `None` where it is too short.
 pub(super) fn before_the_clocks_part(drift: f64, sources: &[Source]) -> Option<Action> {
     let log = whole(sources)?;
     let (first, last) = (*log.time.first()?, *log.time.last()?);
-    let part = (HARDLY / log.rate_hz / drift.abs()).floor();
-    (part >= SHORTEST && part < last - first).then(|| crop(first, first + part))
+    let part = (effect::MAX_CROP_DELAY_GROWTH / log.rate_hz / drift.abs()).floor();
+    (part >= effect::MIN_CROP && part < last - first).then(|| crop(first, first + part))
 }
 
 /// From which of the means in order of time on the level has settled.
@@ -61,9 +53,10 @@ fn settled_from(levels: &[f64]) -> Option<usize> {
         ends.1 - ends.0
     };
     let whole = span(levels);
-    let first = (1..levels.len()).find(|&i| span(&levels[i..]) <= LEFT * whole)?;
+    let first =
+        (1..levels.len()).find(|&i| span(&levels[i..]) <= effect::MAX_UNSETTLED_CHANGE * whole)?;
     let part = 1.0 - first as f64 / levels.len() as f64;
-    (part >= LEAST_PART).then_some(first)
+    (part >= effect::MIN_SETTLED_SHARE).then_some(first)
 }
 
 #[cfg(test)]

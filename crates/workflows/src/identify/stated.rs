@@ -15,10 +15,6 @@ use stiction_number::{Percent, four_digits, full};
 use stiction_parameters::{Name, Quantity};
 use stiction_policy::agreement;
 
-/// Distance of a fitted Stribeck exponent from another one, of logarithms, that filters and encoder may have made: on simulated axes up to
-/// 0.14 (decision 0064).
-pub(super) const EXPONENT_APART: f64 = 0.22;
-
 /// Says what is stated, what the log shows, and what to do; `None` where it is what is stated, nothing is stated, or the log does not tell.
 pub(super) fn named(
     asked: Asked,
