@@ -17,21 +17,13 @@ use crate::separable::search_box::MOST_DELAY;
 use crate::separable::settings::Settings;
 use crate::separable::{follow, separable};
 use stiction_parameters::LawKind;
+use stiction_policy::delay;
 use stiction_search::{Observer, Status};
 
-/// Delay in parts of its range from which on it may be further away.
-const NEAR_THE_END: f64 = 0.75;
 /// Samples of the record from one fit to the next: each sees four to either side.
 const STRIDE: f64 = 6.0;
 /// Most fits.
 const MOST_FITS: usize = 12;
-/// Relative error of the fit at the rows that are found, in parts of that as logged, at most; where force and motion were laid
-/// beside each other already, any less is better.
-const LEFT: f64 = 0.5;
-const LEFT_BESIDE: f64 = 1.0;
-/// The same of a later force, which counts where nothing else explains more: a delay that is a row or two beyond its range leaves about
-/// as much at the end of it.
-const LEFT_BEYOND: f64 = 0.97;
 
 /// Rows by which a force has to be taken later (earlier where negative), so that it belongs to the motion beside it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +55,7 @@ pub fn alignment(
     let law = near.map_or(Law::new(LawKind::LuGre), |(law, _)| *law);
     let near = near.map(|(_, end)| end.as_slice()).unwrap_or_default();
     let (start, delay) = near.split_at_checked(law.nonlinear()).unwrap_or_default();
-    let is_near_the_end = |delay: f64| delay.abs() >= NEAR_THE_END * MOST_DELAY;
+    let is_near_the_end = |delay: f64| delay.abs() >= delay::END_OF_RANGE * MOST_DELAY;
     if laid == 0 && !delay.first().is_some_and(|delay| is_near_the_end(*delay)) {
         return None;
     }
@@ -141,10 +133,14 @@ pub fn alignment(
         }
         within = better;
     }
-    let most = if laid == 0 { LEFT } else { LEFT_BESIDE };
+    let most = if laid == 0 {
+        delay::MAX_ROW_ERROR
+    } else {
+        delay::MAX_ALIGNED_ROW_ERROR
+    };
     let (rows, own) = within.filter(|(rows, _)| *rows != 0)?;
     let is_sure = own < most * logged;
-    let is_beyond = laid == 0 && rows > 0 && own < LEFT_BEYOND * logged;
+    let is_beyond = laid == 0 && rows > 0 && own < delay::MAX_LATE_ROW_ERROR * logged;
     (is_sure || is_beyond).then_some(Alignment {
         rows,
         left: (own / logged).powi(2),

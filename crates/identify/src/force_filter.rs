@@ -19,36 +19,17 @@ use crate::separable::follow;
 use crate::separable::optimum::Optimum;
 use crate::separable::search_box::MOST_DELAY;
 use crate::separable::settings::Settings;
+use stiction_policy::delay;
 use stiction_search::{Observer, Status};
 use stiction_signal::{of_mean, undo_low_pass, undo_mean};
 
-/// Least time by which a force is later than one that is held, samples, from which on a low-pass is looked for.
-const LEAST_LATE: f64 = 0.3;
 /// Time constants that are tried, samples.
 const TRIED: [f64; 10] = [0.5, 1.0, 1.7, 2.6, 3.8, 5.5, 8.0, 11.5, 16.5, 24.0];
 /// How much later than a fit says the force may be, samples, where the delay of that fit is at the end of its range.
 const BEYOND: f64 = 24.0;
-/// How much longer than the force is late a low-pass may come out, samples: what rows and filters move a delay by.
-const ROUGHLY: f64 = 1.0;
 /// Most fits from the best of the tried ones on, and the change of the square, in parts of its deviation, that is none any more.
 const MOST_FITS: usize = 6;
 const SETTLED: f64 = 0.1;
-
-/// Deviations of the square from none from which on there surely is a low-pass, what it may leave at most, in parts of what is left
-/// without it, and by how much the delay beside it may differ from that of a force which is held, samples. What only looks like a
-/// low-pass, a force that was logged later than fits reach, leaves another delay.
-const SURE: f64 = 3.0;
-const NO_MORE: f64 = 1.0;
-const BESIDE: f64 = 0.75;
-/// What a low-pass leaves, at most, in parts of what is left without it, beside which the force may be later by some rows, and by how
-/// many.
-const SURELY_LEFT: f64 = 0.3;
-const MOST_FURTHER: f64 = 2.0;
-/// What a mean over rows leaves, at most, in parts of what is left without it, and of what a low-pass alone leaves, beside the delay of a
-/// force which is held; beside another delay, or rows, it may leave as much more. Fewest of its rows.
-const LEFT_OF_MEAN: f64 = 0.8;
-const LEFT_OF_LOW_PASS: f64 = 0.95;
-const FEWEST_ROWS: f64 = 3.0;
 
 /// What the force was logged behind.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,11 +60,12 @@ impl ForceFilter {
     pub fn is_certain(&self) -> bool {
         let shows = match self.what {
             Smoothing::LowPass(time) => {
-                time * time > SURE * self.variance.sqrt() && self.left < NO_MORE
+                time * time > delay::MIN_LOW_PASS_DEVIATIONS * self.variance.sqrt()
+                    && self.left < delay::MAX_LOW_PASS_ERROR
             }
             Smoothing::Mean(_) => true,
         };
-        shows && (self.delay - HELD_DELAY).abs() < BESIDE
+        shows && (self.delay - HELD_DELAY).abs() < delay::MAX_LOW_PASS_DELAY
     }
 }
 
@@ -129,10 +111,10 @@ pub fn force_filter(
         false => 0.0,
     };
     let late = laid as f64 + delay - HELD_DELAY;
-    if late < LEAST_LATE {
+    if late < delay::MIN_FORCE_LAG {
         return None;
     }
-    let most = late + beyond + ROUGHLY;
+    let most = late + beyond + delay::MAX_LOW_PASS_EXCESS;
     let mut fit = |undone: Undone, start: &[f64], late: f64| {
         fitted(
             logs,
@@ -180,15 +162,15 @@ pub fn force_filter(
     let mean = mean(&mut fit, &without, late);
     let own = best.optimum.p.last().copied().unwrap_or(0.0);
     // A low-pass alone says no more than a mean does; one of a force that is some rows later has two numbers where a mean has one.
-    let is_alone = best.rows + laid == 0 && (own - HELD_DELAY).abs() < BESIDE;
+    let is_alone = best.rows + laid == 0 && (own - HELD_DELAY).abs() < delay::MAX_LOW_PASS_DELAY;
     let of_low_pass = match is_alone {
-        true => LEFT_OF_LOW_PASS,
-        false => 1.0 / LEFT_OF_LOW_PASS,
+        true => delay::MAX_MEAN_OVER_LOW_PASS,
+        false => 1.0 / delay::MAX_MEAN_OVER_LOW_PASS,
     };
     // What is later than the fit without it said may be anything that leaves less.
-    let least = |rows: f64| match (0.5 * (rows - 1.0) - late).abs() <= ROUGHLY {
-        true => LEFT_OF_MEAN,
-        false => SURELY_LEFT,
+    let least = |rows: f64| match (0.5 * (rows - 1.0) - late).abs() <= delay::MAX_LOW_PASS_EXCESS {
+        true => delay::MAX_MEAN_ERROR,
+        false => delay::MAX_FURTHER_ERROR,
     };
     let shows = |(rows, mean): &(f64, Tried)| {
         mean.left < of_low_pass * best.left && mean.left < least(*rows) * without.left
@@ -204,8 +186,10 @@ pub fn force_filter(
     }
     let left = best.left / without.left;
     // A low-pass that leaves next to nothing is one, also where a drive logs a row or two later still.
-    let further = match left < SURELY_LEFT {
-        true => (own - HELD_DELAY).round().clamp(0.0, MOST_FURTHER),
+    let further = match left < delay::MAX_FURTHER_ERROR {
+        true => (own - HELD_DELAY)
+            .round()
+            .clamp(0.0, delay::MAX_FURTHER_DELAY),
         false => 0.0,
     };
     Some(ForceFilter {
@@ -226,7 +210,8 @@ fn mean(
     let mut found: Option<(f64, Tried)> = None;
     for _ in 0..MOST_FITS {
         let rows = (2.0 * late + 1.0).round();
-        if rows < FEWEST_ROWS || found.as_ref().is_some_and(|(before, _)| *before == rows) {
+        if rows < delay::MIN_MEAN_ROWS || found.as_ref().is_some_and(|(before, _)| *before == rows)
+        {
             break;
         }
         let start = found.as_ref().map_or(without, |(_, tried)| tried);

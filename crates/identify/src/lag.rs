@@ -21,14 +21,11 @@ use crate::separable::optimum::Optimum;
 use crate::separable::settings::Settings;
 use nalgebra::DMatrix;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_SQRT_PI, SQRT_2};
+use stiction_policy::delay;
 use stiction_search::{Counts, Observer, Status};
 
 /// Cut-offs at which the log is asked, parts of the sample rate: on the position, and in common.
 const CUTOFFS: [f64; 2] = [0.1, 0.035];
-/// Speed from which on samples count, parts of the top speed: what a fit of the force makes of rests would be taken for a lag.
-const SLOWEST: f64 = 0.01;
-/// Longest lag, samples, of which nothing is asked: a force that is held is smaller by as much as one with a lag of 0.3.
-const LEAST: f64 = 0.1;
 /// What a force that is held loses, as the square of a lag, samples. Replicas show that.
 const HELD_SQUARE: f64 = 1.0 / 12.0;
 /// Most fits beside a lag that is known better and better.
@@ -85,7 +82,7 @@ pub(crate) fn asked(wanted: &Conditioning, record: &Record) -> Conditioning {
     Conditioning {
         source_cutoff: source,
         common_cutoff: common,
-        min_speed: SLOWEST * record.top_speed(),
+        min_speed: delay::MIN_LAG_SPEED * record.top_speed(),
         ..*wanted
     }
 }
@@ -95,7 +92,7 @@ fn longest(law: &Law, terms: &Terms, optimum: &Optimum) -> Option<f64> {
     let asked = terms.delay == Delay::Fitted && law.layout().kappa.is_some();
     let delay = optimum.p.last().filter(|_| asked && optimum.delay)?;
     let most = HELD_DELAY - delay;
-    (most >= LEAST).then_some(most)
+    (most >= delay::MIN_LAG).then_some(most)
 }
 
 /// What a fit says of the lag.

@@ -14,14 +14,11 @@ use crate::conditioning::record::Samples;
 use crate::conditioning::{median_step, stretches};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
+use stiction_policy::delay;
 use stiction_signal::{Sos, gradient, second_derivative};
 
 /// Rows either way that are tried.
 pub(crate) const MOST: usize = 64;
-/// Rows that a fit finds by itself.
-const FOUND_BY_A_FIT: usize = 3;
-/// What is left of the square of the force at the best lag, in parts of what is left where a fit would find it, at most.
-const LEFT: f64 = 0.5;
 /// Cut-offs in parts of the sample rate: of the position, and of force and columns.
 const SOURCE: f64 = 0.1;
 const COMMON: f64 = 0.025;
@@ -41,10 +38,11 @@ const FEWEST: usize = 20 * COLUMNS;
 pub fn lateness(logs: &[Samples]) -> Option<usize> {
     let left = Sums::of(logs).left()?;
     let best = (0..left.len()).min_by(|&a, &b| left[a].total_cmp(&left[b]))?;
-    let near = (MOST - FOUND_BY_A_FIT)..=(MOST + FOUND_BY_A_FIT);
+    let near = (MOST - delay::ROWS_OF_A_FIT)..=(MOST + delay::ROWS_OF_A_FIT);
     let own = near.map(|i| left[i]).fold(f64::INFINITY, f64::min);
     let rows = best.checked_sub(MOST)?;
-    (rows > FOUND_BY_A_FIT && rows < MOST && left[best] < LEFT * own).then_some(rows)
+    (rows > delay::ROWS_OF_A_FIT && rows < MOST && left[best] < delay::MAX_LATE_ERROR * own)
+        .then_some(rows)
 }
 
 /// Where the force goes best with its motion among the rows that are later (`way` 1) or earlier (-1) than a fit finds by itself,
@@ -52,7 +50,7 @@ pub fn lateness(logs: &[Samples]) -> Option<usize> {
 pub(crate) fn likely(logs: &[Samples], way: isize) -> Option<isize> {
     let left = Sums::of(logs).left()?;
     let at = |rows: usize| MOST.checked_add_signed(way * rows as isize);
-    let rows = (FOUND_BY_A_FIT + 1)..MOST;
+    let rows = (delay::ROWS_OF_A_FIT + 1)..MOST;
     let least = rows.min_by(|&a, &b| {
         let of = |rows| at(rows).and_then(|i| left.get(i)).copied();
         let [a, b] = [a, b].map(|rows| of(rows).unwrap_or(f64::INFINITY));

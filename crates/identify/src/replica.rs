@@ -14,6 +14,7 @@ use crate::drive::Drive;
 use crate::estimate::Estimate;
 use crate::law::terms::{Delay, FirstDelay, Terms};
 use crate::reaction::{AS_MEAN, Logging, Reaction, is_logged_as_mean};
+use stiction_policy::delay;
 
 use beside::{Beside, Stepped};
 use std::borrow::Cow;
@@ -25,10 +26,6 @@ use stiction_servo::plant::{Motion, Plant};
 
 /// Delay of a force that is logged where it is held, from its sample to the next, samples.
 pub(crate) const HELD_DELAY: f64 = -0.5;
-/// Deviations of a fitted delay that chance explains.
-const CHANCE: f64 = 2.0;
-/// The same from which on a delay is surely another one.
-const SURELY: f64 = 4.0;
 /// The spring that keeps the simulated axis on the recorded motion: its frequency over the sample rate.
 const TRACKING_FREQUENCY: f64 = 0.01;
 /// The same where the response of the controller keeps it there: a stiff spring with its damper would
@@ -306,7 +303,9 @@ fn held_late(
     first: Option<FirstDelay>,
     is_mean: impl FnOnce() -> bool,
 ) -> f64 {
-    let moved = |first: &FirstDelay| (own - first.delay).abs() > SURELY * first.deviation;
+    let moved = |first: &FirstDelay| {
+        (own - first.delay).abs() > delay::MIN_SURE_DEVIATIONS * first.deviation
+    };
     let (delay, deviation) = match first.filter(moved) {
         Some(first) => (first.delay, Some(first.deviation)),
         None => (own, deviation),
@@ -317,14 +316,14 @@ fn held_late(
     };
     let within = |times: f64, near: f64| (late - near).abs() <= times * deviation;
     let (whole, half) = (late.round(), late.floor() + 0.5);
-    let [is_whole, is_half] = [whole, half].map(|near| within(CHANCE, near));
+    let [is_whole, is_half] = [whole, half].map(|near| within(delay::MAX_CHANCE_DEVIATIONS, near));
     // A mean of the sample and the one before, unless it surely acts whole samples later besides.
-    let mean = if within(SURELY, AS_MEAN) {
+    let mean = if within(delay::MIN_SURE_DEVIATIONS, AS_MEAN) {
         AS_MEAN
     } else {
         half
     };
-    if is_whole && within(SURELY, mean) && is_mean() {
+    if is_whole && within(delay::MIN_SURE_DEVIATIONS, mean) && is_mean() {
         return mean;
     }
     match (is_whole, is_half) {

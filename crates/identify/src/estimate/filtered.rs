@@ -3,17 +3,14 @@
 use crate::conditioning::record::Record;
 use crate::estimate::Estimate;
 use stiction_parameters::Quantity;
-
-/// Samples by which a velocity is later than the force that drives it, from which on it is taken to be filtered. A command that
-/// is held and a mean over a sample make half a sample each.
-const FILTERED: f64 = 1.5;
+use stiction_policy::delay;
 
 /// Flags what depends on fast motion where the motion is a logged velocity that comes late: drives filter it, and the fitted delay
 /// takes the phase of the filter but not its gain.
 pub(super) fn flag_what_a_filter_hides(record: &Record, estimate: &mut Estimate) {
     let is_logged = record.segments.iter().all(|s| s.reading.is_empty());
     let late = -estimate.delay_samples();
-    if !is_logged || late < FILTERED {
+    if !is_logged || late < delay::MIN_VELOCITY_LAG {
         return;
     }
     let of_fast_motion = [

@@ -30,7 +30,7 @@ use crate::separable::settings::Settings;
 use crate::watch::Watch;
 use parabola::Parabola;
 use profile::{NARROW, Profile};
-use stiction_policy::choice;
+use stiction_policy::{choice, delay};
 use stiction_search::{Observer, Stage, Status};
 
 /// How much earlier than where the cost is least elements are looked for anew, samples.
@@ -39,8 +39,6 @@ const EARLIER: f64 = 1.0;
 const SETTLING_STEPS: usize = 20;
 /// Change of the delay, samples, from which on their number is chosen anew.
 const FAR: f64 = 0.25;
-/// Standard deviation, samples, from which on the profile counts as flat.
-const FLAT: f64 = 1.0;
 
 /// Fits the elements with the delay that they find, beginning at one that is held, which `terms` have and `held` was fitted with. Gives
 /// those where the profile has no minimum within the range of a fitted delay, or is flat, and where the law that the delay is from leaves
@@ -134,7 +132,9 @@ fn found(
     };
     // Fewer elements that hold as well on samples that were left out may leave a little more.
     let no_worse = cost <= held.evaluation.cost || optimum.law.elements < held.law.elements;
-    let found = variance < FLAT * FLAT && no_worse && cost < least;
+    let found = variance < delay::MIN_FLAT_DEVIATION * delay::MIN_FLAT_DEVIATION
+        && no_worse
+        && cost < least;
     Ok(found.then(|| {
         let terms = Terms {
             delay_deviation: variance.sqrt() * record.step(),

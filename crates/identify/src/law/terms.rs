@@ -8,6 +8,7 @@ use crate::law::prior::Prior;
 use crate::law::{Law, LawKind};
 use std::f64::consts::TAU;
 use stiction_parameters::{Name, Quantity, Wave};
+use stiction_policy::delay;
 
 /// Linear terms beside the friction law; each is one more exact unknown.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,9 +93,6 @@ pub struct Lag {
     pub variance: f64,
 }
 
-/// Standard deviations from none from which on a lag is certain; where all from none to the longest are as likely it is 1.7.
-const CERTAIN: f64 = 2.0;
-
 impl Lag {
     /// No lag.
     pub const NONE: Self = Self {
@@ -104,7 +102,9 @@ impl Lag {
 
     /// What fits assume of it: one that is not certain is left out, and may be as large as it may.
     pub(crate) fn assumed(self) -> Self {
-        match self.square * self.square > CERTAIN * CERTAIN * self.variance {
+        match self.square * self.square
+            > delay::MIN_LAG_DEVIATIONS * delay::MIN_LAG_DEVIATIONS * self.variance
+        {
             true => self,
             false => Self {
                 square: 0.0,

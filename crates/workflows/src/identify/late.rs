@@ -15,6 +15,7 @@ use stiction_identify::{
 use stiction_log::{Offset, Role};
 use stiction_number::{four_digits, full};
 use stiction_parameters::Quantity;
+use stiction_policy::delay;
 
 /// Lays force and motion beside each other, where no delay is given and whole records are fitted.
 pub(super) fn aligned(asked: Asked, mut loaded: Loaded) -> Result<Loaded, Error> {
@@ -36,15 +37,12 @@ pub(super) fn aligned(asked: Asked, mut loaded: Loaded) -> Result<Loaded, Error>
     Ok(loaded)
 }
 
-/// Rows by which the delays of two logs may differ: what a fit of both finds to either side of the middle.
-const MOST_APART: usize = 6;
-
 /// The log whose force is the latest and the one whose is the least late, where no delay is that of both.
 fn apart(sources: &[Source], each: &[usize]) -> Option<String> {
     let by_rows = |log: &(&Source, &usize)| *log.1;
     let logs = || sources.iter().zip(each);
     let (least, most) = (logs().min_by_key(by_rows)?, logs().max_by_key(by_rows)?);
-    (most.1 - least.1 > MOST_APART).then(|| {
+    (most.1 - least.1 > delay::MAX_ROWS_APART).then(|| {
         format!(
             "the force of {} was logged about {} rows later than its motion, that of {} about {}: no delay is that of both",
             most.0.name(),
@@ -55,8 +53,6 @@ fn apart(sources: &[Source], each: &[usize]) -> Option<String> {
     })
 }
 
-/// What rows that are late leave, in parts of what a filter leaves, up to which they are believed: a filter has one number more.
-const LATE_AS_GOOD: f64 = 1.3;
 /// The same where the fits that choose the cut-offs found the delay at the end of its range: by fits further on. Gives the rows
 /// that explain the force better, where they are not sure to be its cause.
 pub(super) fn realigned(
@@ -117,7 +113,7 @@ pub(super) fn unfiltered(
     );
     let found = found.filter(ForceFilter::is_certain);
     let least = found.map_or(f64::INFINITY, |filter| filter.left);
-    let is_as_good = |further: &Alignment| further.left < LATE_AS_GOOD * least;
+    let is_as_good = |further: &Alignment| further.left < delay::MAX_ROWS_OVER_FILTER * least;
     if let Some(further) = further.filter(is_as_good) {
         loaded.take_force_from(further.rows);
         let conditioned = condition(asked, &loaded, observer)?;
