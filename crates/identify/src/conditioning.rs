@@ -19,13 +19,11 @@ use crate::conditioning::grid::Grid;
 use crate::conditioning::losses::Losses;
 use crate::conditioning::record::{Record, Samples, Segment};
 use crate::error::{Error, full};
+use stiction_policy::conditioning;
 use stiction_signal::{
     Reading, Sos, Thinning, gradient, gradient_sixth_order, noise_deviation, timing_noise,
 };
 
-/// Missing samples up to this many in a row are bridged by a straight line (and do not count in the
-/// fit); longer gaps split the log.
-pub(crate) const MOST_BRIDGED: f64 = 5.0;
 /// Order of both low-pass filters.
 const ORDER: usize = 4;
 
@@ -393,7 +391,7 @@ pub(crate) fn stretches(log: &Samples, step: f64) -> Vec<std::ops::Range<usize>>
     let mut out = Vec::new();
     let mut start = 0;
     for i in 1..log.time.len() {
-        let gap = log.time[i] - log.time[i - 1] > (MOST_BRIDGED + 1.5) * step;
+        let gap = log.time[i] - log.time[i - 1] > (conditioning::MAX_BRIDGED_SAMPLES + 1.5) * step;
         if gap || log.breaks.binary_search(&i).is_ok() {
             out.push(start..i);
             start = i;

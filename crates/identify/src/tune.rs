@@ -28,17 +28,13 @@ use crate::separable::optimum::Optimum;
 use crate::separable::settings::Settings;
 use crate::separable::{follow, separable};
 use stiction_parameters::Name;
+use stiction_policy::conditioning;
 use stiction_search::{Control, Counts, Observer, Progress, Stage, Status};
 
 /// Replicas that each pair of cut-offs is tried on.
 const REPLICA_COUNT: u64 = 4;
 /// Replicas that the first, coarse look over the whole scale is made on.
 const COARSE_REPLICAS: usize = 2;
-/// Error over that of the start below which a place of the coarse look is taken for another valley.
-const OTHER_VALLEY: f64 = 0.7;
-/// Error over that of the best below which a place is better: along a valley that is flat, chance would lead far away, to
-/// high cut-offs too, where an axis does what no law says.
-const BETTER: f64 = 0.95;
 /// Most times the choice is repeated from a better fit.
 const MOST_ROUNDS: usize = 4;
 /// Cut-offs on the position that are tried: the sample rate over 2.5 times a power of the square root of two.
@@ -53,11 +49,6 @@ const LARGEST_ERROR: f64 = 5.0;
 const START: (i32, i32) = (6, 4);
 /// Number of the same steps by which the cut-off of the common filter is below that of the position.
 const BELOW: std::ops::RangeInclusive<i32> = 1..=6;
-
-/// Thinned samples that the cut-offs must leave, or as many as the default ones leave if that is fewer: a
-/// low cut-off leaves few samples of a short log, and a law with many elements needs ten for each
-/// unknown.
-const FEWEST_SAMPLES: usize = 300;
 
 /// A pair of cut-offs and its error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -195,7 +186,9 @@ pub fn tune(
             break;
         };
         let mut search = Walk {
-            least: condition_as(logs, &wanted, 0.0)?.kept().min(FEWEST_SAMPLES),
+            least: condition_as(logs, &wanted, 0.0)?
+                .kept()
+                .min(conditioning::MIN_SAMPLES),
             fitted: &fitted,
             replicas: Vec::new(),
             force_noise: noise,
@@ -225,10 +218,6 @@ pub fn tune(
     Ok(tuned)
 }
 
-/// Mean square of what a fit leaves before the axis has slid, over that of the rest, from which on the start is not what the
-/// law assumes.
-const UNLIKE: f64 = 2.0;
-
 /// Whether a fit of a record leaves more in the samples that the same record, settled, has no more: there the bristles did not
 /// begin undeflected, as the law assumes.
 fn depends_on_before(record: &Record, settled: &Record, found: &Optimum) -> bool {
@@ -245,7 +234,7 @@ fn depends_on_before(record: &Record, settled: &Record, found: &Optimum) -> bool
             of.1 += 1.0;
         }
     }
-    early.0 * rest.1 > UNLIKE * rest.0 * early.1
+    early.0 * rest.1 > conditioning::MIN_START_ERROR * rest.0 * early.1
 }
 
 /// Leaves the cut-offs as they are, and finds the distance alone that an axis must have slid before its samples count: by a
@@ -285,13 +274,9 @@ pub fn settle(
     })
 }
 
-/// Part of the variance that a fit must explain to represent the axis. The rest is taken as noise of the
-/// force, and a law that does not describe the axis would lead to far too low a cut-off.
-const LEAST_R2: f64 = 0.99;
-
 /// Whether a fit is near enough to the axis to represent it.
 fn worth(fitted: &Estimate) -> bool {
-    fitted.fit.r2 > LEAST_R2
+    fitted.fit.r2 > conditioning::MIN_R2
 }
 
 /// The conditioning at a place on the scale: the cut-off of the position, and how many steps the common
@@ -340,7 +325,7 @@ impl Walk<'_> {
             return Some(start);
         }
         let own = self.tried(start, COARSE_REPLICAS, observer)?;
-        let mut best = (start, OTHER_VALLEY * own);
+        let mut best = (start, conditioning::MAX_OTHER_VALLEY_ERROR * own);
         for source in (0..=CUTOFF_STEPS).step_by(COARSE_STEP) {
             for below in COARSE_BELOW {
                 let error = self.tried((source, below), COARSE_REPLICAS, observer)?;
@@ -370,7 +355,11 @@ impl Walk<'_> {
                     continue;
                 }
                 let error = self.error(next, observer)?;
-                let least = if best.0 == before.0 { BETTER } else { 1.0 };
+                let least = if best.0 == before.0 {
+                    conditioning::MAX_BETTER_ERROR
+                } else {
+                    1.0
+                };
                 if error < least * best.1 {
                     best = (next, error);
                 }

@@ -13,14 +13,11 @@
 use crate::conditioning::record::Record;
 use crate::conditioning::shift::Shift;
 use crate::conditioning::{Cutoff, ORDER};
+use stiction_policy::conditioning;
 use stiction_signal::{Sos, gradient, gradient_sixth_order};
 
 /// Largest lag of the measured acceleration that is looked for, either way, in samples: a sensor of its own with a filter.
 const MOST_LAG: i32 = 20;
-/// Deviation of the gain from 1 that is put down to the sensor.
-const MOST_GAIN_ERROR: f64 = 0.05;
-/// Gains of a sensor that shows the motion at all, whatever its unit is taken for.
-const SAME_MOTION: std::ops::Range<f64> = 0.1..10.0;
 /// Samples of the impulse whose energy is the gain of white noise, in settling times of the filters.
 const IMPULSE_SETTLINGS: usize = 4;
 
@@ -90,13 +87,14 @@ impl Record {
         };
         let lag = f64::from(best) + part;
         let found = compared(lag).unwrap_or(at);
-        if !SAME_MOTION.contains(&found.gain) {
+        if !conditioning::ACCELEROMETER_GAIN.contains(&found.gain) {
             return None;
         }
         let noise = (found.apart - derivative_noise * derivative_noise)
             .max(0.0)
             .sqrt();
-        let is_it = (found.gain - 1.0).abs() <= MOST_GAIN_ERROR && best.abs() < MOST_LAG;
+        let is_it = (found.gain - 1.0).abs() <= conditioning::MAX_ACCELEROMETER_GAIN_ERROR
+            && best.abs() < MOST_LAG;
         let taken = is_it && noise < derivative_noise;
         let mut out = self.clone();
         if taken {

@@ -1,15 +1,13 @@
 //! Parts of the samples that a fit sees, each to be left out in its turn.
 
 use crate::conditioning::record::Record;
+use stiction_policy::conditioning;
 
 /// Stretches of a fold: so many that each of them holds every kind of motion of a log (rests, slow reversals,
 /// strokes) that lasts a tenth of it.
 const STRETCHES: usize = 16;
 /// Fewest kept samples of a stretch. The common filter correlates two or three of them.
 const SHORTEST_STRETCH: usize = 24;
-
-/// Samples that a fit needs for each of its unknowns.
-const FOR_EACH_UNKNOWN: usize = 10;
 
 /// Which fold each kept sample belongs to.
 #[derive(Clone, Debug)]
@@ -42,7 +40,7 @@ impl Folds {
     /// Whether what is left without a fold is enough for a fit of so many unknowns.
     pub fn leave_enough(&self, unknowns: usize) -> bool {
         let kept = self.of.len();
-        self.count > 1 && kept - kept / self.count >= FOR_EACH_UNKNOWN * unknowns
+        self.count > 1 && kept - kept / self.count >= conditioning::SAMPLES_PER_UNKNOWN * unknowns
     }
 
     /// The record with only those samples of the regression that are (`inside`) or are not in a fold.

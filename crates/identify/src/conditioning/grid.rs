@@ -1,9 +1,6 @@
 //! Uniform time: log samples onto an even grid by straight lines, gaps remembered.
 
-use crate::conditioning::MOST_BRIDGED;
-
-/// Spread of the sample times, relative to the sample time, up to which a log counts as uniform.
-const UNIFORM_STEP_SPREAD: f64 = 1e-3;
+use stiction_policy::conditioning;
 
 /// Uniform time over one stretch.
 pub(crate) struct Grid<'a> {
@@ -27,7 +24,7 @@ impl<'a> Grid<'a> {
             .all(|(i, t)| (t - start - i as f64 * step).abs() <= 0.5 * step)
             && time
                 .windows(2)
-                .all(|t| ((t[1] - t[0]) / step - 1.0).abs() <= UNIFORM_STEP_SPREAD);
+                .all(|t| ((t[1] - t[0]) / step - 1.0).abs() <= conditioning::MAX_STEP_SPREAD);
         if uniform {
             return Some(Self {
                 time,
@@ -39,7 +36,7 @@ impl<'a> Grid<'a> {
         }
         let count = ((end - start) / step * (1.0 + 1e-12)) as usize + 1;
         // Gaps are bridged up to a few samples each, so the grid cannot be much longer than the log.
-        if count as f64 > (MOST_BRIDGED + 3.0) * time.len() as f64 {
+        if count as f64 > (conditioning::MAX_BRIDGED_SAMPLES + 3.0) * time.len() as f64 {
             return None;
         }
         let mut before = Vec::with_capacity(count);

@@ -1,6 +1,7 @@
 //! Why samples of a log are not used in a fit.
 
 use std::fmt;
+use stiction_policy::conditioning;
 
 /// Counts of the samples on their way from the logs to a fit, and why the others were left out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,14 +29,11 @@ pub struct Losses {
     pub held_back: usize,
 }
 
-/// Least part of the samples of a log that may be neither saturated, missing nor frozen for its axis to be simulated under its force.
-const LEAST_KNOWN_SHARE: f64 = 0.2;
-
 impl Losses {
     /// How many of so many samples have to be usable for the axis to be simulated under their force: where it is known too seldom, no
     /// simulation finds the position.
     pub(crate) fn needed_to_simulate(samples: usize) -> usize {
-        (LEAST_KNOWN_SHARE * samples as f64) as usize
+        (conditioning::MIN_FORCE_SHARE * samples as f64) as usize
     }
 
     /// Samples that a simulation without filters could use, if it is not refused for the force being unknown in nearly all of them.

@@ -1,17 +1,7 @@
 //! Samples whose force depends on how far the bristles were deflected when a stretch began.
 
 use crate::conditioning::record::Segment;
-
-/// Deflections at break-away that the axis must have slid: of what the bristles hold at the start exp(-6), a four hundredth,
-/// is left then.
-const SLID: f64 = 6.0;
-/// Largest part of the samples that may be left out for this reason: an axis that hardly slides is fitted as if its bristles
-/// had begun undeflected.
-const MOST_LOST_SHARE: f64 = 0.5;
-
-/// Fewest samples of the regression that must be left: several for each parameter of a law. A log of a few seconds that begins in
-/// motion is not fitted whole either: what its bristles held would pass for another law.
-const FEWEST_LEFT: usize = 60;
+use stiction_policy::conditioning;
 
 /// Leaves out what comes before the axis has slid `distance`, m or rad, since the start of each stretch; returns how many
 /// samples of the regression that takes.
@@ -31,7 +21,9 @@ pub(super) fn settle(segments: &mut [Segment], decimate: usize, distance: f64) -
     let all: usize = segments.iter().map(|s| of(&s.keep)).sum();
     let early = segments.iter().zip(&ends);
     let lost: usize = early.map(|(s, &end)| of(&s.keep[..end])).sum();
-    if lost as f64 > MOST_LOST_SHARE * all as f64 || all - lost < FEWEST_LEFT {
+    if lost as f64 > conditioning::MAX_SETTLING_SHARE * all as f64
+        || all - lost < conditioning::MIN_SETTLED_SAMPLES
+    {
         return 0;
     }
     for (segment, end) in segments.iter_mut().zip(ends) {
@@ -42,13 +34,13 @@ pub(super) fn settle(segments: &mut [Segment], decimate: usize, distance: f64) -
 
 /// The distance, m or rad, that an axis must slide where its bristles are deflected by `breakaway` when they give way.
 pub(crate) fn distance(breakaway: f64) -> f64 {
-    SLID * breakaway
+    conditioning::SETTLING_DEFLECTIONS * breakaway
 }
 
-/// The first sample at which the axis has slid a distance: the sum of its movements of a [`SLID`]th of that or more, one way
+/// The first sample at which the axis has slid a distance: the sum of its movements of a [`conditioning::SETTLING_DEFLECTIONS`]th of that or more, one way
 /// each. Shorter ones, such as the noise of an axis at rest, do not slide.
 fn slid(segment: &Segment, distance: f64) -> usize {
-    let least = distance / SLID;
+    let least = distance / conditioning::SETTLING_DEFLECTIONS;
     let mut at = 0.0;
     let mut from = 0.0;
     let mut sum = 0.0;

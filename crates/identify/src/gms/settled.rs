@@ -1,11 +1,7 @@
 //! Samples whose force depends on the motion before the recording.
 
 use crate::conditioning::record::{Record, Segment};
-
-/// Part of the position range of a stretch that must have been traversed for its elements to be settled.
-const RUN_THROUGH_SHARE: f64 = 0.95;
-/// Largest part of a stretch that may be left out for this reason.
-const MOST_LOST_SHARE: f64 = 0.5;
+use stiction_policy::conditioning;
 
 impl Record {
     /// The same record without the start of each stretch, until the position has once traversed its range
@@ -54,8 +50,8 @@ pub fn run_through(velocity: &[f64], step: f64) -> usize {
             high - low
         })
         .collect();
-    let whole = RUN_THROUGH_SHARE * (high - low);
-    let most = (MOST_LOST_SHARE * velocity.len() as f64) as usize;
+    let whole = conditioning::MIN_TRAVERSED_SHARE * (high - low);
+    let most = (conditioning::MAX_TRAVERSING_SHARE * velocity.len() as f64) as usize;
     ranges
         .iter()
         .position(|&range| range >= whole)

@@ -23,6 +23,7 @@ use stiction_identify::{
 use stiction_log::Motion;
 use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity};
+use stiction_policy::conditioning;
 
 /// What a result is made of.
 pub(super) struct Parts<'a> {
@@ -53,12 +54,11 @@ fn are_listed(axis: &Axis, sources: &[Source]) -> bool {
     !axis.logs.is_empty() && axis.logs.iter().filter(fitted).all(given) && sources.iter().all(own)
 }
 
-/// Part of the logs from which on it is told that the law is not fitted to it.
-const MUCH: f64 = 0.1;
-
 /// What of a record is not fitted at the start and after gaps, where that is much.
 pub(super) fn unsettled(record: &Record, travel: f64) -> Option<Unsettled> {
-    let (seconds, part) = record.unsettled().filter(|(_, part)| *part >= MUCH)?;
+    let (seconds, part) = record
+        .unsettled()
+        .filter(|(_, part)| *part >= conditioning::MIN_REPORTED_SHARE)?;
     Some(Unsettled {
         seconds,
         part,

@@ -15,9 +15,6 @@ use stiction_identify::{Conditioning, Law, LawKind, Observer, Record, Settings, 
 use stiction_log::Motion;
 use stiction_number::counted;
 
-/// Fewest samples that a split may leave to validate on: fewer give an rms that says nothing.
-const FEWEST_HELD_OUT_SAMPLES: usize = 20;
-
 /// What is fitted, and what it is validated on.
 pub(super) struct Conditioned {
     /// How every log was conditioned.
@@ -177,7 +174,10 @@ pub(super) fn check_share(part: f64) -> Result<(), Error> {
 /// of the `usable` to fit and enough to validate on, where there are such shares.
 pub(super) fn enough(least: usize, (needed, usable): (usize, usize)) -> Wording {
     let of = |samples: usize| samples as f64 / usable as f64;
-    let (low, high) = (of(needed), 1.0 - of(FEWEST_HELD_OUT_SAMPLES));
+    let (low, high) = (
+        of(needed),
+        1.0 - of(stiction_policy::conditioning::MIN_HELD_OUT_SAMPLES),
+    );
     let share = (50.0 * (low + high)).round() / 100.0;
     let wanted = format!("at least {least} of the {usable} usable ones");
     match low < share && share < high {
@@ -195,13 +195,16 @@ fn split(full: &Record, part: f64) -> Result<(Record, Record), Error> {
     check_share(part)?;
     let at = first_of_rest(full, part);
     let rest = full.masked(|i| i >= at);
-    if rest.kept() < FEWEST_HELD_OUT_SAMPLES {
+    if rest.kept() < stiction_policy::conditioning::MIN_HELD_OUT_SAMPLES {
         return Err(Error::usage(
             [
                 Setting::Split.is(part),
                 format!(" leaves {} to validate on", counted(rest.kept(), "sample")).into(),
             ],
-            enough(FEWEST_HELD_OUT_SAMPLES, (0, full.kept())),
+            enough(
+                stiction_policy::conditioning::MIN_HELD_OUT_SAMPLES,
+                (0, full.kept()),
+            ),
         ));
     }
     Ok((full.masked(|i| i < at), rest))

@@ -6,11 +6,7 @@ use stiction_files::result::Action;
 use stiction_identify::{Error as Fit, LawKind, Losses};
 use stiction_log::Motion;
 use stiction_number::short;
-
-/// Part of the fastest sample that a lower limit of the speed is: most samples of a motion are faster.
-const OF_THE_FASTEST: f64 = 0.1;
-/// Samples that are left by another decimation, and those with which a simulation goes on for any law: ten for each of thirty unknowns.
-const ENOUGH: usize = 300;
+use stiction_policy::conditioning;
 
 /// The same error with what leads on: a line of the axis file that leaves more samples, a line to leave out of it, or a simulation, which
 /// filters nothing.
@@ -38,7 +34,7 @@ pub(super) fn led_on(mut error: Error, asked: Asked, motion: Motion) -> Error {
                 && losses.excluded * losses.decimate.max(1) > losses.logged / 2
             {
                 **action = left_out("force_limit");
-            } else if is_simulated && losses.left_to_simulate() >= ENOUGH.max(*needed) {
+            } else if is_simulated && losses.left_to_simulate() >= conditioning::MIN_DECIMATED_SAMPLES.max(*needed) {
                 **action = Action::Simulate;
             }
         }
@@ -59,7 +55,7 @@ fn lowered(
 ) -> Option<String> {
     let taken = losses.logged.saturating_sub(losses.short) / losses.decimate.max(1);
     if losses.slow > 0 && taken >= needed && losses.fastest_slow > 0.0 {
-        let speed = OF_THE_FASTEST * losses.fastest_slow;
+        let speed = conditioning::SPEED_LIMIT * losses.fastest_slow;
         // Two digits are enough of a limit.
         let speed: f64 = format!("{speed:.1e}").parse().ok()?;
         let unit = motion.velocity().si_text();
@@ -68,8 +64,8 @@ fn lowered(
     let by = decimate.filter(|by| *by > 1)?;
     let is_too_short = losses.short == losses.logged;
     let is_too_thin = losses.decimate > 1 && losses.logged >= needed;
-    let least = (losses.logged / ENOUGH).clamp(1, by / 2);
-    ((is_too_short || is_too_thin) && losses.logged >= ENOUGH)
+    let least = (losses.logged / conditioning::MIN_DECIMATED_SAMPLES).clamp(1, by / 2);
+    ((is_too_short || is_too_thin) && losses.logged >= conditioning::MIN_DECIMATED_SAMPLES)
         .then(|| format!("decimate = {least}"))
 }
 

@@ -5,9 +5,7 @@ use stiction_files::result::{LevelAlongEntry, PitchEntry, RangeEntry};
 use stiction_identify::{FittedLaw, LevelAlong, Series, Terms};
 use stiction_log::Log;
 use stiction_parameters::{Name, Quantity};
-
-/// Time steps from sample to sample, in steps of the first, up to which a log goes on.
-const GOES_ON: f64 = 1.5;
+use stiction_policy::conditioning;
 
 /// What the samples that were fitted have seen.
 pub(super) fn range(sources: &[Source], series: &Series, terms: &Terms) -> RangeEntry {
@@ -62,7 +60,7 @@ fn acceleration(series: &Series) -> Option<f64> {
     let inside = |i: &usize| {
         let span = t[i + 1] - t[i - 1];
         let one = series.log.get(i - 1) == series.log.get(i + 1);
-        one && span > 0.0 && span <= 2.0 * GOES_ON * step
+        one && span > 0.0 && span <= 2.0 * conditioning::MAX_STEP * step
     };
     let inner = (1..t.len().saturating_sub(1)).filter(inside);
     let largest = inner
