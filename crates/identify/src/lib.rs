@@ -135,7 +135,7 @@ pub use separable::optimum::Optimum;
 pub use separable::search_box::SearchBox;
 pub use separable::separable;
 pub use separable::settings::Settings;
-pub use state_space::{MUCH_REST, rests_much};
+pub use state_space::rests_much;
 pub use stiction_parameters::{
     Dimension, LawKind, Name, ParameterSet, Quantity, Side, SteadyCurve,
 };

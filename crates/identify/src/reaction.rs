@@ -8,6 +8,7 @@
 use crate::conditioning::record::{Record, Segment};
 use crate::conditioning::shift::Shift;
 use nalgebra::{SMatrix, SVector};
+use stiction_policy::encoder;
 use stiction_signal::Sos;
 
 /// Longest duration of a response, samples: a difference of positions over one sample lasts two samples,
@@ -19,17 +20,8 @@ const AXIS_CUTOFF: f64 = 0.05;
 const HIGHEST_NOISE_CUTOFF: f64 = 0.2;
 /// Number of octaves below it.
 const OCTAVES_BELOW: u32 = 5;
-/// Standard deviations of the noise in an octave that a sample of it must exceed.
-const OUTSTANDING_SAMPLE: f64 = 4.0;
 /// How long before and after a large reading motion may have been asked for, periods of the cut-off: the filter spreads it.
-const LARGEST_OF_COUNTS: f64 = 4.0;
-const LARGEST_OF_MEDIAN: f64 = 6.0;
 const SPREAD: f64 = 2.0;
-/// How much smaller than without a response the residual variance of the fast part of the force must be
-/// for a response to be accepted, in units of what chance explains.
-const CERTAIN_ANSWER: f64 = 4.0;
-/// Standard deviations of the response to a standing difference of position from which on it is believed.
-const CERTAIN_STANDING: f64 = 4.0;
 
 /// Samples by which the mean of a sample and the one before is late.
 pub(crate) const AS_MEAN: f64 = 0.5;
@@ -92,7 +84,7 @@ impl Reaction {
         let all = all.answer()?;
         let surely_less = |far: &Answer| {
             let apart = far.deviation * far.deviation - all.deviation * all.deviation;
-            far.standing - all.standing > CERTAIN_STANDING * apart.max(0.0).sqrt()
+            far.standing - all.standing > encoder::MIN_STANDING_DEVIATIONS * apart.max(0.0).sqrt()
         };
         let answer = far.answer().filter(surely_less).unwrap_or(all);
         answer.reaction()
@@ -245,7 +237,7 @@ impl Sums {
         Some(Answer {
             standing: by_lag.sum(),
             deviation: (variance * moved.sum()).sqrt(),
-            is_certain: explained > CERTAIN_ANSWER * ANSWER_LAGS as f64 * variance,
+            is_certain: explained > encoder::MIN_RESPONSE_GAIN * ANSWER_LAGS as f64 * variance,
             by_lag,
             moved,
         })
@@ -272,7 +264,7 @@ impl Answer {
         let mut by_lag = self.by_lag;
         // A standing difference of position is answered by a hundredth of what a step is. Where noise hides that, none
         // is assumed: one of the wrong sign would make the simulated axis run away.
-        if self.standing > -CERTAIN_STANDING * self.deviation {
+        if self.standing > -encoder::MIN_STANDING_DEVIATIONS * self.deviation {
             by_lag -= self.moved * (self.standing / self.moved.sum());
         }
         Some(Reaction {
@@ -290,7 +282,7 @@ fn largest_at_rest<'a>(record: &Record, readings: impl Iterator<Item = &'a [f64]
     }
     let middle = sizes.len() / 2;
     let median = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
-    (LARGEST_OF_COUNTS * counts).max(LARGEST_OF_MEDIAN * median)
+    (encoder::MAX_READING_IN_COUNTS * counts).max(encoder::MAX_READING_IN_MEDIANS * median)
 }
 
 /// Whether no reading near a sample is larger than that.
@@ -332,7 +324,7 @@ fn without_noise(x: &[f64]) -> Option<Vec<f64>> {
     for octave in 1..=OCTAVES_BELOW {
         let width = HIGHEST_NOISE_CUTOFF / f64::from(1 << octave);
         let coarse = below(width)?;
-        let least = OUTSTANDING_SAMPLE * (density * width).sqrt();
+        let least = encoder::MIN_OUTSTANDING_DEVIATIONS * (density * width).sqrt();
         for (kept, (fine, coarse)) in kept.iter_mut().zip(fine.iter().zip(&coarse)) {
             let band = fine - coarse;
             if band.abs() > least {

@@ -24,9 +24,7 @@ use crate::law::LawKind;
 use crate::parameter::Added;
 use crate::parameter::Parameter;
 use crate::watch::Watch;
-
-/// Part of the samples at rest from which the counts are asked, dimensionless.
-pub const MUCH_REST: f64 = 0.15;
+use stiction_policy::encoder;
 
 /// What the counts of a log say of a fit.
 pub(crate) enum Counts {
@@ -70,7 +68,7 @@ pub(crate) fn flag_what_rests_spoil(estimate: &mut Estimate, why: &str) {
 
 /// Whether an axis rests in so much of a record that its counts are asked.
 pub fn rests_much(record: &Record) -> bool {
-    rests::share(record) >= MUCH_REST
+    rests::share(record) >= encoder::MIN_REST_SHARE
 }
 
 /// What a fit of the force knows beside the parameters that the counts state.

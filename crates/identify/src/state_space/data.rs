@@ -5,11 +5,8 @@ use crate::reaction::Logging;
 use crate::state_space::filter::Stretch;
 use crate::state_space::response::{Felt, Response, felt};
 use std::ops::Range;
+use stiction_policy::encoder;
 
-/// Samples in a row that may lack a reading; more of them split a stretch.
-const MOST_MISSING: usize = 20;
-/// Samples of a stretch that are worth a start of their own.
-const FEWEST_SAMPLES: usize = 100;
 /// Standard deviation of a reading beside its steps, counts: edges of real encoders are not exact.
 const EDGE: f64 = 0.03;
 
@@ -78,11 +75,11 @@ fn stretches(segment: &Segment, decimate: usize) -> Vec<Range<usize>> {
     let n = segment.reading.len();
     for k in (0..n).filter(|&k| counts(segment, decimate, k)) {
         match out.last_mut() {
-            Some(last) if k - last.end < MOST_MISSING => last.end = k + 1,
+            Some(last) if k - last.end < encoder::MAX_MISSING_READINGS => last.end = k + 1,
             _ => out.push(k..k + 1),
         }
     }
-    out.retain(|range| range.len() >= FEWEST_SAMPLES);
+    out.retain(|range| range.len() >= encoder::MIN_STRETCH);
     out
 }
 

@@ -19,23 +19,15 @@ use crate::state_space::unknowns::{
 use crate::watch::Watch;
 use libm::log;
 use stiction_parameters::{Quantity, Side};
+use stiction_policy::encoder;
 use stiction_search::Control;
 
 /// Parts of the samples that the jackknife leaves out in turn.
 const BLOCKS: usize = 20;
 /// Most samples of a log: each costs some 25 us, with all that a fit evaluates.
 const MOST_SAMPLES: usize = 120_000;
-/// Deviation of the disturbance beyond which it is not what the cleaning leaves of the noise of the force, in parts of that
-/// noise.
-const LARGEST_DISTURBANCE: f64 = 0.4;
-/// Its largest density at low frequencies, in parts of that of the noise: what is left of a noise has no more than the noise.
-const LARGEST_DENSITY: f64 = 2.5;
-/// By what factor a part of the samples may be above both: beyond, no more is asked.
-const HOPELESS: f64 = 2.0;
 /// Distance between the delays that are tried, samples: a force is logged at its sample, at one later, or as the mean of two.
 const DELAYS_APART: f64 = 0.5;
-/// Part of that distance by which the best delay, by a parabola, may lie beside them.
-const BESIDE: f64 = 0.35;
 /// How far the delay may be from the one that is taken, samples, 95 % of what lies evenly within half of that distance: which of the
 /// delays between is not known, since the likelihood has it up to a quarter of a sample early (decision 0060). A fit of the force
 /// that has about the same delay may know it closer.
@@ -72,9 +64,6 @@ const LEAST_NOISE: f64 = 1e-9;
 const LEAST_DAMPING: f64 = 0.2;
 /// Stribeck exponent that a Gaussian curve is held against: that of an exponential one.
 const EXPONENTIAL: f64 = 1.0;
-/// Difference of the log likelihood, on a part of the samples, within which both curves are as likely. On 16 logs of axes that
-/// rest the exponential curve had -72 to -1 where the Gaussian was right, 2 to 121 where the exponent was 0.5 to 1.
-const AS_LIKELY: f64 = 3.0;
 /// Lowest logarithm of a parameter that is zero.
 const NOTHING: f64 = -30.0;
 
@@ -137,7 +126,7 @@ pub(super) fn most_likely(
         false => late,
     };
     let first = search.many_starts(&begun, nearest)?;
-    if Left::of(&first.top, search.noise).is_beyond(HOPELESS) {
+    if Left::of(&first.top, search.noise).is_beyond(encoder::MAX_PART_EXCESS) {
         return Some(Likely {
             sureness: sureness(&first.top, &search.free)?,
             at: first.top.at,
@@ -177,8 +166,10 @@ pub(super) fn most_likely(
     };
     let free: Vec<usize> = search.free.into_iter().filter(known).collect();
     let beside = delay.map_or(0.0, |d: Fine| d.beside.abs() / DELAYS_APART);
-    let other = other.filter(|other| other.gain >= -AS_LIKELY);
-    let likelier = other.as_ref().is_some_and(|other| other.gain > AS_LIKELY);
+    let other = other.filter(|other| other.gain >= -encoder::MAX_EQUAL_LIKELIHOOD);
+    let likelier = other
+        .as_ref()
+        .is_some_and(|other| other.gain > encoder::MAX_EQUAL_LIKELIHOOD);
     let other = other.map(|other| other.at);
     let against = if !top.converged {
         "the search for its maximum did not end"
@@ -188,7 +179,7 @@ pub(super) fn most_likely(
         "the axis is simulated under a force without the lag that this one has"
     } else if fitted.terms.low_pass_undone {
         "the noise of a force whose low-pass was undone is not white"
-    } else if beside.is_nan() || beside > BESIDE {
+    } else if beside.is_nan() || beside > encoder::MAX_DELAY_OFFSET {
         "the delay of the force is no half of a sample"
     } else if likelier {
         "with another Stribeck exponent they are likelier"
@@ -240,8 +231,8 @@ impl Left {
 
     /// Whether it is more than these times what may be left; also where the force has no noise that it could be part of.
     fn is_beyond(&self, times: f64) -> bool {
-        let within = self.disturbance <= times * LARGEST_DISTURBANCE
-            && self.density <= times * LARGEST_DENSITY;
+        let within = self.disturbance <= times * encoder::MAX_DISTURBANCE
+            && self.density <= times * encoder::MAX_DISTURBANCE_DENSITY;
         !within
     }
 }

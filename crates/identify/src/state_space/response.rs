@@ -10,6 +10,7 @@ use crate::reaction::Logging;
 use nalgebra::{SMatrix, SVector};
 use std::borrow::Cow;
 use std::cmp::Ordering;
+use stiction_policy::encoder;
 use stiction_signal::{finest_scale, without_noise};
 
 /// Readings that the response is made of: a difference of positions, and one sample of computing delay.
@@ -20,21 +21,10 @@ const MEMORIES: [f64; 15] = [
 ];
 /// Samples at the ends of a segment that are not asked: they are mirrored in the finest scale, not seen.
 const ENDS: usize = 8;
-/// Counts that the finest scale of the position may have where the response is read off: beyond, the motion itself bends.
-const MOST_COUNTS: f64 = 3.0;
-/// Deviations of the rest of the force beyond which a sample is left out: the reference jumps there.
-const OUTLYING: f64 = 3.0;
 /// Times that the samples are chosen.
 const CHOICES: usize = 8;
-/// Standard deviations of the noise that a part of the force must exceed to be no noise.
-const OUTSTANDING: f64 = 4.0;
 /// Median of the absolute value of a standard normal number.
 const MEDIAN_NORMAL: f64 = 0.674_489_750_196_081_7;
-/// How much smaller than without a response the residual variance of the fast part of the force must be
-/// for a response to be accepted, in units of what chance explains.
-const CERTAIN_ANSWER: f64 = 4.0;
-/// Standard deviations of the response to a standing difference of position from which on it is believed.
-const CERTAIN_STANDING: f64 = 4.0;
 
 /// Response of the controller to its readings.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,7 +42,7 @@ impl Response {
     /// fit.
     pub fn of(record: &Record, logging: Logging) -> Option<Self> {
         let most = record.resolution.filter(|count| *count > 0.0);
-        let most = most.map_or(f64::INFINITY, |count| MOST_COUNTS * count);
+        let most = most.map_or(f64::INFINITY, |count| encoder::MAX_FINE_COUNTS * count);
         let mut channels = Vec::new();
         for segment in &record.segments {
             if segment.reading.is_empty() {
@@ -117,7 +107,7 @@ pub(super) fn felt(segment: &Segment, logging: Logging, response: Option<&Respon
             .collect(),
         None => (&segment.drive).into(),
     };
-    let smooth = without_noise(&rest, OUTSTANDING);
+    let smooth = without_noise(&rest, encoder::MIN_OUTSTANDING_DEVIATIONS);
     let earlier = Shift::earlier(-logging.late());
     let answered = |k: usize| answer.as_ref().map_or(0.0, |answer| answer[k]);
     let force = samples.map(|k| earlier.at(&smooth, k) + answered(k));
@@ -170,7 +160,7 @@ fn chosen(rows: &[Row]) -> Option<Vec<bool>> {
         let mut sizes = rests.clone();
         let middle = sizes.len() / 2;
         let median = *sizes.select_nth_unstable_by(middle, f64::total_cmp).1;
-        let most = OUTLYING * median / MEDIAN_NORMAL;
+        let most = encoder::MAX_RESPONSE_DEVIATIONS * median / MEDIAN_NORMAL;
         let next: Vec<bool> = rests.iter().map(|rest| *rest <= most).collect();
         if next == chosen {
             break;
@@ -226,7 +216,11 @@ impl Regression {
     fn answer(mut self, memory: f64) -> Option<Response> {
         let variance = self.left / self.samples.saturating_sub(LAGS) as f64;
         let chance = LAGS as f64 * variance;
-        if self.explained.partial_cmp(&(CERTAIN_ANSWER * chance)) != Some(Ordering::Greater) {
+        if self
+            .explained
+            .partial_cmp(&(encoder::MIN_RESPONSE_GAIN * chance))
+            != Some(Ordering::Greater)
+        {
             return None;
         }
         // A standing difference of position is answered by a hundredth of what a step is. Where noise hides that, none is
@@ -234,7 +228,7 @@ impl Regression {
         let moved = self.inverse * SVector::<f64, LAGS>::repeat(1.0);
         let standing = self.by_lag.sum();
         let deviation = (variance * moved.sum()).sqrt();
-        if standing > -CERTAIN_STANDING * deviation {
+        if standing > -encoder::MIN_STANDING_DEVIATIONS * deviation {
             self.by_lag -= moved * (standing / moved.sum());
         }
         Some(Response {

@@ -1,23 +1,20 @@
 //! Rests of an axis in a log.
 
 use crate::conditioning::record::{Record, Segment};
+use stiction_policy::encoder;
 use stiction_signal::Travel;
-
-/// Samples over which a position that stays is a rest.
-const WINDOW: usize = 16;
-/// Speed below which an axis rests, parts of the top speed.
-const RESTING_SPEED: f64 = 0.003;
 
 /// Part of the samples of a record at which its axis rests, by its readings; 0 where the log has none. An axis whose encoder follows
 /// it, by a count in each sample or more, is under way, however slow it is.
 pub(crate) fn share(record: &Record) -> f64 {
-    let slow = RESTING_SPEED * record.top_speed() * WINDOW as f64 * record.step();
-    let counts = WINDOW as f64 * record.resolution.unwrap_or(0.0);
+    let slow =
+        encoder::MAX_REST_SPEED * record.top_speed() * encoder::REST_WINDOW as f64 * record.step();
+    let counts = encoder::REST_WINDOW as f64 * record.resolution.unwrap_or(0.0);
     let noise = Travel::shortest_movement(0.0, record.position_noise);
     let farthest = slow.min(counts.max(noise));
     let at_rest = |segment: &Segment| {
-        let windows = segment.reading.windows(WINDOW + 1);
-        let moved = windows.map(|x| (x[WINDOW] - x[0]).abs());
+        let windows = segment.reading.windows(encoder::REST_WINDOW + 1);
+        let moved = windows.map(|x| (x[encoder::REST_WINDOW] - x[0]).abs());
         moved.filter(|moved| *moved <= farthest).count()
     };
     let resting: usize = record.segments.iter().map(at_rest).sum();

@@ -6,9 +6,10 @@
 use super::motion::Motion;
 use serde::Serialize;
 use stiction_files::symbols;
-use stiction_identify::{MUCH_REST, Mass};
+use stiction_identify::Mass;
 use stiction_log::{Log, Motion as Kind};
 use stiction_number::{Percent, counted, four_digits as short};
+use stiction_policy::encoder;
 
 /// Least share of the samples that move each way.
 const SHARE_EACH_WAY: f64 = 0.05;
@@ -203,7 +204,7 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
         ways,
         "as much motion one way as the other, at the same speeds",
     );
-    if m.still >= MUCH_REST {
+    if m.still >= encoder::MIN_REST_SHARE {
         say(
             "rests",
             "the cost of rests",
