@@ -4,12 +4,11 @@ use crate::fit::{Fit, MOST_LAGS};
 use crate::output_error::problem::{Point, Problem};
 use crate::output_error::simulate::simulate;
 use std::ops::Range;
+use stiction_policy::simulation;
 use stiction_signal::{Travel, noise_deviation};
 
 /// A second difference of a position whose errors are independent, over their size: the root of 1 + 4 + 1.
 const BEND_OF_NOISE: f64 = 2.449_489_742_783_178;
-/// How many times as large it has to be to be one of the motion.
-const CLEAR_BEND: f64 = 3.0;
 
 /// Measured and simulated signals at the samples that count.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,7 +47,7 @@ impl Signals {
     /// Acceleration of the measured motion, rms, m/s^2 or rad/s^2, over the shortest time in which it shows clearly beside what
     /// the simulation leaves of the position; 0 where it never does.
     pub(crate) fn acceleration_rms(&self) -> f64 {
-        let clear = CLEAR_BEND * BEND_OF_NOISE * self.position_rmse();
+        let clear = simulation::MIN_BEND * BEND_OF_NOISE * self.position_rmse();
         let longest = self.bounds().map(|range| range.len()).max().unwrap_or(0);
         let mut lag = 1;
         while 2 * lag < longest {
@@ -111,7 +110,7 @@ impl Signals {
     pub fn moves_both_ways(&self, encoder_step: Option<f64>) -> bool {
         let noise = noise_deviation(self.stretches());
         let measured = Travel::shortest_movement(encoder_step.unwrap_or(0.0), noise);
-        let simulated = CLEAR_OF_RESIDUAL * self.position_rmse();
+        let simulated = simulation::MIN_MOVEMENT * self.position_rmse();
         let both = |of: &[f64], shortest| {
             let travel = self
                 .bounds()
@@ -129,7 +128,10 @@ impl Signals {
         let [low, high] = self.position.iter().fold(ends, reach);
         let off = less(&self.position, &self.simulated);
         let within = |x: f64, parts: f64| x.abs() <= parts * (high - low);
-        if off.iter().all(|&x| within(x, DIVERGED_ERROR)) {
+        if off
+            .iter()
+            .all(|&x| within(x, simulation::DIVERGED_FIT_ERROR))
+        {
             return None;
         }
         let left = off.iter().position(|&x| !within(x, 1.0))?;
@@ -155,10 +157,6 @@ impl Signals {
 
 /// Most products of an autocorrelation after an interruption.
 const MOST_PRODUCTS_AT_ONCE: usize = 50_000_000;
-/// Error of a simulated position over the range of the measured one, dimensionless, from which on it has diverged.
-const DIVERGED_ERROR: f64 = 1000.0;
-/// Movements of the simulated position longer than this many rms residuals count as motion.
-const CLEAR_OF_RESIDUAL: f64 = 2.0;
 
 fn about_mean(x: &[f64]) -> impl Iterator<Item = f64> {
     let mean = x.iter().sum::<f64>() / x.len() as f64;

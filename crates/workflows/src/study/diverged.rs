@@ -2,12 +2,9 @@
 
 use stiction_friction::ParamError;
 use stiction_number::four_digits as short;
+use stiction_policy::simulation;
 use stiction_servo::axis::Sample;
 use stiction_servo::controller::Controller;
-
-/// Error over the length of the path, dimensionless, from which on a run has diverged: an axis that sticks, overshoots or
-/// swings stays far below.
-const DIVERGED_ERROR: f64 = 1000.0;
 
 /// Why a run gives no numbers.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +40,10 @@ pub(super) fn stayed<'s, const AXES: usize>(
         }
     };
     let within = |s: &[&Sample; AXES], most: f64| s.iter().all(|s| s.error().abs() <= most);
-    if samples.clone().all(|s| within(&s, far(DIVERGED_ERROR))) {
+    if samples
+        .clone()
+        .all(|s| within(&s, far(simulation::DIVERGED_RUN_ERROR)))
+    {
         return Ok(());
     }
     let left = samples.clone().find(|s| !within(s, far(1.0)));

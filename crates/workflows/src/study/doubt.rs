@@ -7,13 +7,8 @@ use stiction_files::study::Study;
 use stiction_files::study::result::ResultRow;
 use stiction_number::Percent;
 use stiction_number::quantity;
+use stiction_policy::simulation;
 use stiction_servo::load::LoadSettings;
-
-/// Part of the samples at the limit of the force above which a run gets a warning, dimensionless.
-const WARNED_SHARE_AT_LIMIT: f64 = 0.01;
-/// Rms change of the command from sample to sample, as a part of the largest force, above which a run gets a warning,
-/// dimensionless: a loop that swings between its limits in 64 samples or fewer.
-const WARNED_COMMAND_CHANGE: f64 = 0.1;
 
 /// Codes of the warnings that are made here.
 pub const CODES: [Code; 3] = [
@@ -54,7 +49,7 @@ fn at_limit(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
     let schemes = rows.chunk_by(same).filter_map(|rows| {
         let (row, share) = worst(rows, "saturation", &|_| 1.0)?;
         let percent = Percent::error(100.0 * share).decimals(0);
-        (share > WARNED_SHARE_AT_LIMIT).then(|| format!("{} ({percent})", row.scheme()))
+        (share > simulation::MAX_SHARE_AT_LIMIT).then(|| format!("{} ({percent})", row.scheme()))
     });
     let schemes: Vec<String> = schemes.collect();
     (!schemes.is_empty()).then(|| {
@@ -75,7 +70,7 @@ fn at_limit(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
 fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
     let limits = force_limits(study, &rows.first()?.controller)?;
     let (row, share) = worst(rows, "command_change", &|axis| limits[axis])?;
-    (share > WARNED_COMMAND_CHANGE).then(|| {
+    (share > simulation::MAX_COMMAND_CHANGE).then(|| {
         Warning::new(
             Code::UnsteadyCommand,
             format!(
