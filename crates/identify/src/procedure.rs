@@ -40,4 +40,4 @@ pub(crate) use static_map::{LEAST_VELOCITY_SHARE, Weighed, weighed};
 pub use statics::Statics;
 pub use step::{Inversion, StepResponse};
 pub use step_fit::{StepFit, StepSeries, StepSettings, fit_steps};
-pub use stretch::{MOST_DRIFT, Rejected, Run, StaticPoint, Stretches, Unsteady, stretches};
+pub use stretch::{Rejected, Run, StaticPoint, Stretches, Unsteady, stretches};

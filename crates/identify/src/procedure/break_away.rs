@@ -18,24 +18,11 @@ use super::stretch::Run;
 use crate::error::Error;
 use std::ops::Range;
 use stiction_number::short;
+use stiction_policy::procedure;
 use stiction_servo::plant::{Load, Motion, Plant};
 
-/// Fewest samples of a ramp.
-const FEWEST_SAMPLES: usize = 50;
 /// Share of the ramp over which the velocity is taken.
 const WINDOW_SHARE: f64 = 0.01;
-/// Number of steps of the position (or deviations of its noise) within the window that count as clear motion.
-const CLEAR_MOTION: f64 = 5.0;
-/// Where no threshold is given: share of the top speed on the ramp.
-const THRESHOLD_SHARE: f64 = 1e-3;
-/// Where no threshold is given: least multiple of the speed on the first fifth of the ramp, at most half the top speed. There
-/// the bristles give way elastically; at 30 times that speed a LuGre axis is at 97 % of its static level.
-const ELASTIC_SPEEDS: f64 = 30.0;
-/// Largest deviation of the force from a line until break-away, relative to its rise.
-const MOST_BEND: f64 = 0.1;
-/// Largest force before the ramp, for as long as it takes, as a part of that at break-away: an axis that was moved before it is
-/// not at rest on its bristles.
-const MOST_BEFORE: f64 = 0.5;
 /// Most steps of a prediction.
 const MOST_STEPS: f64 = 2e6;
 
@@ -95,7 +82,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     let start = (0..top)
         .rposition(|i| force[i] * sign <= 0.05 * force[top].abs())
         .unwrap_or(0);
-    if top - start < FEWEST_SAMPLES {
+    if top - start < procedure::MIN_RAMP_SAMPLES {
         return Err(none("the ramp has fewer than 50 samples"));
     }
     let window = (((top - start) as f64 * WINDOW_SHARE) as usize).max(4);
@@ -108,17 +95,17 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     let noise = run.resolution.unwrap_or((high - low) / 4.0);
     let speed = |i: usize| sign * moved.slope(i - window / 2, i - window / 2 + window);
     let range = (start + window)..(top.saturating_sub(window));
-    if range.len() < FEWEST_SAMPLES / 2 {
+    if range.len() < procedure::MIN_RAMP_SAMPLES / 2 {
         return Err(none("the ramp is too short for the noise of its position"));
     }
     let fastest = range.clone().map(speed).fold(0.0, f64::max);
     let threshold = threshold
         .unwrap_or_else(|| {
             let early = range.clone().take(range.len() / 5).map(speed);
-            let elastic = ELASTIC_SPEEDS * median(early.collect());
-            (THRESHOLD_SHARE * fastest).max(elastic.min(0.5 * fastest))
+            let elastic = procedure::BREAK_AWAY_OF_ELASTIC_SPEED * median(early.collect());
+            (procedure::BREAK_AWAY_OF_TOP_SPEED * fastest).max(elastic.min(0.5 * fastest))
         })
-        .max(CLEAR_MOTION * noise / width);
+        .max(procedure::MIN_RAMP_STEPS * noise / width);
     if fastest <= threshold {
         return Err(none(
             "the axis does not break away: it stays slower than the threshold",
@@ -135,7 +122,9 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
         range.clone(),
         |i| speed(i) >= threshold,
         |from, to| {
-            let before = (place(from) - mean(rest)).abs().max(CLEAR_MOTION * noise);
+            let before = (place(from) - mean(rest))
+                .abs()
+                .max(procedure::MIN_RAMP_STEPS * noise);
             let slipped = (place(to) - place(from)).abs() > presliding.unwrap_or(before);
             if slipped && to - from >= window {
                 presliding.get_or_insert(before);
@@ -163,7 +152,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     let reaches = std::iter::successors(Some(4), |reach| Some(reach + reach / 4));
     let reach = reaches
         .take_while(|reach| *reach < most)
-        .find(|&reach| bent(reach).abs() > CLEAR_MOTION * noise)
+        .find(|&reach| bent(reach).abs() > procedure::MIN_RAMP_STEPS * noise)
         .unwrap_or(most);
     let half = 0.5 * (time[i + reach] - time[i - reach]);
     let acceleration = bent(reach) / (half * half);
@@ -176,14 +165,14 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     let scatter = (off / (i + 1 - start) as f64).sqrt();
     let at = line(instant);
     let risen = (rate * (instant - time[start])).abs();
-    if scatter.is_nan() || scatter > MOST_BEND * risen {
+    if scatter.is_nan() || scatter > procedure::MAX_RAMP_BEND * risen {
         return Err(none("the force does not rise linearly until break-away"));
     }
     // What the axis did before, for as long as the ramp took.
     let before = start - start.min(i - start);
     let held = force[before..start].iter();
     let most = held.fold(0.0_f64, |a, f| if f.abs() > a.abs() { *f } else { a });
-    if most.abs() > MOST_BEFORE * at.abs() {
+    if most.abs() > procedure::MAX_FORCE_BEFORE * at.abs() {
         let reason = format!(
             "what rises to {} at {} s began at {} s after a force of {}",
             short(at),
@@ -198,7 +187,7 @@ pub fn break_away(run: &Run, threshold: Option<f64>, log: usize) -> Result<Break
     if late > window && start - late >= window {
         let (came, went) = (way(late, start), (place(i) - mean(rest)).abs());
         let slower = came * (time[i] - time[start]) <= went * (time[start] - time[late]);
-        if came > CLEAR_MOTION * noise && !slower {
+        if came > procedure::MIN_RAMP_STEPS * noise && !slower {
             let reason = format!(
                 "the axis still moves when the force begins to rise, at {} s",
                 short(time[start])

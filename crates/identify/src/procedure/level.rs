@@ -4,12 +4,11 @@
 //! level scales sigma0, sigma1 and the mass together, and no residual shows it.
 
 use std::ops::Range;
+use stiction_policy::procedure;
 use stiction_signal::effective_sample_size;
 
 /// Number of samples known to be at the held level, from which the extent of the level is found.
 pub(super) const BLOCK: usize = 50;
-/// How far the mean of a block may differ from the level of its neighbours, in standard errors.
-const MOST_BLOCK_OFFSET: f64 = 4.0;
 /// The same for a force without noise, relative: rounding.
 const ROUNDED_LEVEL: f64 = 1e-12;
 
@@ -47,7 +46,7 @@ impl Level {
         let mut joins = |next: Range<usize>| {
             let mean = force[next].iter().sum::<f64>() / block as f64;
             let level = sum / blocks;
-            let far = MOST_BLOCK_OFFSET * own.error * (1.0_f64 + 1.0 / blocks).sqrt();
+            let far = procedure::MAX_BLOCK_OFFSET * own.error * (1.0_f64 + 1.0 / blocks).sqrt();
             let joins = (mean - level).abs() <= far + ROUNDED_LEVEL * level.abs();
             if joins {
                 sum += mean;

@@ -19,7 +19,7 @@ use crate::parameter::covariance::Covariance;
 use crate::parameter::{NORMAL_Q95, Parameter, too_uncertain};
 use nalgebra::{DMatrix, SymmetricEigen};
 use stiction_parameters::{Name, Quantity, Side};
-use stiction_policy::interval;
+use stiction_policy::{interval, procedure};
 
 /// Smallest assumed resolution of a force, relative to its range. Without it noise-free points would give
 /// parameters with a certainty that no measurement can reach.
@@ -30,13 +30,6 @@ pub(crate) const LEAST_VELOCITY_SHARE: f64 = 0.2;
 /// Rise of static friction, as a part of the Coulomb level, below which the curve has no rise. It
 /// also stands for no rise where a logarithm is needed; it is far below any rise that a log determines.
 pub(super) const LEAST_RISE: f64 = 1e-9;
-/// Weight of a point in the robust loss, 0 to 1, below which it lies off the curve.
-const OUTLYING_WEIGHT: f64 = 0.1;
-/// Slow points below the curve from which on friction has not settled: one may be any fault.
-const FEWEST_UNSETTLED: usize = 2;
-/// How far, in standard deviations, the loss must rise towards either end of the range of vs for vs to
-/// count as bounded: somewhere on a whole grid noise alone reaches two or three.
-const BOUNDED_RISE: f64 = 3.5;
 
 /// The Stribeck exponent.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -109,7 +102,9 @@ impl StaticMap {
     /// Points that lie off the curve: the robust loss leaves them less than a tenth of their weight.
     pub fn outlying(&self) -> impl Iterator<Item = &StaticPoint> {
         let points = self.points.iter().zip(&self.weights);
-        points.filter_map(|(point, weight)| (*weight < OUTLYING_WEIGHT).then_some(point))
+        points.filter_map(|(point, weight)| {
+            (*weight < procedure::MAX_OUTLYING_WEIGHT).then_some(point)
+        })
     }
 
     /// The exponent of the curve.
@@ -323,7 +318,7 @@ fn unsettled<'a>(outlying: impl Iterator<Item = &'a Placed<'a>>, parameters: &mu
         .filter(|p| p.name == Quantity::StribeckVelocity);
     let slow = velocities.fold(0.0, |most: f64, p| most.max(p.value));
     let below = |p: &&Placed| p.point.velocity.abs() < slow && p.residual * p.friction < 0.0;
-    if outlying.filter(below).count() < FEWEST_UNSETTLED {
+    if outlying.filter(below).count() < procedure::MIN_UNSETTLED_POINTS {
         return;
     }
     let rise = [Quantity::Static, Quantity::StribeckVelocity];
@@ -434,7 +429,8 @@ impl Fitted<'_> {
             scattered(found, &mut parameters);
         }
         let outlying = placed.iter().zip(&weights);
-        let outlying = outlying.filter_map(|(p, weight)| (*weight < OUTLYING_WEIGHT).then_some(p));
+        let outlying = outlying
+            .filter_map(|(p, weight)| (*weight < procedure::MAX_OUTLYING_WEIGHT).then_some(p));
         unsettled(outlying, &mut parameters);
         StaticMap {
             disagreement,
@@ -583,7 +579,7 @@ impl Fitted<'_> {
             if self.settings.stribeck {
                 let rise = block.columns.len();
                 let none = c[rise] <= LEAST_RISE * c[0];
-                let most = 0.5 * (BOUNDED_RISE * self.scale).powi(2);
+                let most = 0.5 * (procedure::MIN_BOUNDED_RISE * self.scale).powi(2);
                 let open = best.at_bound || best.within(most).is_some_and(|(.., open)| open);
                 let curve = match (none, open) {
                     (true, _) => "the force does not rise towards low speeds",

@@ -14,22 +14,10 @@ use super::stretch::Run;
 use crate::error::Error;
 use std::f64::consts::PI;
 use std::ops::Range;
+use stiction_policy::procedure;
 
-/// Fewest samples before the step.
-const FEWEST_BEFORE: usize = 5;
-/// And after it.
-const FEWEST_AFTER: usize = 30;
-/// How much higher than the scatter of the force a step must be.
-const CLEAR_STEP: f64 = 6.0;
-/// How many times the usual jump of means over longer stretches, which is 0.67 of its standard deviation: a step is
-/// six of them high.
-const CLEAR_JUMP: f64 = 9.0;
 /// The longest stretch is this part of the log, so that the usual jump is not that of the step.
 const LARGEST_STRETCH: usize = 16;
-/// Standard errors of a mean that is off the level, which has as large an error.
-const STANDING_OUT: f64 = 8.0;
-/// How far the position may still move over the last tenth of the record, relative to the step.
-const SETTLED_MOTION: f64 = 0.05;
 
 /// A step response, read off the log.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,7 +73,7 @@ impl StepResponse {
         ))?;
         let time = &run.samples.time;
         let n = force.len();
-        if n < FEWEST_BEFORE + FEWEST_AFTER {
+        if n < procedure::MIN_SAMPLES_BEFORE_STEP + procedure::MIN_SAMPLES_AFTER_STEP {
             return Err(none(
                 "too few samples: 5 before the step and 30 after it are needed",
             ));
@@ -96,7 +84,7 @@ impl StepResponse {
             needed: highest.needed,
             stretch: highest.stretch,
         })?;
-        if onset < FEWEST_BEFORE {
+        if onset < procedure::MIN_SAMPLES_BEFORE_STEP {
             return Err(none(
                 "fewer than 5 samples before the step: its level at rest is not known",
             ));
@@ -112,7 +100,7 @@ impl StepResponse {
         let end = (0..=n - onset - telling)
             .find(|&i| off(i).abs() > half)
             .map_or(n, |i| onset + i);
-        if end - onset < FEWEST_AFTER {
+        if end - onset < procedure::MIN_SAMPLES_AFTER_STEP {
             return Err(none("fewer than 30 samples before the force changes again"));
         }
         let start = onset.saturating_sub(BLOCK);
@@ -133,7 +121,7 @@ impl StepResponse {
         if !(settled > 3.0 * step && settled > 0.0) {
             return Err(none("the position hardly moves with the force"));
         }
-        if (last - previous).abs() > SETTLED_MOTION * settled + step {
+        if (last - previous).abs() > procedure::MAX_FINAL_MOTION * settled + step {
             return Err(none(
                 "the axis is still moving at its end: the step exceeds break-away, or the record is \
                  too short",
@@ -206,15 +194,15 @@ struct Highest {
 fn jump(force: &[f64]) -> Result<Jump, Highest> {
     let n = force.len();
     let sums = sums(force);
-    let mut stretch = FEWEST_BEFORE;
+    let mut stretch = procedure::MIN_SAMPLES_BEFORE_STEP;
     let mut faint: Option<Highest> = None;
-    while stretch == FEWEST_BEFORE || stretch <= n / LARGEST_STRETCH {
+    while stretch == procedure::MIN_SAMPLES_BEFORE_STEP || stretch <= n / LARGEST_STRETCH {
         let jumps = jumps(force, &sums, stretch);
         let height = jumps.iter().copied().fold(0.0, f64::max);
         // The usual jump is that of the noise, slow noise and ramps included.
-        let mut needed = CLEAR_JUMP * median(jumps.clone());
-        if stretch == FEWEST_BEFORE {
-            needed = needed.max(CLEAR_STEP * usual_difference(force));
+        let mut needed = procedure::MIN_STEP_JUMP * median(jumps.clone());
+        if stretch == procedure::MIN_SAMPLES_BEFORE_STEP {
+            needed = needed.max(procedure::MIN_STEP_HEIGHT * usual_difference(force));
         }
         if height > needed && height > 0.0 {
             return Ok(Jump {
@@ -239,7 +227,7 @@ fn jump(force: &[f64]) -> Result<Jump, Highest> {
 fn jumps(force: &[f64], sums: &[f64], stretch: usize) -> Vec<f64> {
     let w = stretch;
     let of = |k: usize| {
-        if w == FEWEST_BEFORE {
+        if w == procedure::MIN_SAMPLES_BEFORE_STEP {
             mean(&force[k..k + w]) - mean(&force[k - w..k])
         } else {
             (sums[k + w] - 2.0 * sums[k] + sums[k - w]) / w as f64
@@ -282,7 +270,7 @@ fn onset(force: &[f64], stretch: usize, jumps: &[f64], least: f64) -> usize {
         .find(|&i| jumps[i] >= jumps[best] * (1.0 - 1e-9))
         .unwrap_or(best);
     let at = at + stretch;
-    if stretch == FEWEST_BEFORE {
+    if stretch == procedure::MIN_SAMPLES_BEFORE_STEP {
         return at;
     }
     // The top of a jump of long means is flat. Where the two levels are, the samples beside it tell: the step is
@@ -309,7 +297,7 @@ fn telling(force: &[f64], onset: usize, by: f64) -> usize {
     // The median difference of independent normal samples is 0.954 of their deviation.
     let scatter = deviation(&force[onset.saturating_sub(BLOCK)..onset]);
     let noise = scatter.max(usual_difference(force) / 0.954);
-    let share = STANDING_OUT * noise / by;
+    let share = procedure::MIN_LEVEL_ERROR * noise / by;
     (share * share).ceil().clamp(1.0, force.len() as f64) as usize
 }
 

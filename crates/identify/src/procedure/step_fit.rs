@@ -18,6 +18,7 @@ use crate::parameter::covariance::Covariance;
 use crate::separable::linear::dot;
 use stiction_friction::Direction;
 use stiction_parameters::{Name, Quantity};
+use stiction_policy::procedure;
 use stiction_search::descent::{Descent, LeastSquares, Region, Settings, Sums, descend};
 use stiction_search::{Control, Counts, Derivatives, Observer, Progress, Stage, Status};
 
@@ -42,8 +43,6 @@ const SETTLED_STEP: f64 = 1e-8;
 const LONGEST_STEP: f64 = 1.0;
 /// Largest delay between force and position that is looked for, samples.
 const MOST_DELAY: f64 = 2.0;
-/// Share of it from which a delay counts as being at the end of its range.
-const END_OF_DELAYS: f64 = 0.99;
 /// What is wrong with every parameter there.
 const LATE: &str = "the delay between force and position is at the end of its range, two samples: something shapes the response \
                     that the law and what is given beside it do not explain";
@@ -386,7 +385,7 @@ impl Problem {
         let n = residual.len() as f64;
         let level = trial.curve.coulomb;
         let delay_std = covariance[(2, 2)].max(0.0).sqrt();
-        let at_end = p[2].abs() > END_OF_DELAYS;
+        let at_end = p[2].abs() > procedure::END_OF_RANGE;
         // Every other unknown is a logarithm, that of Fs the one of its distance from the highest step.
         let mut rows = vec![
             (Quantity::Sigma0, trial.sigma0, 0, trial.sigma0),

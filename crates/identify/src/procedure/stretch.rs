@@ -5,37 +5,15 @@ use super::settle::transient;
 use crate::conditioning::record::Samples;
 use crate::error::Error;
 use crate::fit::MOST_LAGS;
+use stiction_policy::procedure;
 use stiction_signal::effective_sample_size;
 
-/// How far a quarter of a stretch may be off its mean velocity while it is looked for, relative.
-const STEADY_VELOCITY: f64 = 0.03;
-/// How much the velocity may change from the first quarter of a stretch to its last, relative. A
-/// piece of a ramp grows until a quarter is off by `STEADY_VELOCITY` at either end, and so drifts more.
-pub const MOST_DRIFT: f64 = 0.015;
-/// Fewest samples of a stretch, before and after its transient is dropped.
-const FEWEST_SAMPLES: usize = 40;
-/// Fewest counts of the position in a quarter of a stretch: with fewer the slope is dominated by the
-/// encoder steps.
-const FEWEST_COUNTS: f64 = 5.0;
 /// Most parts into which a stretch is divided to look for standstill.
 const MOST_PARTS: usize = 128;
 /// Share of a stretch that is cut off at either end, because the velocity is rounded off at corners.
 const CORNER_SHARE: f64 = 0.03;
-/// A stretch whose duration is below this share of that of one near it in time and velocity is only part
-/// of the approach to it.
-const PIECE_LENGTH: f64 = 0.2;
 /// Number of points before and after a stretch that are compared with it for this purpose.
 const MOST_NEIGHBOURS: usize = 32;
-/// How near a neighbour is in velocity, as a part of its own.
-const NEIGHBOUR_VELOCITY: f64 = 0.4;
-/// And in time, in lengths of the longer one.
-const NEIGHBOUR_GAP: f64 = 0.5;
-/// A part slower than this share of the mean is a standstill.
-const STANDSTILL_SPEED: f64 = 0.25;
-/// Fewest independent samples of each half that tell a slow ripple from a drift.
-const FEWEST_INDEPENDENT: f64 = 4.0;
-/// Difference of the halves that is negligible, relative to their sum: one percent of the force.
-const NEGLIGIBLE_DRIFT: f64 = 5e-3;
 
 /// One log as a procedure sees it: unfiltered, with what it was asked to do where that is known.
 #[derive(Clone, Copy, Debug)]
@@ -79,9 +57,9 @@ impl StaticPoint {
         let seconds = |time: (f64, f64)| time.1 - time.0;
         let longer = seconds(other.time);
         let gap = (other.time.0 - self.time.1).max(self.time.0 - other.time.1);
-        seconds(self.time) < PIECE_LENGTH * longer
-            && gap < NEIGHBOUR_GAP * longer
-            && (self.velocity / other.velocity - 1.0).abs() < NEIGHBOUR_VELOCITY
+        seconds(self.time) < procedure::MAX_APPROACH_DURATION * longer
+            && gap < procedure::MAX_NEIGHBOUR_GAP * longer
+            && (self.velocity / other.velocity - 1.0).abs() < procedure::MAX_NEIGHBOUR_VELOCITY
     }
 }
 
@@ -130,7 +108,7 @@ pub struct Stretches {
 ///
 /// A stretch is steady if every quarter of it moves within 3 % of its mean velocity, beyond what the
 /// steps of the position allow; it is grown as far as that holds, the longest first. Then its velocity
-/// may not drift by more than [`MOST_DRIFT`] from the first quarter to the last once at most half of it
+/// may not drift by more than [`procedure::MAX_VELOCITY_DRIFT`] from the first quarter to the last once at most half of it
 /// is dropped at the start, nor may the axis stop in between.
 /// Both ends are cut by 3 %, and further until the force has settled (marginal standard error rule;
 /// at most half). With
@@ -205,7 +183,7 @@ impl<'a> Search<'a> {
         let mut length = n;
         let first = out.points.len();
         let first_rejected = out.rejected.len();
-        while length >= FEWEST_SAMPLES {
+        while length >= procedure::MIN_STRETCH_SAMPLES {
             let hop = (length / 8).max(1);
             let mut from = 0;
             while from + length <= n {
@@ -247,7 +225,8 @@ impl<'a> Search<'a> {
             let mut index = 0;
             out.rejected.retain(|r| {
                 index += 1;
-                index <= first_rejected || seconds(r.time) >= PIECE_LENGTH * shortest
+                index <= first_rejected
+                    || seconds(r.time) >= procedure::MAX_APPROACH_DURATION * shortest
             });
         }
         out.rejected[first_rejected..].sort_by(|a, b| a.time.0.total_cmp(&b.time.0));
@@ -275,12 +254,12 @@ impl<'a> Search<'a> {
         let mean = self.asked.slope(from, to);
         let seconds = self.samples.time[to - 1] - self.samples.time[from];
         let travel = mean.abs() * seconds / 4.0;
-        if !(travel > FEWEST_COUNTS * self.asked_step && travel > 0.0) {
+        if !(travel > procedure::MIN_QUARTER_COUNTS * self.asked_step && travel > 0.0) {
             return false;
         }
         // The encoder steps cause an error of the slope that falls with the square of the number of steps.
         let counts = travel / self.asked_step;
-        let allowed = mean.abs() * (STEADY_VELOCITY + 2.0 / (counts * counts));
+        let allowed = mean.abs() * (procedure::MAX_VELOCITY_ERROR + 2.0 / (counts * counts));
         (0..4).all(|k| {
             let a = from + k * quarter;
             (self.asked.slope(a, a + quarter) - mean).abs() <= allowed
@@ -325,7 +304,8 @@ impl<'a> Search<'a> {
         let at = self.asked.instant(added.0, added.1) - self.asked.instant(core.0, core.1);
         let line = self.asked.mean(core.0, core.1) + slope * at;
         let added_time = self.samples.time[added.1 - 1] - self.samples.time[added.0];
-        let allowed = STEADY_VELOCITY * slope.abs() * added_time.max(0.0) + self.asked_step;
+        let allowed =
+            procedure::MAX_VELOCITY_ERROR * slope.abs() * added_time.max(0.0) + self.asked_step;
         (self.asked.mean(added.0, added.1) - line).abs() <= allowed
     }
 
@@ -339,7 +319,7 @@ impl<'a> Search<'a> {
             .after_drift(&self.moved, from, to)
             .ok_or(Some(Unsteady::StickSlip))?;
         let start = from + corner;
-        if to < start + FEWEST_SAMPLES {
+        if to < start + procedure::MIN_STRETCH_SAMPLES {
             return Err(None);
         }
         let mean = self.moved.slope(start, to);
@@ -350,7 +330,7 @@ impl<'a> Search<'a> {
         }
         let (a, b) = self.settled(start, to).ok_or(Some(Unsteady::Unsettled))?;
         let (a, b, pitches) = self.whole_pitches(a, b);
-        if b - a < FEWEST_SAMPLES {
+        if b - a < procedure::MIN_STRETCH_SAMPLES {
             return Err(None);
         }
         let force = &self.samples.force[a..b];
@@ -384,7 +364,7 @@ impl<'a> Search<'a> {
             let first = motion.slope(from, from + quarter);
             let last = motion.slope(to - quarter, to);
             let counts = mean * self.seconds(from, to) / 4.0 / self.step;
-            (last - first).abs() <= mean * (MOST_DRIFT + 2.0 / (counts * counts))
+            (last - first).abs() <= mean * (procedure::MAX_VELOCITY_DRIFT + 2.0 / (counts * counts))
         })
     }
 
@@ -403,7 +383,7 @@ impl<'a> Search<'a> {
         let part = (to - from) / parts;
         (0..parts).any(|k| {
             let a = from + k * part;
-            self.moved.slope(a, a + part) / mean < STANDSTILL_SPEED
+            self.moved.slope(a, a + part) / mean < procedure::MAX_STANDSTILL_SPEED
         })
     }
 
@@ -464,9 +444,9 @@ fn drifts(signal: &[f64]) -> bool {
     };
     let (first, second) = (of(a), of(b));
     let apart = (first.0 - second.0).abs();
-    let told =
-        apart > 3.0 * (first.1 + second.1).sqrt() || first.2.min(second.2) < FEWEST_INDEPENDENT;
-    told && apart > NEGLIGIBLE_DRIFT * (first.0 + second.0).abs()
+    let told = apart > 3.0 * (first.1 + second.1).sqrt()
+        || first.2.min(second.2) < procedure::MIN_INDEPENDENT_SAMPLES;
+    told && apart > procedure::MAX_FORCE_DRIFT * (first.0 + second.0).abs()
 }
 
 fn integral(time: &[f64], velocity: &[f64]) -> Vec<f64> {

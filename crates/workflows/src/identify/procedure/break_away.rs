@@ -11,10 +11,7 @@ use stiction_files::result::{BreakAwayEntry, ResultFile};
 use stiction_identify::FittedLaw;
 use stiction_identify::procedure::{Run, break_away as find, predict_break_away};
 use stiction_parameters::{Name, ParameterSet, Quantity, Side};
-
-/// Speed that counts as broken away, as a part of the Stribeck velocity, where a model is known, dimensionless: well above
-/// the creep of presliding, well below the velocity at which friction has fallen.
-const BROKEN_AWAY_SPEED: f64 = 1.0 / 3.0;
+use stiction_policy::procedure;
 
 /// Break-aways, and what is to be said of runs that show none.
 #[derive(Default)]
@@ -59,7 +56,7 @@ pub(in crate::identify) fn break_away(
         let model = curve::plant(&values, positive);
         let threshold = model
             .filter(|_| knows_curve(beside, law, positive))
-            .map(|(_, side)| BROKEN_AWAY_SPEED * side.stribeck_velocity);
+            .map(|(_, side)| procedure::BREAK_AWAY_OF_STRIBECK * side.stribeck_velocity);
         let found = match find(&run, threshold, k) {
             Ok(found) => found,
             Err(e) => {

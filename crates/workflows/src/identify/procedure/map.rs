@@ -17,14 +17,8 @@ use stiction_identify::procedure::{
 };
 use stiction_identify::{Dependence, LawKind, Observer, Terms};
 use stiction_log::Motion;
-use stiction_policy::choice;
+use stiction_policy::{choice, procedure};
 use stiction_search::Counts;
-
-/// Different speeds in each direction below which a map is warned of: twelve show the Stribeck curve from well below its
-/// velocity to the viscous branch (`docs/procedures.md`).
-const ADVISED_SPEEDS: usize = 12;
-/// Difference of two speeds, as a part of the lower one, up to which they count as one, dimensionless.
-const SAME_SPEED_WITHIN: f64 = 0.02;
 
 /// A map with what goes into the result.
 pub(super) struct Mapped {
@@ -165,16 +159,16 @@ fn warnings(
             .map(|p| p.velocity.abs())
             .collect();
         speeds.sort_by(f64::total_cmp);
-        speeds.dedup_by(|b, a| *b <= *a * (1.0 + SAME_SPEED_WITHIN));
+        speeds.dedup_by(|b, a| *b <= *a * (1.0 + procedure::MAX_EQUAL_SPEED));
         speeds.len()
     };
     let (pos, neg) = (distinct(1.0), distinct(-1.0));
-    if pos.min(neg) < ADVISED_SPEEDS {
+    if pos.min(neg) < procedure::MIN_SPEEDS {
         out.push(Warning::new(
             Code::FewSpeeds,
             format!(
                 "{pos} different speeds in the positive direction and {neg} in the negative one; a \
-                 static map should have {ADVISED_SPEEDS} each way, evenly spaced in their logarithm, from \
+                 static map should have {} each way, evenly spaced in their logarithm, from \
                  well below the Stribeck velocity to the top speed",
                 procedure::MIN_SPEEDS
             ),
