@@ -7,7 +7,6 @@ mod tracking;
 
 pub use init::{Started, init, names};
 pub use motion::{Motion, speeds};
-pub(crate) use shows::ANGLE_FOR_GRAVITY;
 pub use shows::Shows;
 pub use tracking::{Peak, Tracking, TrackingChange};
 

@@ -1,19 +1,10 @@
 //! Strokes of a record: from one turning point of the position to the next.
 
 use crate::conditioning::record::{Record, Segment};
+use stiction_policy::motion;
 
-/// Way back from an extreme of the position from which on it is a turning point, in parts of the range of its log.
-const TURNED: f64 = 0.02;
 /// Pieces of a stroke, where whole strokes are too few to tell a covariance from.
 pub(crate) const PIECES: usize = 8;
-/// Distance of the logarithms of length and peak speed up to which two strokes are of one kind.
-const ALIKE: f64 = 0.35;
-/// Part of the speeds of moving samples that the top speed is above: a few samples of an overshoot are no speed that was seen.
-const TOP: f64 = 0.97;
-/// Part of the largest speed up to which a sample counts as not moving.
-const MOVING: f64 = 0.02;
-/// Ratio of the longest to the shortest stroke from which on there are long and short ones.
-const LONGER: f64 = 1.5;
 
 /// The strokes of the kept samples of a record.
 #[derive(Clone, Debug)]
@@ -60,7 +51,7 @@ impl Strokes {
         let mut samples = Vec::with_capacity(record.kept());
         let mut first = 0;
         for (segment, way) in record.segments.iter().zip(&ways) {
-            let turns = turning_points(way, TURNED * range[segment.log]);
+            let turns = turning_points(way, motion::MIN_TURN * range[segment.log]);
             let mut stroke = 0;
             for (i, _) in segment.keep.iter().enumerate().filter(|(_, keep)| **keep) {
                 let at = (i * record.decimate).min(way.len() - 1);
@@ -83,8 +74,11 @@ impl Strokes {
         let runs: Vec<&[Sample]> = samples.chunk_by(|a, b| a.stroke == b.stroke).collect();
         let speed: Vec<f64> = samples.iter().map(|s| s.velocity.abs()).collect();
         let fastest = speed.iter().copied().fold(0.0, f64::max);
-        let moving = speed.iter().copied().filter(|v| *v > MOVING * fastest);
-        let top = quantile(moving.collect(), TOP);
+        let moving = speed
+            .iter()
+            .copied()
+            .filter(|v| *v > motion::MAX_REST_SPEED * fastest);
+        let top = quantile(moving.collect(), motion::TOP_SPEED_QUANTILE);
         let mut out = Self {
             of: Vec::with_capacity(samples.len()),
             piece: Vec::with_capacity(samples.len()),
@@ -127,7 +121,7 @@ impl Strokes {
             .collect();
         out.halves = vec![early, fast, far, rising];
         let [shortest, longest] = [0.0, 1.0].map(|at| quantile(out.length.clone(), at));
-        if longest > LONGER * shortest {
+        if longest > motion::MIN_LONG_STROKE * shortest {
             let middle = quantile(out.length.clone(), 0.5);
             let long = out.of.iter().map(|k| out.length[*k] > middle);
             out.halves.push(long.collect());
@@ -190,7 +184,7 @@ fn kinds(length: &[f64], peak: &[f64], sense: &[f64]) -> Vec<usize> {
         if kind[k] == usize::MAX {
             let rest = kind.iter_mut().enumerate().skip(k);
             for (other, own) in rest.filter(|(_, own)| **own == usize::MAX) {
-                if apart(k, other) < ALIKE {
+                if apart(k, other) < motion::MAX_STROKE_DISTANCE {
                     *own = k;
                 }
             }

@@ -3,18 +3,13 @@
 use crate::turns::turns;
 use serde::Serialize;
 use stiction_log::Log;
+use stiction_policy::motion;
 use stiction_signal::noise_deviation;
 
 /// Longest window to either side over which a speed is taken from a position, s.
 const LONGEST_WINDOW: f64 = 0.05;
-/// Error of a speed, as a part of the top speed, below which no longer window is needed.
-const SMALL_ERROR: f64 = 1e-3;
-/// Part of the samples that is faster than the top speed: single samples may be noise.
-const ABOVE_TOP: f64 = 0.005;
 /// Bounds of the decades of speed, in top speeds.
 const DECADES: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
-/// Part of the way between its levels forward and back that the force has to go after a reversal to have turned round.
-const TURNED: f64 = 0.75;
 
 /// How the axis moves.
 #[derive(Clone, Debug, Serialize)]
@@ -61,7 +56,7 @@ impl Motion {
         let (velocity, error, window) = speeds_within(log)?;
         let mut sizes: Vec<f64> = velocity.iter().map(|v| v.abs()).collect();
         sizes.sort_by(f64::total_cmp);
-        let top_speed = sizes[((1.0 - ABOVE_TOP) * (n - 1) as f64) as usize];
+        let top_speed = sizes[((1.0 - motion::SHARE_ABOVE_TOP) * (n - 1) as f64) as usize];
         if top_speed <= error || seconds <= 0.0 {
             return None;
         }
@@ -159,7 +154,7 @@ fn speeds_within(log: &Log) -> Option<(Vec<f64>, f64, usize)> {
             .collect();
         let error = step * log.rate_hz / (2 * window) as f64;
         let top = velocity.iter().fold(0.0_f64, |top, v| top.max(v.abs()));
-        if error <= SMALL_ERROR * top || 2 * window > longest {
+        if error <= motion::MAX_SPEED_ERROR * top || 2 * window > longest {
             return Some((velocity, error, window));
         }
         window *= 2;
@@ -188,7 +183,7 @@ fn samples_after(x: &[f64], force: &[f64], turns: &[usize]) -> Option<f64> {
             true => (back, forward),
             false => (forward, back),
         };
-        let there = |f: &f64| (f - from) / (to - from) >= TURNED;
+        let there = |f: &f64| (f - from) / (to - from) >= motion::MIN_FORCE_TURN;
         force[turn..next].iter().position(there).map(|k| k as f64)
     });
     let mut counts: Vec<f64> = after.collect();

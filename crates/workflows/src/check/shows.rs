@@ -9,29 +9,7 @@ use stiction_files::symbols;
 use stiction_identify::Mass;
 use stiction_log::{Log, Motion as Kind};
 use stiction_number::{Percent, counted, four_digits as short};
-use stiction_policy::encoder;
-
-/// Least share of the samples that move each way.
-const SHARE_EACH_WAY: f64 = 0.05;
-/// Least ratio of a middling to a slow speed from which the slope of friction over speed shows.
-const SPEED_RATIO: f64 = 2.0;
-/// Least share of the samples at a tenth to a hundredth of the top speed, in the direction that has less: a sine has 3
-/// %, and a triangle, which only passes through these speeds, less.
-const SHARE_SLOW: f64 = 0.02;
-/// The same for the next decade, of which a sine has 0.3 %.
-const SHARE_SLOWER: f64 = 0.005;
-/// Fewest reversals.
-const REVERSALS: usize = 4;
-/// Fewest samples in which the force turns round at a reversal for the stiffness ...
-const SAMPLES_FOR_STIFFNESS: f64 = 5.0;
-/// ... and for the micro-damping, which shows only in how fast presliding changes.
-const SAMPLES_FOR_DAMPING: f64 = 20.0;
-/// Least rms acceleration over its error.
-const ACCELERATION: f64 = 5.0;
-/// Least angle over which sin q and cos q are neither constant nor a straight line, rad.
-pub(crate) const ANGLE_FOR_GRAVITY: f64 = 1.0;
-/// Least ratio of the share of samples of the rarer direction to that of the other for levels of their own.
-const BALANCED: f64 = 0.3;
+use stiction_policy::{encoder, motion};
 
 /// What the motion can show of one thing.
 #[derive(Clone, Debug, Serialize)]
@@ -83,7 +61,7 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
             },
         });
     };
-    let both = if least_way >= SHARE_EACH_WAY {
+    let both = if least_way >= motion::MIN_SHARE_EACH_WAY {
         "possible"
     } else if least_way > 0.0 {
         "doubtful"
@@ -98,8 +76,10 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
         "motion that slides, both ways: in one direction friction cannot be told from a constant force",
     );
     let ratio = m.middle_speed / m.slow_speed.max(f64::MIN_POSITIVE);
-    let slides = m.slow_speed > 0.0 && m.forward + m.back >= SHARE_EACH_WAY;
-    let wide = slides && (ratio >= SPEED_RATIO || m.top_speed >= 2.0 * SPEED_RATIO * m.slow_speed);
+    let slides = m.slow_speed > 0.0 && m.forward + m.back >= motion::MIN_SHARE_EACH_WAY;
+    let wide = slides
+        && (ratio >= motion::MIN_SPEED_RATIO
+            || m.top_speed >= 2.0 * motion::MIN_SPEED_RATIO * m.slow_speed);
     let range = format!(
         "speeds from {} to {}",
         speed(m.slow_speed),
@@ -113,14 +93,14 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
         "motion at speeds of a tenth of the top speed up to the top speed",
     );
     let [_, tenth, hundredth] = m.decades_one_way;
-    let slow = tenth >= SHARE_SLOW && hundredth >= SHARE_SLOWER;
+    let slow = tenth >= motion::MIN_SHARE_SLOW && hundredth >= motion::MIN_SHARE_SLOWER;
     let found = format!(
         "{} of the samples at a tenth to a hundredth of the top speed, {} below, speeds told to {}",
         percent(m.decades[1]),
         percent(m.decades[2]),
         speed(3.0 * m.speed_error)
     );
-    let stribeck = match (slow, tenth >= SHARE_SLOWER) {
+    let stribeck = match (slow, tenth >= motion::MIN_SHARE_SLOWER) {
         _ if least_way <= 0.0 => "no",
         (true, _) => "possible",
         (false, true) => "doubtful",
@@ -151,7 +131,7 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
     };
     let resolved = |needed: f64| match m.samples_at_reversal {
         None => "no",
-        Some(_) if m.reversals < REVERSALS => "doubtful",
+        Some(_) if m.reversals < motion::MIN_REVERSALS => "doubtful",
         Some(samples) if samples >= needed => "possible",
         Some(samples) if samples >= 2.0 => "doubtful",
         Some(_) => "no",
@@ -161,20 +141,20 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
     say(
         "sigma0",
         "presliding stiffness",
-        resolved(SAMPLES_FOR_STIFFNESS),
+        resolved(motion::MIN_STIFFNESS_SAMPLES),
         turned.clone(),
         slow_turns,
     );
     say(
         "sigma1",
         "micro-damping",
-        resolved(SAMPLES_FOR_DAMPING),
+        resolved(motion::MIN_DAMPING_SAMPLES),
         format!("{turned}, at {} Hz", short(m.rate_hz)),
         "slow reversals at the full rate of the drive; force steps at rest (method presliding-step) show it best",
     );
     if mass == Mass::Fitted {
         let accelerates = match m.acceleration_over_error {
-            a if a >= ACCELERATION && wide => "possible",
+            a if a >= motion::MIN_ACCELERATION && wide => "possible",
             a if a >= 1.0 => "doubtful",
             _ => "no",
         };
@@ -197,7 +177,7 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
         "asymmetry",
         "asymmetry, or a constant force",
         match balance {
-            b if b >= BALANCED => "possible",
+            b if b >= motion::MIN_DIRECTION_BALANCE => "possible",
             b if b > 0.0 => "doubtful",
             _ => "no",
         },
@@ -219,7 +199,7 @@ pub(super) fn shows(log: &Log, motion: &Motion, mass: Mass) -> Vec<Shows> {
         );
     }
     if log.motion == Kind::Rotary {
-        let wide = m.range >= ANGLE_FOR_GRAVITY;
+        let wide = m.range >= motion::MIN_GRAVITY_ANGLE;
         say(
             "gravity",
             "gravity",

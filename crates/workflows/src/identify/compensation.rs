@@ -7,12 +7,9 @@ use crate::source::Source;
 use crate::turns::turns;
 use stiction_files::result::{Action, Compensation};
 use stiction_identify::Series;
+use stiction_policy::motion;
 use stiction_say::On;
 
-/// Speed of a record over the top speed of the fitted ones up to which it counts as rest, and part of its samples that has to move
-/// faster each way for anything to be identified from it, dimensionless.
-const SLOW: f64 = 0.01;
-const MOVING_EACH_WAY: f64 = 0.05;
 /// What the law leaves of the friction and where that was seen, as it is stated and as a verdict depends on it; `None` without a force
 /// that friction is a part of.
 pub(super) fn held_out(evidence: &Evidence) -> Option<(Compensation, HeldOut)> {
@@ -81,9 +78,9 @@ pub(super) fn held_out(evidence: &Evidence) -> Option<(Compensation, HeldOut)> {
 fn shows_friction(series: &Series, top_speed: f64) -> bool {
     let part = |moves: &dyn Fn(f64) -> bool| {
         let count = series.velocity.iter().filter(|v| moves(**v)).count();
-        count as f64 > MOVING_EACH_WAY * series.velocity.len() as f64
+        count as f64 > motion::MIN_FITTED_SHARE * series.velocity.len() as f64
     };
-    let slow = SLOW * top_speed;
+    let slow = motion::MAX_FITTED_REST_SPEED * top_speed;
     rms(&series.measured) > 0.0 && part(&|v| v > slow) && part(&|v| v < -slow)
 }
 

@@ -2,7 +2,6 @@
 
 use super::trust::RICHER_LAW_WINS_BELOW;
 use super::{pitch, settled};
-use crate::check::ANGLE_FOR_GRAVITY;
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::result::{Action, CauseEntry, EffectEntry, LawEntry, SizeEntry};
@@ -10,7 +9,7 @@ use stiction_files::{Warning, symbols};
 use stiction_identify::{Dependence, Effect, FittedLaw, Found, LawKind};
 use stiction_log::Motion;
 use stiction_number::{Percent, four_digits};
-use stiction_policy::effect;
+use stiction_policy::{effect, motion};
 
 /// Deviations of a 95 % interval.
 const QUANTILE: f64 = 1.96;
@@ -297,7 +296,7 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Action> {
                 |(low, high): (f64, f64), x| (low.min(*x), high.max(*x)),
             );
             // On less a spring and a weight are alike, and sine and cosine are hardly two.
-            match log.motion == Motion::Rotary && high - low >= ANGLE_FOR_GRAVITY {
+            match log.motion == Motion::Rotary && high - low >= motion::MIN_GRAVITY_ANGLE {
                 true => (!law.terms.gravity).then(|| of_terms("gravity = true".into())),
                 false => pitch::straight(high - low, law, log.motion).map(of_terms),
             }

@@ -2,15 +2,13 @@
 
 use std::ops::Range;
 use stiction_parameters::{ParameterSet, Quantity, Side};
-
-/// Deflections at break-away of the way after a reversal on which the bristles have surely turned over, dimensionless.
-const TURNED_OVER: f64 = 8.0;
+use stiction_policy::motion;
 
 /// The way after a reversal on which the bristles of a law turn over, m (rad); `None` where it has none.
 pub fn presliding_length(values: &ParameterSet) -> Option<f64> {
     let stiffness = values.get(Quantity::Sigma0).filter(|s| *s > 0.0)?;
     let level = values.on(Quantity::Coulomb, Side::Positive)?;
-    Some(TURNED_OVER * level / stiffness)
+    Some(motion::TURN_OVER * level / stiffness)
 }
 
 /// The sample of the slowest reversal, the one with most samples within `length` of it, and these samples: at most a tenth of all
