@@ -6,26 +6,13 @@ use serde::Serialize;
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_log::{Gap, Log};
+use stiction_policy::tracking;
 use stiction_signal::{Travel, noise_deviation};
 
 /// A peak at a reversal is sought from so long before the reference turns, s; so do the check lists of `docs/deploy`.
 const BEFORE: f64 = 0.02;
 /// To so long after, s, or until just before the next turn.
 const AFTER: f64 = 0.15;
-/// Two motions are the same if range, top speed and duration differ by no more than this part.
-const SAME: f64 = 0.05;
-/// A peak has grown if it is larger by more than this part, and by more than [`STEPS`].
-const GROWN: f64 = 0.1;
-/// Encoder steps by which two errors of the same size may differ.
-const STEPS: f64 = 3.0;
-
-/// Rates that differ by no more than this part see the same of a peak.
-const SAME_RATE: f64 = 0.1;
-/// Least rate at which a log can be compared with a finer one, Hz: the error at a reversal comes and goes in some ten milliseconds.
-const LEAST_RATE: f64 = 100.0;
-
-/// Part of the range that a reference moves in one sample only where it jumps: at a wrap, or between set points.
-const JUMP: f64 = 0.3;
 
 /// How well an axis follows its reference in one log; errors are reference less position and less their median, m or rad.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -103,7 +90,7 @@ impl Tracking {
         let position = log.position.as_ref().ok_or("it has no position")?;
         let ends = |of: fn(f64, f64) -> f64, start| reference.iter().copied().fold(start, of);
         let range = ends(f64::max, f64::NEG_INFINITY) - ends(f64::min, f64::INFINITY);
-        let jumps = |pair: &[f64]| (pair[1] - pair[0]).abs() > JUMP * range;
+        let jumps = |pair: &[f64]| (pair[1] - pair[0]).abs() > tracking::MIN_REFERENCE_JUMP * range;
         if reference.windows(2).any(jumps) {
             return Err(match log.wrap {
                 Some(_) => "its reference jumps, not by the wrap of the axis file",
@@ -253,15 +240,16 @@ impl TrackingChange {
     /// What changed; else why that is not known, in words that complete "... is not compared: ".
     pub(super) fn between(before: &Tracking, after: &Tracking) -> Result<Self, String> {
         let lower = before.rate_hz.min(after.rate_hz);
-        let apart = before.rate_hz.max(after.rate_hz) > (1.0 + SAME_RATE) * lower;
-        if apart && lower < LEAST_RATE {
+        let apart =
+            before.rate_hz.max(after.rate_hz) > (1.0 + tracking::MAX_RATE_DIFFERENCE) * lower;
+        if apart && lower < tracking::MIN_RATE {
             let hz = |x: f64| stiction_number::full(libm::round(10.0 * x) / 10.0);
             return Err(format!(
                 "it has {} Hz and the first log {} Hz, and an error that comes and goes at a reversal is seen from {} Hz; record \
                  both at the same rate",
                 hz(after.rate_hz),
                 hz(before.rate_hz),
-                hz(LEAST_RATE)
+                hz(tracking::MIN_RATE)
             ));
         }
         let coarser = |one: &Tracking, other: &Tracking| match apart && one.rate_hz > lower {
@@ -269,7 +257,7 @@ impl TrackingChange {
             false => one.clone(),
         };
         let (before, after) = (&coarser(before, after), &coarser(after, before));
-        let other = |a: f64, b: f64| (a - b).abs() > SAME * a.max(b);
+        let other = |a: f64, b: f64| (a - b).abs() > tracking::MAX_MOTION_DIFFERENCE * a.max(b);
         let mut differs = Vec::new();
         if before.reversals() != after.reversals() {
             differs.push("reversals".into());
@@ -283,7 +271,8 @@ impl TrackingChange {
                 differs.push(name.into());
             }
         }
-        let slack = STEPS * before.step.unwrap_or(0.0).max(after.step.unwrap_or(0.0));
+        let slack = tracking::MIN_PEAK_GROWTH_STEPS
+            * before.step.unwrap_or(0.0).max(after.step.unwrap_or(0.0));
         let (mut grown, mut compared) = (Vec::new(), 0);
         if differs.is_empty() {
             for (number, b) in after.numbers.iter().zip(&after.peaks) {
@@ -292,7 +281,9 @@ impl TrackingChange {
                 };
                 let a = before.peaks[there];
                 compared += 1;
-                if b.error > (1.0 + GROWN) * a.error && b.error > a.error + slack {
+                if b.error > (1.0 + tracking::MIN_PEAK_GROWTH) * a.error
+                    && b.error > a.error + slack
+                {
                     grown.push((b.time, a.error, b.error));
                 }
             }
