@@ -1,6 +1,7 @@
 //! A number over time, as it was estimated.
 
 use crate::robust::median;
+use stiction_policy::drift;
 
 /// One estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,9 +25,6 @@ pub enum Measure {
     Absolute,
 }
 
-/// Median value over median deviation from which on changes are relative, where every value is above 0.
-const FAR_ABOVE_ZERO: f64 = 5.0;
-
 impl Measure {
     /// How changes of the number of these courses are counted.
     pub fn of(courses: &[&[Point]]) -> Self {
@@ -34,7 +32,7 @@ impl Measure {
         let positive = all().all(|point| point.value > 0.0);
         let mut values: Vec<f64> = all().map(|point| point.value).collect();
         let mut stds: Vec<f64> = all().map(|point| point.std).collect();
-        match positive && median(&mut values) > FAR_ABOVE_ZERO * median(&mut stds) {
+        match positive && median(&mut values) > drift::MIN_RELATIVE_LEVEL * median(&mut stds) {
             true => Measure::Relative,
             false => Measure::Absolute,
         }

@@ -7,6 +7,7 @@
 use crate::course::{Measure, Point};
 use crate::limits::WINDOWS;
 use crate::robust::{SCALE_OF_MAD, median, weighted_median};
+use stiction_policy::drift;
 
 /// What a number does by itself; on the scale of its [`Measure`].
 #[derive(Clone, Debug, PartialEq)]
@@ -37,13 +38,8 @@ pub struct Noise {
 const LAGS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 /// Memories that are tried, in spacings.
 const MEMORIES: [f64; 6] = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0];
-/// Least differences that say something of a lag.
-const FEWEST: usize = 12;
 /// Variance at a lag, as a part of the largest, up to which it is none but for rounding.
 const NOTHING: f64 = 1e-20;
-/// Distance of two levels over the mean distance of logs from them, from which on a step lies between them: wandering, scatter
-/// with heavy tails or both, of any memory, hardly ever come to it.
-const CLEAR: f64 = 8.0;
 /// Most deviations that are kept as their shape.
 const MOST_SHAPES: usize = 8192;
 
@@ -114,7 +110,7 @@ impl Noise {
         }
         let mut sizes: Vec<f64> = shape.iter().map(|x| x.abs()).collect();
         let unit = SCALE_OF_MAD * median(&mut sizes);
-        if shape.len() < FEWEST || !unit.is_finite() {
+        if shape.len() < drift::MIN_DIFFERENCES || !unit.is_finite() {
             return None;
         }
         let step = shape.len().div_ceil(MOST_SHAPES);
@@ -156,7 +152,7 @@ fn without_steps(mut course: Vec<(f64, f64, f64)>) -> Vec<(f64, f64, f64)> {
     course
 }
 
-/// Place and size of the clearest step of a course: medians before and after it that are [`CLEAR`] times further from each other
+/// Place and size of the clearest step of a course: medians before and after it that are [`drift::MIN_STEP`] times further from each other
 /// than logs scatter about them.
 fn step(course: &[(f64, f64, f64)]) -> Option<(usize, f64)> {
     let clear = |at: usize| {
@@ -172,7 +168,7 @@ fn step(course: &[(f64, f64, f64)]) -> Option<(usize, f64)> {
         // The mean, not the median: numbers that repeat exactly more often than not scatter all the same.
         let scale = (from..to).map(off).sum::<f64>() / (to - from) as f64;
         let size = after - before;
-        (size.abs() > CLEAR * scale).then_some((size.abs() / scale, at, size))
+        (size.abs() > drift::MIN_STEP * scale).then_some((size.abs() / scale, at, size))
     };
     let last = course.len().saturating_sub(WINDOWS[0]);
     let steps = (WINDOWS[0]..=last).filter_map(clear);
@@ -216,7 +212,7 @@ fn by_temperature(courses: &[&[Point]], measure: Measure) -> Option<f64> {
         }
     }
     let slope = weighted_median(&mut slopes);
-    (slopes.len() >= FEWEST && slope.is_finite()).then_some(slope)
+    (slopes.len() >= drift::MIN_DIFFERENCES && slope.is_finite()).then_some(slope)
 }
 
 /// Variance of what is new in each log, that of the wandering, and its memory: those whose variogram is nearest to that of the
@@ -230,7 +226,7 @@ fn variances(courses: &[Vec<(f64, f64, f64)>], spacing: f64) -> Option<(f64, f64
             .flat_map(|c| c.iter().zip(c.iter().skip(lag)));
         let (mut sizes, mut times): (Vec<f64>, Vec<f64>) =
             pairs.map(|(a, b)| ((b.1 - a.1).abs(), b.0 - a.0)).unzip();
-        if sizes.len() < FEWEST {
+        if sizes.len() < drift::MIN_DIFFERENCES {
             break;
         }
         let scale = SCALE_OF_MAD * median(&mut sizes);

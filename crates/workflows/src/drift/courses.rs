@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 use stiction_drift::Point;
 use stiction_files::batch::{Levels, LogRow, ParameterRow, seconds_in_name, seconds_of_file};
+use stiction_policy::drift;
 
 /// Where the times of logs come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -17,9 +18,6 @@ pub enum Times {
     /// When their files were written.
     Files,
 }
-
-/// Longest span of times that are not those of recordings: files that were copied or written one after the other, s.
-const COPIED_WITHIN: f64 = 60.0;
 
 /// Times beside those of the table, with their names.
 pub(super) const OTHERS: [(Times, &str); 2] = [(Times::Names, "names"), (Times::Files, "files")];
@@ -211,7 +209,7 @@ impl Courses {
     /// Times that every log has, where the table has none.
     pub fn other_times(&self) -> Vec<String> {
         let moves = |span: &Option<(f64, f64)>| {
-            span.is_some_and(|(first, last)| last - first > COPIED_WITHIN)
+            span.is_some_and(|(first, last)| last - first > drift::MAX_COPY_SPAN)
         };
         let all = OTHERS.iter().zip(&self.others);
         let of = all.filter(|(_, span)| !self.is_timed() && moves(span));
