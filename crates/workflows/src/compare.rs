@@ -26,18 +26,9 @@ use stiction_files::{Axis, Hash, Runs, Work};
 use stiction_identify::Observer;
 use stiction_identify::candidates::Scheme;
 use stiction_number::{counted, short};
+use stiction_policy::comparison;
 use subject::Subject;
 use trial::Trial;
-
-/// Largest relative amount by which a cost may lie below the reference and still count as the same optimum,
-/// dimensionless: descents stop within about this of their minimum.
-const SAME_OPTIMUM_WITHIN: f64 = 1e-6;
-
-/// Largest difference of two costs J that still count as the same, dimensionless (J is a part of the energy of the
-/// signal): least squares compute their cost from sums of squares, whose rounding error is of this size. On V5
-/// without noise six searches that end at the same parameters, to nine digits, have costs from 1.815e-12 to
-/// 1.822e-12; the reference search, which computes its cost from residuals, has 1.825e-12.
-const SAME_COST_WITHIN: f64 = 1e-13;
 
 /// Runs every method with every seed, side by side on all threads. Apart from the times, the results do not depend on
 /// how many threads there are.
@@ -270,7 +261,8 @@ fn run(
     let found = trials.iter().filter_map(|t| t.cost());
     let lowest = found.fold(f64::INFINITY, f64::min);
     // A cost that is lower by rounding only belongs to the same optimum.
-    let beaten = lowest < least * (1.0 - SAME_OPTIMUM_WITHIN) && least - lowest > SAME_COST_WITHIN;
+    let beaten = lowest < least * (1.0 - comparison::MAX_OPTIMUM_DIFFERENCE)
+        && least - lowest > comparison::MAX_COST_DIFFERENCE;
     let winner = |t: &&Trial| t.cost() == Some(lowest);
     let reference = Reference {
         cost: if beaten { lowest } else { least },

@@ -2,16 +2,8 @@
 
 use super::trial::{Point, Trial};
 use stiction_files::compare_file::{Course, MethodEntry, ParameterError, RunEntry, Stage};
+use stiction_policy::comparison;
 
-/// Cost divided by that of the optimum, minus 1, up to which a run with noise counts as a success, dimensionless.
-const SUCCESS_EXCESS: f64 = 1e-4;
-/// Error of each parameter, as a part of its true value, up to which a run without noise counts as a success,
-/// dimensionless.
-const SUCCESS_PARAMETER_ERROR: f64 = 0.01;
-/// Cost J above the optimum up to which a run without noise counts as arrived, dimensionless: a relative error of 1e-4.
-const EXACT_COST: f64 = 1e-8;
-/// Cost J below which only rounding is left, dimensionless.
-const ROUNDING_COST: f64 = 1e-14;
 /// Points of a convergence curve.
 const CURVE_POINTS: usize = 60;
 
@@ -44,14 +36,14 @@ impl Judge<'_> {
 
     fn threshold(&self) -> f64 {
         match self.by_parameters {
-            true => self.least + EXACT_COST,
-            false => self.least * (1.0 + SUCCESS_EXCESS),
+            true => self.least + comparison::MAX_ARRIVED_COST,
+            false => self.least * (1.0 + comparison::MAX_SUCCESS_EXCESS),
         }
     }
 
     /// Cost divided by that of the optimum, minus 1; NaN where the cost of the optimum is rounding error only.
     fn excess(&self, cost: f64) -> f64 {
-        if self.least < ROUNDING_COST {
+        if self.least < comparison::MAX_ROUNDING_COST {
             return f64::NAN;
         }
         cost / self.least - 1.0
@@ -62,7 +54,7 @@ impl Judge<'_> {
         let known = self.truth.iter().filter(|(_, value)| *value != 0.0);
         known.into_iter().all(|(name, _)| {
             self.error(point, name)
-                .is_some_and(|error| error <= SUCCESS_PARAMETER_ERROR)
+                .is_some_and(|error| error <= comparison::MAX_SUCCESS_ERROR)
         })
     }
 

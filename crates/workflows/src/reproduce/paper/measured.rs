@@ -13,6 +13,7 @@ use stiction_identify::candidates::{Candidates, Curve, Dynamic, Named, SixParame
 use stiction_identify::{
     Conditioning, Law, LawKind, Mass, Samples, Settings, Source, condition, tune,
 };
+use stiction_policy::comparison;
 use stiction_search::descent::{Region, damped_step};
 use stiction_search::{Control, Derivatives, Fidelity, Points, Progress};
 use stiction_servo::axis::AxisSettings;
@@ -33,9 +34,6 @@ const ROUNDS: usize = 2;
 const DRAWS: u64 = 5;
 /// Draws from which it is computed how far off encoder and noise allow a parameter to be, n.
 const ALLOWED_DRAWS: u64 = 20;
-/// How many deviations beyond the bias are allowed, dimensionless: of six parameters, each the worst of five draws, one is
-/// beyond in 1 of 500 runs where draws are normal.
-const DEVIATIONS: f64 = 4.0;
 /// Gauss-Newton steps from the true parameters, their damping, and the longest one in logarithms.
 const STEPS: usize = 6;
 const DAMPING: f64 = 1e-9;
@@ -104,7 +102,10 @@ fn allowed(stage: &Stage, draws: &[Named]) -> Named {
             let off = draws.iter().map(|draw| draw[i].1 / truth - 1.0);
             let bias = off.clone().sum::<f64>() / n;
             let variance = off.map(|x| (x - bias) * (x - bias)).sum::<f64>() / n;
-            (*name, bias.abs() + DEVIATIONS * libm::sqrt(variance))
+            (
+                *name,
+                bias.abs() + comparison::MAX_PAPER_DEVIATIONS * libm::sqrt(variance),
+            )
         })
         .collect()
 }

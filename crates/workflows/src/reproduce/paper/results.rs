@@ -18,12 +18,7 @@ use stiction_files::reproduce_file::{CheckEntry, SearchEntry};
 use stiction_friction::LuGre;
 use stiction_identify::candidates::Named;
 use stiction_parameters::{Name, Quantity};
-
-/// Largest relative error of a found parameter, dimensionless: what Liao et al. 2023 (doi 10.3390/s23042076), the work
-/// closest to the paper, claim without noise.
-const PARAMETER_TOLERANCE: f64 = 0.01;
-/// The same for a mass found while running, dimensionless: it is found from a tenth of the record.
-const MASS_TOLERANCE: f64 = 0.02;
+use stiction_policy::comparison;
 
 /// The costs J at which searches are compared while they run: three thousandths and one of the force's mean square.
 pub const REACHED: [f64; 2] = [3e-3, 1e-3];
@@ -103,8 +98,8 @@ impl Paper {
             found.map_or(f64::NAN, |(_, x)| *x)
         };
         // Where encoder and noise allow no more, that; a part of the value.
-        let noisy = |name: &str| PARAMETER_TOLERANCE.max(value(&self.allowed, name));
-        let exact = |_: &str| PARAMETER_TOLERANCE;
+        let noisy = |name: &str| comparison::MAX_PAPER_ERROR.max(value(&self.allowed, name));
+        let exact = |_: &str| comparison::MAX_PAPER_ERROR;
         let mut parameters = |experiment: &str,
                               found: &[(Name, f64)],
                               names: &[&str],
@@ -147,7 +142,7 @@ impl Paper {
         }
         for load in &self.loads {
             let (reference, found) = (load.heavier, load.last());
-            let tolerance = MASS_TOLERANCE;
+            let tolerance = comparison::MAX_PAPER_MASS_ERROR;
             checks.push(CheckEntry::relative(
                 "load", "mass", units.mass, reference, found, tolerance,
             ));

@@ -7,6 +7,7 @@ use super::stage::{BANDWIDTH, Control, Stage};
 use super::statics::{RAMP, settle};
 use rayon::prelude::*;
 use stiction_friction::ParamError;
+use stiction_policy::comparison;
 use stiction_servo::metrics::Crawl;
 use stiction_servo::speeds::{SpeedRun, Speeds};
 
@@ -16,9 +17,6 @@ const PARTS: [f64; 11] = [
 ];
 /// Speeds on our stage, m/s: below its Stribeck velocity, where friction falls, and at it.
 const SPEEDS: [f64; 4] = [0.2e-3, 0.75e-3, 1.5e-3, 3e-3];
-/// Rms deviation of the velocity over the Stribeck velocity that is even, dimensionless: it moves the mean force by half its
-/// square times the curvature of exp(-x^2), 1e-4 of the rise of the static friction at the most.
-const EVEN: f64 = 0.01;
 
 /// The first bandwidth with which the axis slides evenly, Hz; the one with which it does so best where none is.
 pub(super) fn bandwidth(stage: &Stage) -> Result<f64, ParamError> {
@@ -32,7 +30,7 @@ pub(super) fn bandwidth(stage: &Stage) -> Result<f64, ParamError> {
         if uneven < best.0 {
             best = (uneven, bandwidth);
         }
-        if uneven < EVEN {
+        if uneven < comparison::MAX_PAPER_RIPPLE {
             break;
         }
     }
