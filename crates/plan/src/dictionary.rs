@@ -3,6 +3,7 @@
 use crate::atom::Atom;
 use crate::limits::Limits;
 use crate::rig::Rig;
+use stiction_policy::plan;
 
 /// Frequencies of the sines, Hz, as far as the loop follows them, and their durations, s.
 const SINES: [(f64, f64); 6] = [
@@ -45,10 +46,6 @@ pub(crate) const MARGIN: f64 = 1.0 - 1e-6;
 /// Highest frequency over the bandwidth of the loop, and over the rate of the log.
 const OF_BANDWIDTH: f64 = 0.75;
 const OF_RATE: f64 = 1.0 / 40.0;
-/// Least amplitude in encoder steps: less is seldom seen.
-const LEAST_STEPS: f64 = 2.0;
-/// A piece that the limits make slower than this part of what was asked for is another one.
-const SAME: f64 = 0.6;
 /// Part of the duration in which a sine grows.
 const GROWTH: f64 = 0.8;
 
@@ -67,8 +64,8 @@ pub fn dictionary(limits: &Limits, rig: &Rig) -> Vec<Atom> {
         let by = fits(&atom, limits);
         let atom = atom.scaled(by);
         let size = atom.extremes().position;
-        let seen = (size[1] - size[0]) >= LEAST_STEPS * rig.encoder_step;
-        if by >= SAME && seen && atom.validate().is_ok() {
+        let seen = (size[1] - size[0]) >= plan::MIN_AMPLITUDE_STEPS * rig.encoder_step;
+        if by >= plan::MIN_SPEED_PART && seen && atom.validate().is_ok() {
             all.push(atom);
         }
     };
@@ -79,7 +76,7 @@ pub fn dictionary(limits: &Limits, rig: &Rig) -> Vec<Atom> {
         }
         // The largest that the limits allow, whatever its speed.
         let largest = sine(limits.speed, frequency, duration);
-        if fits(&largest, limits) < SAME {
+        if fits(&largest, limits) < plan::MIN_SPEED_PART {
             let largest = largest.scaled(fits(&largest, limits));
             add(largest);
         }
@@ -147,7 +144,7 @@ pub fn places(limits: &Limits, rig: &Rig) -> Vec<Atom> {
                 acceleration: most.acceleration,
                 jerk: most.jerk,
             };
-            let seen = (part * end).abs() >= LEAST_STEPS * rig.encoder_step;
+            let seen = (part * end).abs() >= plan::MIN_AMPLITUDE_STEPS * rig.encoder_step;
             if !seen || atom.validate().is_err() || atom.duration() > LONGEST_PLACE {
                 continue;
             }
@@ -203,8 +200,8 @@ pub fn nested(limits: &Limits, rig: &Rig, [shortest, longest]: [f64; 2]) -> Vec<
                 let by = fits(&atom, limits);
                 let atom = atom.scaled(by);
                 let size = atom.extremes().position;
-                let seen = size[1] - size[0] >= LEAST_STEPS * rig.encoder_step;
-                if by >= SAME && seen && atom.validate().is_ok() {
+                let seen = size[1] - size[0] >= plan::MIN_AMPLITUDE_STEPS * rig.encoder_step;
+                if by >= plan::MIN_SPEED_PART && seen && atom.validate().is_ok() {
                     all.push(atom);
                 }
             }

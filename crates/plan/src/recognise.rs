@@ -2,6 +2,7 @@
 
 use crate::motion::Motion;
 use std::ops::Range;
+use stiction_policy::plan;
 
 /// What became of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,36 +43,13 @@ const RATE: f64 = 200.0;
 const WORK: f64 = 2e8;
 /// The same for each of the paces that are tried where it did not run as planned.
 const WORK_OF_PACE: f64 = 4e6;
-/// Least correlation of a piece, or of the motion, with what is taken for it.
-const ALIKE: f64 = 0.8;
-/// The same of what is found elsewhere than where it is due.
-const ALIKE_ELSEWHERE: f64 = 0.95;
-/// Part of the size of a piece that an axis has to move at least where it is due, though in another shape, for it to have run.
-const LEAST_FOLLOWED: f64 = 0.1;
-/// Largest part of an amplitude that an axis, which may overshoot, makes of it.
-const MOST_FOLLOWED: f64 = 2.0;
-/// Time by which a piece may seem to overlap its neighbour, s.
-const BESIDE: f64 = 0.05;
-/// Correlation above which a piece is not sought elsewhere.
-const CLEAR: f64 = 0.995;
-/// The same of a motion above which it surely ran at its own pace.
-const CLEARLY_RAN: f64 = 0.98;
 /// How far beside the time at which it is due a piece is sought first, s.
 const NEAR: f64 = 0.3;
 /// How far from where it is due a piece is sought, s.
 const LATER: f64 = 120.0;
-/// Part of the square of the motion, or of that of the log, that has to lie where both are.
-const WITHIN: f64 = 0.3;
-/// Part of a duration that has to be free for a piece that does not show itself: its neighbours, where friction leads them, are found
-/// up to a tenth of a second beside where they are.
-const ROOM: f64 = 0.7;
 /// Least and largest pace that is tried, and the ratio between them; the same of a log that is like the motion at its own.
 const PACES: [f64; 3] = [0.02, 3.0, 1.02];
 const NEAR_PACES: [f64; 3] = [0.8, 1.25, 1.005];
-/// By how much a pace may be off for the motion to have run at its own, as by another clock.
-const SAME_PACE: f64 = 0.01;
-/// Part of what is unlike at its own pace that is unlike at another at which it surely ran.
-const BETTER: f64 = 0.3;
 
 /// Finds a motion in the position of a log, or better in its set point: times in s, rising, and as many positions, in m (rad),
 /// counted from anywhere. `None` where nothing of it is there, at any pace.
@@ -89,11 +67,11 @@ pub fn recognise(motion: &Motion, time: &[f64], position: &[f64]) -> Option<Reco
     let rate = RATE.min(RATE * libm::sqrt(WORK / work(RATE)));
     let place = placed(&log(rate), &Course::of(motion, 1.0, rate));
     // Strokes of a slower run are like those of a faster one in part, and near its own pace the whole is like it.
-    let is_clear = place.alike >= CLEARLY_RAN;
+    let is_clear = place.alike >= plan::MIN_MOTION_CORRELATION;
     let [least, most, step] = if is_clear { NEAR_PACES } else { PACES };
     let needed = match is_clear {
-        true => 1.0 - BETTER * (1.0 - place.alike),
-        false => ALIKE.max(place.alike),
+        true => 1.0 - plan::MAX_PACE_RESIDUAL * (1.0 - place.alike),
+        false => plan::MIN_CORRELATION.max(place.alike),
     };
     let other = other_pace(motion, &log, work(RATE), [least, most, step]);
     if let Some((pace, _)) = other.filter(|(_, alike)| *alike >= needed) {
@@ -103,7 +81,7 @@ pub fn recognise(motion: &Motion, time: &[f64], position: &[f64]) -> Option<Reco
             size: None,
         });
     }
-    (place.alike >= ALIKE).then(|| {
+    (place.alike >= plan::MIN_CORRELATION).then(|| {
         // However long the log is: what is far away is not looked at again.
         let from = (place.start - LATER).max(whole[0]);
         let to = (place.start + motion.duration() + LATER).min(whole[1]);
@@ -111,7 +89,7 @@ pub fn recognise(motion: &Motion, time: &[f64], position: &[f64]) -> Option<Reco
         Recognised {
             pace: 1.0,
             pieces: pieces(motion, &near, whole, place.start),
-            size: (place.alike >= CLEARLY_RAN).then_some(place.followed),
+            size: (place.alike >= plan::MIN_MOTION_CORRELATION).then_some(place.followed),
         }
     })
 }
@@ -128,7 +106,7 @@ fn other_pace(
     let mut paces = Vec::new();
     let mut pace = least;
     while pace <= most {
-        if (pace - 1.0).abs() > SAME_PACE {
+        if (pace - 1.0).abs() > plan::MAX_PACE_ERROR {
             paces.push(pace);
         }
         pace *= step;
@@ -235,13 +213,14 @@ impl Course {
             xr += a * b;
         }
         let [xx, rr, xr] = [xx - x * x / n, rr - r * r / n, xr - x * r / n];
-        let little = rr <= WITHIN * other.square && xx <= WITHIN * self.square;
+        let little =
+            rr <= plan::MIN_COMMON_PART * other.square && xx <= plan::MIN_COMMON_PART * self.square;
         if little || !(xx > 0.0 && rr > 0.0) {
             return NOWHERE;
         }
         let followed = xr / rr;
         // Something larger is something else.
-        if followed > MOST_FOLLOWED {
+        if followed > plan::MAX_FOLLOWED {
             return NOWHERE;
         }
         Place {
@@ -293,12 +272,12 @@ fn pieces(motion: &Motion, log: &Course, whole: [f64; 2], start: f64) -> Vec<Ran
         .map(|(span, piece)| {
             let due = span[0] + start;
             let near = around(log, piece, [due - NEAR, due + NEAR], false);
-            if near.alike >= CLEAR {
+            if near.alike >= plan::MIN_CERTAIN_CORRELATION {
                 return near;
             }
             let other = around(log, piece, [due - LATER, due + LATER], true);
             let better = 1.0 - other.alike < 0.25 * (1.0 - near.alike);
-            match other.alike >= ALIKE_ELSEWHERE && better {
+            match other.alike >= plan::MIN_CORRELATION_ELSEWHERE && better {
                 true => other,
                 false => near,
             }
@@ -317,7 +296,10 @@ fn pieces(motion: &Motion, log: &Course, whole: [f64; 2], start: f64) -> Vec<Ran
         let [low, high] = between(&shown, &spans, k);
         let place = alone[k];
         let duration = spans[k][1] - spans[k][0];
-        if place.alike >= ALIKE && place.start >= low && place.start + duration <= high {
+        if place.alike >= plan::MIN_CORRELATION
+            && place.start >= low
+            && place.start + duration <= high
+        {
             shown[k] = Some(place);
         }
     }
@@ -327,7 +309,7 @@ fn pieces(motion: &Motion, log: &Course, whole: [f64; 2], start: f64) -> Vec<Ran
             let [low, high] = between(&shown, &spans, k);
             let last = high - (spans[k][1] - spans[k][0]);
             let place = around(log, &courses[k], [low, last.min(low + LATER)], true);
-            shown[k] = (place.alike >= ALIKE_ELSEWHERE).then_some(place);
+            shown[k] = (place.alike >= plan::MIN_CORRELATION_ELSEWHERE).then_some(place);
         }
     }
     // What is as large as something that is seen would be seen.
@@ -395,7 +377,7 @@ fn hardly_followed(
     let last = log.positions.len() as isize;
     let [from, to] = [begins, ends].map(|t| log.sample(t).clamp(0, last) as usize);
     let moved = Course::new(begins, log.step, log.positions[from..to].to_vec()).size() / size;
-    (moved >= LEAST_FOLLOWED).then(|| (begins, moved.min(1.0)))
+    (moved >= plan::MIN_FOLLOWED).then(|| (begins, moved.min(1.0)))
 }
 
 /// When a piece starts that does not show itself; `None` where there is no time for it, and for those beside it that do not
@@ -414,7 +396,7 @@ fn held(
     let end = before.and_then(|i| Some(shown[i]?.start + duration(i)));
     let next = after.and_then(|i| Some(shown[i]?.start));
     match (end, next) {
-        (Some(end), Some(next)) if next - end < ROOM * time(gap.clone()) => None,
+        (Some(end), Some(next)) if next - end < plan::MIN_FREE_DURATION * time(gap.clone()) => None,
         (Some(end), _) => Some(end + time(gap.start..k)),
         (None, Some(next)) => Some(next - time(k..gap.end)),
         (None, None) => None,
@@ -431,8 +413,8 @@ fn between(shown: &[Option<Place>], spans: &[[f64; 2]], k: usize) -> [f64; 2] {
         .iter()
         .find_map(|place| Some((*place)?.start));
     [
-        before.unwrap_or(f64::NEG_INFINITY) - BESIDE,
-        after.unwrap_or(f64::INFINITY) + BESIDE,
+        before.unwrap_or(f64::NEG_INFINITY) - plan::MAX_OVERLAP,
+        after.unwrap_or(f64::INFINITY) + plan::MAX_OVERLAP,
     ]
 }
 

@@ -10,6 +10,7 @@ use stiction_files::plan::ReadPlan;
 use stiction_files::result::{PieceEntry, PlannedEntry, PlannedParameter, ResultFile};
 use stiction_number::{Percent, counted, four_digits};
 use stiction_plan::{How, Recognised, recognise};
+use stiction_policy::plan;
 
 /// Reads a plan, and refuses one of another kind of axis.
 pub(super) fn read(file: &Path, sources: &[Source]) -> Result<ReadPlan, Error> {
@@ -52,7 +53,7 @@ pub(super) fn into_outcome(plan: &ReadPlan, outcome: &mut Outcome) {
         parameters,
     };
     let size = best.and_then(|(_, found)| found.size);
-    let size = size.filter(|times| (times - 1.0).abs() > ANOTHER_SIZE);
+    let size = size.filter(|times| (times - 1.0).abs() > plan::MAX_SIZE_DIFFERENCE);
     result.warnings.extend(differs(&entry));
     result
         .warnings
@@ -64,9 +65,6 @@ fn whole(found: &Recognised) -> usize {
     let pieces = found.pieces.iter();
     pieces.filter(|piece| piece.how == How::Whole).count()
 }
-
-/// Part by which the way of a log may differ from the planned one: any axis that may be used follows that.
-const ANOTHER_SIZE: f64 = 0.1;
 
 fn of_another_size(entry: &PlannedEntry, times: f64) -> Warning {
     let said = format!(

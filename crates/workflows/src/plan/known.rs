@@ -11,6 +11,7 @@ use stiction_files::{ModelFile, Warning};
 use stiction_identify::{LawKind, Observer};
 use stiction_parameters::{Name, Quantity};
 use stiction_plan::{Belief, Candidate, Elements, Nameplate, Subject};
+use stiction_policy::plan;
 use stiction_signal::noise_deviation;
 
 /// What is known of an axis beside its nameplate.
@@ -140,9 +141,6 @@ const FIRST: &str =
 fn doubt(file: &Path, why: &str) -> Warning {
     Warning::new(Code::ModelInDoubt, format!("{}: {why}", file.display()))
 }
-
-/// Largest relative deviation with which a parameter counts as determined.
-const DETERMINED: f64 = 0.5;
 
 fn refuse(file: &Path, found: &str, allowed: &str) -> Error {
     Error::usage(format!("{}: {found}", file.display()), allowed.to_string())
@@ -301,7 +299,8 @@ impl Told {
         let deviation = |(p, unit): (&Option<&ModelParameter>, &f64)| {
             let p = (*p)?;
             let relative = p.std.map(|std| std / unit);
-            let relative = relative.filter(|d| d.is_finite() && *d < DETERMINED);
+            let relative =
+                relative.filter(|d| d.is_finite() && *d < plan::MAX_DETERMINED_DEVIATION);
             match p.origin.as_str() {
                 "given" => Some(0.0),
                 _ => relative.filter(|_| p.identifiable),

@@ -7,17 +7,12 @@ use stiction_files::Axis;
 use stiction_log::Motion;
 use stiction_number::{full, short};
 use stiction_plan::{Entry, Nameplate, Peaks, Rig};
+use stiction_policy::plan;
 
 /// Most samples of a motion at the rate of the log: set points are written at it.
 const MOST_SAMPLES: f64 = 2.5e6;
 /// Rate at which a faster log is simulated, Hz: its samples are taken together, and their noise is that of their mean.
 const SIMULATED_RATE: f64 = 20e3;
-/// Encoder steps that the axis has to move over for anything to be seen of it.
-const LEAST_STEPS: f64 = 2.0;
-/// Part of the largest speed at which the least of the Stribeck velocities is that the nameplate leaves open.
-const LEAST_STRIBECK: f64 = 0.003;
-/// Part of the largest acceleration that the peak force has to give at least.
-const LEAST_PUSH: f64 = 0.01;
 
 /// An error at a key of the axis file, or about what is assumed where the file does not give it.
 fn at(axis: &Axis, key: &str, found: String, allowed: String) -> Error {
@@ -71,7 +66,7 @@ pub(super) fn reachable(
     let (limits, rig) = (&plate.limits, &plate.rig);
     let (length, speed_unit) = (motion.position().si_text(), motion.velocity().si_text());
     let stroke = limits.stroke[1] - limits.stroke[0];
-    let seen = LEAST_STEPS * rig.encoder_step;
+    let seen = plan::MIN_STROKE_STEPS * rig.encoder_step;
     if stroke < seen {
         let found = format!("{} {length} in all", short(stroke));
         let allowed = format!(
@@ -131,7 +126,7 @@ pub(super) fn reachable(
         Motion::Linear => "kg",
         Motion::Rotary => "kg m^2",
     };
-    if pushed < LEAST_PUSH * limits.acceleration {
+    if pushed < plan::MIN_ACCELERATION * limits.acceleration {
         let found = format!(
             "{} {newton}, which moves {} {mass} with {} {}",
             short(limits.peak_force),
@@ -141,7 +136,7 @@ pub(super) fn reachable(
         );
         let allowed = format!(
             "at least {} {newton}, a hundredth of what limits.acceleration = {} {} needs",
-            short(LEAST_PUSH * limits.acceleration * plate.mass),
+            short(plan::MIN_ACCELERATION * limits.acceleration * plate.mass),
             short(limits.acceleration),
             per_time(2)
         );
@@ -158,11 +153,11 @@ pub(super) fn reachable(
     let fastest = (limits.acceleration * stroke)
         .sqrt()
         .min(0.5 * limits.acceleration * way);
-    if limits.speed * LEAST_STRIBECK > fastest {
+    if limits.speed * plan::MIN_STRIBECK > fastest {
         let found = format!("{} {speed_unit}", short(limits.speed));
         let allowed = format!(
             "at most {} {speed_unit}: acceleration and stroke allow {} {speed_unit}",
-            short(fastest / LEAST_STRIBECK),
+            short(fastest / plan::MIN_STRIBECK),
             short(fastest)
         );
         return Err(at(axis, "limits.speed", found, allowed));

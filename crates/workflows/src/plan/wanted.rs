@@ -7,6 +7,7 @@ use stiction_files::plan::WantedEntry;
 use stiction_number::full;
 use stiction_parameters::{Name, Quantity, Side};
 use stiction_plan::{Expected, NAMES, Subject};
+use stiction_policy::plan;
 
 /// How well a parameter is to be known on nine of ten axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +22,6 @@ pub struct Want {
 const ALL: &str = "all";
 /// Least and largest wish, percent.
 const RANGE: [f64; 2] = [1e-3, 100.0];
-/// Part of the axes for which a wish is to hold.
-const PART: f64 = 0.9;
 /// Lengths that are tried, s, the shortest that is enough is taken.
 const TIMES: [f64; 8] = [3.0, 5.0, 9.0, 15.0, 25.0, 40.0, 60.0, 100.0];
 /// Longest motion for a wish where none is given, s.
@@ -60,7 +59,8 @@ impl Want {
 
     /// The wish beside what is expected of the parameters of these names: of all, the worst.
     fn entry(&self, expected: &Expected, names: &[String]) -> WantedEntry {
-        let at = |parameter: usize| half_interval(expected.quantile(parameter, PART));
+        let at =
+            |parameter: usize| half_interval(expected.quantile(parameter, plan::MIN_AXES_SHARE));
         let name = self.name();
         let own = |parameter: &usize| self.parameter.is_none() || names[*parameter] == name;
         let found = (0..names.len()).filter(own).map(at).fold(0.0, f64::max);
