@@ -6,15 +6,10 @@ use stiction_files::model::Lowered;
 use stiction_files::shell::cycle_time;
 use stiction_files::{ModelFile, Warning};
 use stiction_parameters::{Name, Quantity};
+use stiction_policy::export;
 
 /// Parameters that need a feedforward of their own, beside that of friction.
 const BESIDE: [&str; 4] = ["mass", "delay", "gravity_", "cogging"];
-
-/// Constant force in Coulomb levels from which on it may be a weight: what friction differs between directions is less.
-const WEIGHT: f64 = 0.5;
-
-/// Difference of two cycle times, as a part, up to which they are one.
-const SAME_WITHIN: f64 = 0.01;
 
 /// What should not be used, what the log leaves open, and what the code leaves out.
 pub(super) fn doubts(
@@ -66,7 +61,7 @@ pub(super) fn doubts(
 /// Says that the code is to be called at another rate than that of the log.
 pub(super) fn another_rate(file: &ModelFile, asked: f64) -> Option<Warning> {
     let of_log = cycle_time(file.source.rate_hz?);
-    let is_same = (asked / of_log - 1.0).abs() <= SAME_WITHIN;
+    let is_same = (asked / of_log - 1.0).abs() <= export::MAX_EQUAL_CYCLE;
     (!is_same).then(|| {
         Warning::new(
             Code::ExportRate,
@@ -87,7 +82,7 @@ fn of_weight(file: &ModelFile, beside: Option<&terms::Beside>) -> Option<Warning
     let of = |name: &str| file.parameter.iter().find(|p| p.name == name);
     let offset = of("offset")?;
     let coulomb = of("coulomb").or_else(|| of("coulomb_positive"))?;
-    (offset.value.abs() >= WEIGHT * coulomb.value).then(|| {
+    (offset.value.abs() >= export::MIN_WEIGHT * coulomb.value).then(|| {
         let [value, level] = [offset.value, coulomb.value].map(stiction_number::four_digits);
         let unit = &offset.unit;
         Warning::new(

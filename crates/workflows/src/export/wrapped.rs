@@ -6,9 +6,7 @@ use stiction_codes::Code;
 use stiction_files::{ModelFile, Warning};
 use stiction_friction::compensator::Wave;
 use stiction_parameters::{Name, Quantity};
-
-/// Part of a period by which a wrap may miss a whole number of them: beyond, a wave is a degree off after three turns.
-const MISSED: f64 = 1e-3;
+use stiction_policy::export;
 
 /// What cannot be told from a position that wraps as that of the log did, if anything.
 pub(super) fn doubt(file: &ModelFile, beside: &Beside) -> Option<Warning> {
@@ -52,5 +50,5 @@ pub(super) fn doubt(file: &ModelFile, beside: &Beside) -> Option<Warning> {
 /// Whether a travel is a whole number of periods.
 fn repeats(travel: f64, period: f64) -> bool {
     let times = travel / period;
-    times.round() >= 1.0 && (times - times.round()).abs() <= MISSED
+    times.round() >= 1.0 && (times - times.round()).abs() <= export::MAX_WRAP_ERROR
 }

@@ -21,6 +21,7 @@ use stiction_files::{Runs, Warning};
 use stiction_friction::compensator::{Compensator, Input, Watch};
 use stiction_friction::{ElastoPlastic, LuGre, MaxwellSlip, ParamError};
 use stiction_number::{four_digits, quantity};
+use stiction_policy::export;
 use stiction_servo::axis::{Axis, Correction, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::integrator::{Integrator, Mid, Quick};
@@ -31,10 +32,6 @@ use stiction_servo::trajectory::MAX_PREVIEW;
 
 /// What the runs are called in tables, figures and `trajectories.csv`.
 const NAMES: [&str; 3] = ["none", "in Rust", "exported C"];
-
-/// Largest difference of the forces on the same inputs, of the larger of force and static friction: that which is allowed of
-/// exported C in double precision.
-const ALLOWED: f64 = 1e-12;
 
 /// Time at standstill in which compensation comes in before a run, beyond its ramp, s.
 const SETTLED: f64 = 0.01;
@@ -87,7 +84,7 @@ pub fn compare_exported(
         folder: exported.folder.clone(),
         files: exported.files.clone(),
         same_model: exported.same_model,
-        allowed_difference: ALLOWED,
+        allowed_difference: export::MAX_FORCE_DIFFERENCE,
         runs: rows,
     };
     outcome.file.warnings.extend(differing(&entry, exported));
@@ -247,7 +244,7 @@ fn moved<L: OfAxis, I: Integrator<L>>(
                 if apart.is_nan() || apart > difference {
                     (difference, at) = (apart, count as f64 / machine.rate - coming_in);
                 }
-                let within = apart <= ALLOWED * scale.max(expected.abs());
+                let within = apart <= export::MAX_FORCE_DIFFERENCE * scale.max(expected.abs());
                 differs |= !within;
                 tripped = off;
                 count += 1;
