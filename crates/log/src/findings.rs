@@ -50,7 +50,7 @@ use crate::log::Log;
 use crate::mapping::Mapping;
 pub(crate) use encoder::{begins_again, quantum};
 pub use finding::{Finding, Severity};
-pub(crate) use finding::{MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, extremes, median};
+pub(crate) use finding::{extremes, median};
 pub(crate) use force::{levels, sign_of_another_clock};
 pub(crate) use stiction_number::{counted as count, full, short};
 

@@ -12,13 +12,8 @@ use crate::findings::{Finding, Severity, count, full, median, short};
 use crate::mapping::{Channel, Mapping, Role, Source, select, time_source, wanted};
 use crate::{Column, Error, Kind, Selector, Table};
 use stiction_codes::Code;
+use stiction_policy::join;
 
-/// Step between two samples of the other column from which on some are missing in it, in median steps.
-const GAP_STEPS: f64 = 1.5;
-/// How much slower the other column has to be for rows to be thinned.
-const SLOWER: f64 = 2.0;
-/// Part of a step up to which a row is beside a sample of the other column.
-const BESIDE: f64 = 0.5;
 /// Part of a step by which a row at an end of the other column may miss it by the rounding of time stamps.
 const ROUNDING: f64 = 1e-4;
 
@@ -146,7 +141,7 @@ impl Joined {
         let step = step(&time).unwrap_or(0.0);
         self.refuse_apart(name, &course, &time, (from, offset))?;
         let slow = matches!(role, Role::Temperature | Role::Load);
-        if !slow && course.step >= SLOWER * step {
+        if !slow && course.step >= join::MIN_THINNED_RATIO * step {
             self.thin(&course, &time);
         } else {
             self.outside.resize(self.table.rows(), false);
@@ -219,7 +214,9 @@ impl Joined {
             let around = known[after.saturating_sub(1)..(after + 1).min(known.len())].iter();
             let distance = |i: &usize| (time[*i] - stamp).abs();
             let nearest = around.min_by(|a, b| distance(a).total_cmp(&distance(b)));
-            if let Some(row) = nearest.filter(|row| distance(row) <= BESIDE * course.step) {
+            if let Some(row) =
+                nearest.filter(|row| distance(row) <= join::MAX_ROW_DISTANCE * course.step)
+            {
                 keep[*row] = true;
             }
         }
@@ -264,7 +261,7 @@ impl Joined {
         ));
         let last = time.iter().copied().rfind(|t| t.is_finite()).unwrap_or(0.0);
         let slow = matches!(from.role, Role::Temperature | Role::Load);
-        if !slow && course.step >= SLOWER * step {
+        if !slow && course.step >= join::MIN_THINNED_RATIO * step {
             message.push_str(&format!(
                 ", so the {} nearest to its samples are kept",
                 count(values.len(), "row")
@@ -371,7 +368,7 @@ impl Course {
                 _ => self.values[from..from + own].iter().sum::<f64>() / own as f64,
             }
         };
-        match step > GAP_STEPS * self.step {
+        match step > join::MIN_GAP * self.step {
             true => (0..count).map(mean).collect(),
             false => (0..count)
                 .map(|n| self.at(first + step * n as f64))
@@ -391,7 +388,7 @@ impl Course {
             return if near { self.values[end] } else { f64::NAN };
         };
         let (from, span) = (self.time[i], next - self.time[i]);
-        if span > GAP_STEPS * self.step {
+        if span > join::MIN_GAP * self.step {
             return match t == from {
                 true => self.values[i],
                 false => f64::NAN,

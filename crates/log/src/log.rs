@@ -40,7 +40,7 @@ pub(crate) mod unwrap;
 use crate::findings::{self, Finding, Severity};
 use crate::join::Joined;
 use crate::mapping::{
-    Enable, MAX_CUT_SHARE, Mapping, Motion, Role, Source, Understood, Wrap, another_unit, parts,
+    Enable, Mapping, Motion, Role, Source, Understood, Wrap, another_unit, parts,
 };
 use crate::{Channel, Dimension, Error, Kind, Table, Unit, Value};
 use cells::LeftOut;
@@ -134,9 +134,6 @@ pub struct Log {
 
 /// Fewest samples of a log; derivatives need three.
 const MIN_SAMPLES: usize = 3;
-
-/// Fewest values of a force from which parameters may be constants: with fewer the error of a step is a tenth of the force and more.
-const FEWEST_FORCE_LEVELS: usize = 10;
 
 /// Says that numbers of a counter were read with their sign.
 fn signed(role: Role, bits: u32) -> Finding {
@@ -427,9 +424,9 @@ impl Log {
         let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
         for rest in self.rests_left_out() {
             if rest.start == 0 {
-                from = self.time[rest.end - 1] - findings::rest::CARRIED;
+                from = self.time[rest.end - 1] - stiction_policy::rest::CARRIED_TIME;
             } else {
-                to = self.time[rest.start] + findings::rest::CARRIED;
+                to = self.time[rest.start] + stiction_policy::rest::CARRIED_TIME;
             }
         }
         carried(from, to)
@@ -463,7 +460,7 @@ impl Log {
     /// fewer than ten.
     pub fn has_few_force_levels(&self) -> bool {
         let levels = self.force.as_deref().map(crate::findings::levels);
-        levels.is_some_and(|levels| (2..FEWEST_FORCE_LEVELS).contains(&levels.len()))
+        levels.is_some_and(|levels| (2..stiction_policy::force::MIN_VALUES).contains(&levels.len()))
     }
 
     /// Which samples are excluded.
@@ -631,10 +628,6 @@ fn without(mut columns: Vec<Understood>, left_out: &[LeftOut]) -> Vec<Understood
 /// of a clock, or as seconds since 1970 to what 64 bits resolve, have two steps, of which neither is the time between samples: it is
 /// their mean.
 fn rate(time: &[f64]) -> f64 {
-    /// Most that rounding moves a step, of the step; beyond it the rows are not at one rate.
-    const ROUNDED: f64 = 0.1;
-    /// Steps from which on samples are missing, in median steps.
-    const MISSING: f64 = 1.5;
     /// What is left of a step by the arithmetic of decimal numbers, of the step.
     const SAME: f64 = 1e-3;
     if let Some((clock, _)) = coarse::Coarse::of_a_part(time) {
@@ -642,11 +635,18 @@ fn rate(time: &[f64]) -> f64 {
     }
     let mut steps: Vec<f64> = time.windows(2).map(|w| w[1] - w[0]).collect();
     let step = findings::median(&mut steps).unwrap_or(1.0);
-    let whole = || steps.iter().copied().filter(|s| *s < MISSING * step);
+    let whole = || {
+        steps
+            .iter()
+            .copied()
+            .filter(|s| *s < stiction_policy::clock::MIN_MISSING_STEP * step)
+    };
     let (least, most) = whole().fold((f64::INFINITY, 0.0_f64), |(a, b), s| (a.min(s), b.max(s)));
     let apart = most - least;
     let of_two = |s: f64| (s - least).min(most - s) <= SAME * step.min(apart);
-    let is_rounded = apart > 1e-6 * step && apart <= ROUNDED * step && whole().all(of_two);
+    let is_rounded = apart > 1e-6 * step
+        && apart <= stiction_policy::clock::MAX_ROUNDED_STEP * step
+        && whole().all(of_two);
     let step = match is_rounded {
         true => whole().sum::<f64>() / whole().count() as f64,
         false => step,
@@ -716,7 +716,7 @@ fn common_length(
         "{role} has {}, other columns up to {longest}",
         findings::count(shortest, "sample")
     );
-    if lost as f64 > MAX_CUT_SHARE * longest as f64 && lost > 2 {
+    if lost as f64 > stiction_policy::clock::MAX_CUT_SHARE * longest as f64 && lost > 2 {
         let own = mapping.own_stamps(table);
         let lines: Vec<&str> = own.iter().map(|own| own.line.as_str()).collect();
         let allowed = match lines.is_empty() {

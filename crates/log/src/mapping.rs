@@ -60,12 +60,11 @@ mod wanted;
 
 use crate::findings::{Finding, full};
 use crate::{Error, Kind, Table};
-pub(crate) use bases::MAX_CUT_SHARE;
 pub use bases::OwnStamps;
 pub use channel::{Channel, Motion, Role, Selector};
 pub(crate) use choose::clear;
 pub(crate) use complete::time_source;
-pub(crate) use convert::{LARGEST_VALUE, Source, another_unit};
+pub(crate) use convert::{Source, another_unit};
 pub(crate) use drive::Gain;
 pub use drive::{BACK_EMFS, Drive, FORCE_CONSTANTS, RESISTANCES, SUPPLIES};
 pub use enable::Enable;

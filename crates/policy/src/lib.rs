@@ -36,7 +36,7 @@ macro_rules! tables {
 
 pub use verdict::{VERDICT, Verdict};
 
-tables! { agreement, choice, comparison, conditioning, delay, drift, effect, encoder, export, interval, motion, plan, procedure, simulation, tracking, verdict }
+tables! { agreement, choice, clock, comparison, conditioning, delay, drift, effect, encoder, export, force, interval, join, motion, plan, position, procedure, rest, signal, simulation, tracking, verdict }
 
 /// A threshold, to be printed.
 #[derive(Clone, Copy, Debug, PartialEq)]

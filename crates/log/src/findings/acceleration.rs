@@ -4,13 +4,10 @@ use super::finding::{Finding, Severity};
 use super::ratio::{Sums, Words, fault};
 use crate::log::Log;
 use stiction_codes::Code;
+use stiction_policy::signal;
 
 /// Samples on each side over which both are compared: long enough that noise and delay matter little.
 const REACH: usize = 32;
-/// Least rms of what the position shows of acceleration, in encoder steps.
-const MIN_STEPS: f64 = 10.0;
-/// Fewest comparisons.
-const FEWEST: usize = 10;
 
 /// Ratios that have a usual cause: that of the position over the acceleration of the log.
 const CAUSES: &[(f64, &str)] = &[
@@ -59,7 +56,10 @@ pub(super) fn consistency(log: &mut Log) {
         xa += (x - x0) * (a - a0);
     }
     let rms = (xx / count.max(1.0)).sqrt();
-    if pairs.len() < FEWEST || aa == 0.0 || rms <= MIN_STEPS * log.quantum.unwrap_or(0.0) {
+    if pairs.len() < signal::MIN_ACCELERATIONS
+        || aa == 0.0
+        || rms <= signal::MIN_ACCELERATION_STEPS * log.quantum.unwrap_or(0.0)
+    {
         return;
     }
     let sums = Sums {

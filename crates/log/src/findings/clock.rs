@@ -1,20 +1,12 @@
 //! Gaps and jitter of the time stamps, which are increasing by now.
 
-use super::finding::{
-    Finding, MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, Severity, median, place,
-};
+use super::finding::{Finding, Severity, median, place};
 use crate::log::coarse::Coarse;
 use crate::log::{Gap, Log};
 use stiction_codes::Code;
 use stiction_number::Percent;
 use stiction_number::{counted as count, short};
-
-/// Time step from which on samples are missing in it, in median time steps.
-const MIN_GAP_STEPS: f64 = 1.5;
-/// Rms deviation of the time step from its median, as a fraction of the median, above which there is a note ...
-const JITTER_NOTE: f64 = 0.01;
-/// ... and above which there is a warning.
-const JITTER_WARNING: f64 = 0.05;
+use stiction_policy::{clock, signal};
 
 /// Finds the median step, the gaps, and the stretches between the long ones.
 pub(super) fn gaps(log: &mut Log) {
@@ -26,7 +18,7 @@ pub(super) fn gaps(log: &mut Log) {
     // Two ticks in place of one are no gap.
     let (step, longest) = match Coarse::of_a_part(&log.time) {
         Some((clock, _)) => (1.0 / clock.rate_hz, clock.longest_step()),
-        None => (step, MIN_GAP_STEPS * step),
+        None => (step, clock::MIN_GAP * step),
     };
     for (index, w) in log.time.windows(2).enumerate() {
         let seconds = w[1] - w[0];
@@ -47,7 +39,7 @@ pub(super) fn gaps(log: &mut Log) {
     log.resumed = resumed;
     let long: Vec<usize> = missing
         .iter()
-        .filter(|g| g.missing_samples > MAX_BRIDGED_SAMPLES)
+        .filter(|g| g.missing_samples > signal::MAX_BRIDGED_SAMPLES)
         .map(|g| g.start_index + 1)
         .collect();
     log.split(&long);
@@ -61,7 +53,7 @@ pub(super) fn gaps(log: &mut Log) {
     let missing = missing
         .iter()
         .fold(0_usize, |sum, g| sum.saturating_add(g.missing_samples));
-    let many = missing as f64 > MISSING_SHARE_FOR_WARNING * log.time.len() as f64;
+    let many = missing as f64 > signal::MAX_MISSING_UNWARNED * log.time.len() as f64;
     let severity = if many || !long.is_empty() {
         Severity::Warning
     } else {
@@ -92,7 +84,7 @@ pub(super) fn jitter(log: &mut Log) {
     let clock = Coarse::of_a_part(&log.time);
     let longest = match &clock {
         Some((clock, _)) => clock.longest_step(),
-        None => MIN_GAP_STEPS * step,
+        None => clock::MIN_GAP * step,
     };
     for (index, w) in log.time.windows(2).enumerate() {
         let off = (w[1] - w[0]) - step;
@@ -110,10 +102,10 @@ pub(super) fn jitter(log: &mut Log) {
         return;
     }
     let rms = (squares / steps as f64).sqrt();
-    if rms <= JITTER_NOTE * step {
+    if rms <= clock::MAX_UNNOTED_JITTER * step {
         return;
     }
-    let severity = if rms > JITTER_WARNING * step {
+    let severity = if rms > clock::MAX_JITTER * step {
         Severity::Warning
     } else {
         Severity::Note

@@ -5,32 +5,13 @@ use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::{counted as count, short};
+use stiction_policy::force;
 
-/// Largest force that counts as none, in parts of what nine of ten samples do not exceed: friction of a moving axis is more.
-const NONE: f64 = 0.03;
-/// How far a stretch is followed on either side of zero, in those parts: a drive that is off leaves no force between this and
-/// [`NONE`], a force that changes its sign does, also where braking takes just what friction does and it stays near zero long.
-const NEAR: f64 = 4.0 * NONE;
-/// Least part of such a stretch that is none.
-const LEAST: f64 = 0.75;
-/// Largest mean of the force over it, in those parts: an offset of the sensor, where friction has the sign of the speed.
-const OFFSET: f64 = 0.01;
-/// Part of the samples that do not exceed that, and half of them.
+/// Parts of the samples by which usual forces are told: nine of ten, and half.
 const USUAL: f64 = 0.9;
 const HALF: f64 = 0.5;
-/// Root mean square of the force over it, in parts of the median of the log, from which on it has to be noise: where the largest
-/// forces are those that a drive at its limit was asked for, friction or a spring is less than [`NONE`] of them, and follows the motion.
-const HARDLY: f64 = 0.03;
-/// What is noise changes within this time, s, by at least this part of its mean square; a force that follows the motion hardly does.
-const WITHIN: f64 = 0.005;
-const CHANGES: f64 = 0.25;
-/// Shortest stretch, s and samples: a force that changes its sign passes zero sooner.
-const SHORTEST: f64 = 0.25;
-const FEWEST: usize = 50;
 /// What is excluded to either side too, s: a drive that is switched on or off takes its time.
 const BESIDE: f64 = 0.05;
-/// Least way from one end of its travel to the other, in parts of the stroke: the counts of an axis that stands add up to a long path.
-const TRAVEL: f64 = 0.02;
 
 /// Excludes stretches in which the axis moves under no force.
 pub(super) fn dead(log: &mut Log) {
@@ -69,7 +50,7 @@ fn stretches(log: &Log, usual: f64, half: f64) -> Vec<Range<usize>> {
     let Some((low, high)) = extremes(position).filter(|_| usual > 0.0) else {
         return Vec::new();
     };
-    let is_near = |sample: &usize| force[*sample].abs() <= NEAR * usual;
+    let is_near = |sample: &usize| force[*sample].abs() <= force::MAX_NEAR_DEAD * usual;
     let mut runs: Vec<Range<usize>> = Vec::new();
     for segment in &log.segments {
         let mut from = segment.start;
@@ -82,16 +63,21 @@ fn stretches(log: &Log, usual: f64, half: f64) -> Vec<Range<usize>> {
     }
     let is_off = |run: &Range<usize>| {
         let force = &force[run.clone()];
-        let none = force.iter().filter(|f| f.abs() <= NONE * usual).count();
+        let none = force
+            .iter()
+            .filter(|f| f.abs() <= force::MAX_DEAD * usual)
+            .count();
         let mean = force.iter().sum::<f64>() / force.len() as f64;
-        none as f64 >= LEAST * force.len() as f64
-            && mean.abs() <= OFFSET * usual
-            && is_noise(force, HARDLY * half, log.rate_hz)
+        none as f64 >= force::MIN_DEAD_SHARE * force.len() as f64
+            && mean.abs() <= force::MAX_DEAD_MEAN * usual
+            && is_noise(force, force::MAX_DEAD_RMS * half, log.rate_hz)
     };
     let moves = |run: &Range<usize>| {
         let travel = extremes(&position[run.clone()]).map_or(0.0, |(low, high)| high - low);
         let lasts = log.time[run.end - 1] - log.time[run.start];
-        run.len() >= FEWEST && lasts >= SHORTEST && travel >= TRAVEL * (high - low)
+        run.len() >= force::MIN_DEAD_SAMPLES
+            && lasts >= force::MIN_DEAD_TIME
+            && travel >= force::MIN_DEAD_TRAVEL * (high - low)
     };
     runs.retain(|run| moves(run) && is_off(run));
     runs
@@ -101,10 +87,10 @@ fn stretches(log: &Log, usual: f64, half: f64) -> Vec<Range<usize>> {
 fn is_noise(force: &[f64], hardly: f64, rate: f64) -> bool {
     let count = force.len() as f64;
     let square = force.iter().map(|f| f * f).sum::<f64>() / count;
-    let later = ((WITHIN * rate).round() as usize).max(1);
+    let later = ((force::NOISE_TIME * rate).round() as usize).max(1);
     let changes = force.iter().zip(force.iter().skip(later));
     let changes = changes.map(|(a, b)| (b - a).powi(2)).sum::<f64>() / count;
-    square <= hardly * hardly || 0.5 * changes >= CHANGES * square
+    square <= hardly * hardly || 0.5 * changes >= force::MIN_NOISE_CHANGE * square
 }
 
 /// What that part of the samples does not exceed in size.

@@ -6,22 +6,7 @@ use crate::mapping::{Mapping, Motion, Role, Selector};
 use std::f64::consts::TAU;
 use stiction_codes::Code;
 use stiction_number::{counted as count, short};
-
-/// Fewest encoder steps of the whole travel; with fewer presliding is hardly resolved.
-const MIN_TRAVEL_STEPS: f64 = 50.0;
-/// Least size of a jump of the position, as a fraction of its range ...
-const MIN_JUMP_SHARE_OF_RANGE: f64 = 0.5;
-/// ... and in mean steps between the other samples.
-const MIN_JUMP_IN_MEAN_STEPS: f64 = 50.0;
-/// Fewest other samples, so that there is a mean step to compare a jump with.
-const MIN_ORDINARY_STEPS: usize = 20;
-/// Largest difference between neighbouring samples from which the encoder step is estimated, in smallest differences.
-/// The half keeps whole multiples clear of the bound.
-const MAX_SMALL_DIFFERENCE: f64 = 20.5;
-/// Fewest such differences ...
-const MIN_SMALL_DIFFERENCES: usize = 30;
-/// ... and how far they may be from whole numbers of encoder steps, rms, in encoder steps.
-const MAX_RMS_OFF_WHOLE: f64 = 0.1;
+use stiction_policy::position;
 
 /// The quantum of a quantised signal, in its own unit; `None` where it is continuous or too short to tell.
 /// Samples where `skip` is true are left out.
@@ -37,7 +22,7 @@ pub(crate) fn quantum(values: &[f64], skip: &[bool]) -> Option<f64> {
             .filter(move |d| *d > fuzz)
     };
     let smallest = steps().min_by(f64::total_cmp)?;
-    let limit = MAX_SMALL_DIFFERENCE * smallest;
+    let limit = position::MAX_SMALL_DIFFERENCE * smallest;
     let mut quantum = smallest;
     for _ in 0..3 {
         let (mut kd, mut kk) = (0.0, 0.0);
@@ -54,8 +39,8 @@ pub(crate) fn quantum(values: &[f64], skip: &[bool]) -> Option<f64> {
         squares += (ratio - ratio.round()) * (ratio - ratio.round());
         seen += 1;
     }
-    let near = (squares / seen.max(1) as f64).sqrt() <= MAX_RMS_OFF_WHOLE;
-    (seen >= MIN_SMALL_DIFFERENCES && near && quantum > 0.0).then_some(quantum)
+    let near = (squares / seen.max(1) as f64).sqrt() <= position::MAX_RMS_OFF_WHOLE;
+    (seen >= position::MIN_SMALL_DIFFERENCES && near && quantum > 0.0).then_some(quantum)
 }
 
 /// Estimates the encoder step, or takes the one that is given.
@@ -87,7 +72,7 @@ pub(super) fn steps(log: &mut Log, mapping: &Mapping) {
         .push(Finding::new(Code::Quantisation, Severity::Note, message));
     let degrees = in_degrees(log, step);
     log.findings.extend(degrees);
-    if range > 0.0 && range / step < MIN_TRAVEL_STEPS {
+    if range > 0.0 && range / step < position::MIN_TRAVEL_STEPS {
         let message = format!(
             "the whole travel is {} encoder steps; presliding is hardly resolved",
             short((range / step).round())
@@ -100,8 +85,6 @@ pub(super) fn steps(log: &mut Log, mapping: &Mapping) {
     }
 }
 
-/// How far the step of an encoder, as its data show it, may be from the one it has by its bits, of the step.
-const OFF_BITS: f64 = 1e-3;
 /// Bits of an encoder that turns.
 const ENCODER_BITS: std::ops::RangeInclusive<u32> = 8..=32;
 
@@ -112,7 +95,9 @@ fn in_degrees(log: &Log, step: f64) -> Option<Finding> {
     let is_plain = log.motion == Motion::Rotary && unit.factor() == 1.0 && channel.scale.is_none();
     let bits = ENCODER_BITS
         .into_iter()
-        .find(|bits| (step * (1_u64 << bits) as f64 / 360.0 - 1.0).abs() <= OFF_BITS)
+        .find(|bits| {
+            (step * (1_u64 << bits) as f64 / 360.0 - 1.0).abs() <= position::MAX_BITS_ERROR
+        })
         .filter(|_| is_plain)?;
     let of = log
         .columns
@@ -175,7 +160,7 @@ pub(super) fn jumps(log: &mut Log) {
         return;
     };
     let again = again(log, position);
-    let bound = MIN_JUMP_SHARE_OF_RANGE * again.as_ref().map_or(high - low, |again| again.period);
+    let bound = position::MIN_JUMP * again.as_ref().map_or(high - low, |again| again.period);
     let steps = || {
         position
             .windows(2)
@@ -196,7 +181,8 @@ pub(super) fn jumps(log: &mut Log) {
     let mean = small / smalls.max(1) as f64;
     let Some(&first) = jumps.first() else { return };
     // A record with few other samples has no usual step to compare with.
-    let is_usual = bound <= MIN_JUMP_IN_MEAN_STEPS * mean || smalls < MIN_ORDINARY_STEPS;
+    let is_usual =
+        bound <= position::MIN_JUMP_IN_MEAN_STEPS * mean || smalls < position::MIN_ORDINARY_STEPS;
     if is_usual && again.is_none() {
         return;
     }

@@ -4,12 +4,6 @@ use crate::log::Log;
 use stiction_codes::Code;
 use stiction_number::short;
 
-/// Missing samples in a row that are interpolated linearly; more in one gap split the record.
-pub(crate) const MAX_BRIDGED_SAMPLES: usize = 5;
-
-/// Share of missing samples above which they are a warning.
-pub(crate) const MISSING_SHARE_FOR_WARNING: f64 = 0.01;
-
 /// How much a finding matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {

@@ -8,36 +8,17 @@ use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::Percent;
 use stiction_number::{counted as count, short};
+use stiction_policy::force;
 
-/// Shortest constant stretch at the largest or smallest force that can be saturation, in samples.
-const MIN_FLAT_SAMPLES: usize = 5;
-/// Least step into or out of saturation, in smallest steps of the signal; at the crest of a quantised sine it is one.
-const MIN_STEPS_INTO_SATURATION: f64 = 1.5;
-/// Or the extremes hold at least this share of all samples ...
-const MIN_HELD_SHARE: f64 = 0.10;
-/// ... of a signal with at least this many quantisation levels.
-const MIN_LEVELS: f64 = 100.0;
-/// Share of a given limit from which on a sample is saturated: limits are stated in fewer digits than the force is logged.
-const SATURATED_SHARE_OF_LIMIT: f64 = 0.999;
-/// Fewest steps of the range of a force that is not called coarse.
-const FEWEST_FORCE_STEPS: f64 = 50.0;
-/// Fewest values of a force that is not called coarse where it changes too seldom to tell its steps.
-const SELDOM_CHANGED: usize = 8;
-/// Most changes of a force that is one step: there, and back.
-const MOST_CHANGES_OF_A_STEP: usize = 2;
 /// Most values of a force that are told apart.
 const MOST_LEVELS: usize = 64;
-/// Net work over the sum of its magnitudes, below which the sign is wrong: friction as a force gives -1.
-const MIN_NET_WORK: f64 = -0.3;
-/// Largest net travel over the whole path of a motion to and fro.
-const MAX_NET_TRAVEL: f64 = 0.5;
 
 /// Finds stretches where the force saturates and excludes them.
 pub(super) fn saturation(log: &mut Log, mapping: &Mapping) {
     let Some(force) = &log.force else { return };
     let (runs, limit) = match mapping.force_limit {
         Some(limit) => {
-            let saturated = |x: f64| x.abs() >= SATURATED_SHARE_OF_LIMIT * limit;
+            let saturated = |x: f64| x.abs() >= force::MIN_SATURATED * limit;
             (runs_where(force, 1, saturated), limit)
         }
         None => match extremes(force) {
@@ -68,7 +49,7 @@ pub(super) fn saturation(log: &mut Log, mapping: &Mapping) {
 
 /// Flat stretches at the extremes of a signal that is not a staircase.
 fn saturated_runs(force: &[f64], low: f64, high: f64) -> Vec<Range<usize>> {
-    let at = |level: f64| runs_where(force, MIN_FLAT_SAMPLES, move |x| x == level);
+    let at = |level: f64| runs_where(force, force::MIN_FLAT_SAMPLES, move |x| x == level);
     let (lows, highs) = (at(low), at(high));
     let held: usize = lows.iter().chain(&highs).map(Range::len).sum();
     if held == 0 {
@@ -89,14 +70,14 @@ fn saturated_runs(force: &[f64], low: f64, high: f64) -> Vec<Range<usize>> {
             .filter(|d| *d > 0.0)
     };
     let smallest = steps().fold(f64::INFINITY, f64::min);
-    let held_long =
-        held as f64 > MIN_HELD_SHARE * force.len() as f64 && (high - low) / smallest >= MIN_LEVELS;
+    let held_long = held as f64 > force::MIN_HELD_SHARE * force.len() as f64
+        && (high - low) / smallest >= force::MIN_LEVELS;
     let steep = |run: &Range<usize>| {
         let enters = run.start > 0
             && (force[run.start] - force[run.start - 1]).abs()
-                > MIN_STEPS_INTO_SATURATION * smallest;
+                > force::MIN_SATURATION_STEPS * smallest;
         let leaves = run.end < force.len()
-            && (force[run.end] - force[run.end - 1]).abs() > MIN_STEPS_INTO_SATURATION * smallest;
+            && (force[run.end] - force[run.end - 1]).abs() > force::MIN_SATURATION_STEPS * smallest;
         enters || leaves
     };
     // Zero as an extreme is a force that is off, or one that only ever pushes.
@@ -134,7 +115,7 @@ fn runs_where(values: &[f64], shortest: usize, test: impl Fn(f64) -> bool) -> Ve
 fn flat_elsewhere(force: &[f64], low: f64, high: f64) -> impl Iterator<Item = (f64, usize)> {
     force
         .chunk_by(|a, b| a == b)
-        .filter(move |run| run.len() >= MIN_FLAT_SAMPLES && run[0] != low && run[0] != high)
+        .filter(move |run| run.len() >= force::MIN_FLAT_SAMPLES && run[0] != low && run[0] != high)
         .map(|run| (run[0], run.len()))
 }
 
@@ -164,11 +145,11 @@ pub(super) fn steps(log: &mut Log) {
     let levels = levels(force);
     // A force that goes to one level, and back, is a step as it was commanded: it has no rounding to see.
     let changes = force.windows(2).filter(|w| w[0] != w[1]).count();
-    if levels.len() == 2 && changes <= MOST_CHANGES_OF_A_STEP {
+    if levels.len() == 2 && changes <= force::MAX_STEP_CHANGES {
         return;
     }
     // A force that changes seldom shows too few steps to tell one by, but has few values.
-    let few = (2..SELDOM_CHANGED).contains(&levels.len());
+    let few = (2..force::MIN_SELDOM_VALUES).contains(&levels.len());
     let closest = || {
         levels
             .windows(2)
@@ -176,7 +157,7 @@ pub(super) fn steps(log: &mut Log) {
             .min_by(f64::total_cmp)
     };
     let step = quantum(force, &log.skipped()).or_else(|| closest().filter(|_| few));
-    let Some(step) = step.filter(|step| (high - low) / step < FEWEST_FORCE_STEPS) else {
+    let Some(step) = step.filter(|step| (high - low) / step < force::MIN_RANGE_STEPS) else {
         return;
     };
     let known = match log.has_few_force_levels() {
@@ -233,7 +214,7 @@ pub(super) fn sign(log: &mut Log) {
         travel += moved;
         path += moved.abs();
     }
-    if net < MIN_NET_WORK * gross && travel.abs() < MAX_NET_TRAVEL * path {
+    if net < force::MIN_NET_WORK * gross && travel.abs() < force::MAX_NET_TRAVEL * path {
         let inverted =
             log.mapping.force.as_ref().is_some_and(|f| {
                 f.invert != f.scale.as_ref().is_some_and(|scale| scale.number < 0.0)

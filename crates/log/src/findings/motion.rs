@@ -5,25 +5,19 @@ use crate::log::Log;
 use std::borrow::Cow;
 use stiction_codes::Code;
 use stiction_number::{counted as count, short};
+use stiction_policy::{rest, signal};
 use stiction_signal::{Travel, noise_deviation};
 
-/// Fewest samples on which an interval can be based.
-const MIN_USEFUL_SAMPLES: usize = 100;
-/// Largest range of an axis at rest, in encoder steps: at rest an encoder may dither between two counts.
-const MAX_REST_STEPS: f64 = 2.0;
-/// Least correlation of neighbouring samples of a motion; that of noise is near 0.
-pub(super) const MIN_NEIGHBOUR_CORRELATION: f64 = 0.5;
 /// Windows whose mean velocities are compared to see whether the axis moves at one speed ...
 const SPEED_WINDOWS: usize = 50;
-/// ... and how much these may differ (largest less smallest), as a fraction of their mean.
-const MAX_SPEED_SPREAD: f64 = 0.05;
 
 pub(super) fn few_samples(log: &mut Log) {
     let samples = log.time.len();
-    if samples < MIN_USEFUL_SAMPLES {
+    if samples < signal::MIN_USEFUL_SAMPLES {
         let message = format!(
-            "{}; with fewer than {MIN_USEFUL_SAMPLES} an identification means little",
-            count(samples, "sample")
+            "{}; with fewer than {} an identification means little",
+            count(samples, "sample"),
+            signal::MIN_USEFUL_SAMPLES
         );
         log.findings
             .push(Finding::new(Code::FewSamples, Severity::Warning, message));
@@ -49,7 +43,7 @@ fn judge(log: &Log) -> Vec<Finding> {
     let range = high - low;
     let step = log.quantum.unwrap_or(0.0);
     let unit = log.motion.position().si_text();
-    if range <= MAX_REST_STEPS * step {
+    if range <= rest::MAX_STEPS * step {
         let message = format!(
             "the axis does not move: {what} covers {} {unit}",
             short(range)
@@ -58,8 +52,8 @@ fn judge(log: &Log) -> Vec<Finding> {
     }
     let judged = log.position.as_ref().or(log.velocity.as_ref());
     if judged.is_some_and(|values| {
-        values.len() >= MIN_USEFUL_SAMPLES / 2
-            && neighbour_correlation(values) < MIN_NEIGHBOUR_CORRELATION
+        values.len() >= signal::MIN_USEFUL_SAMPLES / 2
+            && neighbour_correlation(values) < signal::MIN_NEIGHBOUR_CORRELATION
     }) {
         let message =
             format!("{what} looks like noise: neighbouring samples are hardly correlated");
@@ -134,7 +128,7 @@ fn one_speed(time: &[f64], x: &[f64]) -> Option<f64> {
         .collect();
     let (low, high) = extremes(&speeds)?;
     let mean = speeds.iter().sum::<f64>() / windows as f64;
-    (high - low < MAX_SPEED_SPREAD * mean.abs()).then_some(mean)
+    (high - low < signal::MAX_SPEED_SPREAD * mean.abs()).then_some(mean)
 }
 
 /// Columns that never change though something moves.

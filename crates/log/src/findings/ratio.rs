@@ -1,11 +1,7 @@
 //! What the ratio of two signals that ought to show the same motion says.
 
 use stiction_number::short;
-
-/// Deviation of their ratio from 1 that is put down to the sensors.
-const MAX_RATIO_DEVIATION: f64 = 0.05;
-/// Least correlation of the same motion.
-const MIN_CORRELATION: f64 = 0.7;
+use stiction_policy::signal;
 
 /// Sums of squares and products of what the position shows, and of what the other signal does.
 pub(super) struct Sums {
@@ -30,7 +26,7 @@ pub(super) struct Words {
 pub(super) fn fault(sums: &Sums, words: &Words) -> Option<String> {
     let correlation = sums.both / (sums.position * sums.other).sqrt();
     let ratio = (sums.position / sums.other).sqrt().copysign(correlation);
-    if correlation.abs() < MIN_CORRELATION {
+    if correlation.abs() < signal::MIN_CORRELATION {
         return Some(format!(
             "{}: over {} samples their correlation is {}",
             words.apart,
@@ -38,10 +34,11 @@ pub(super) fn fault(sums: &Sums, words: &Words) -> Option<String> {
             short(correlation)
         ));
     }
-    if (ratio - 1.0).abs() <= MAX_RATIO_DEVIATION {
+    if (ratio - 1.0).abs() <= signal::MAX_RATIO_ERROR {
         return None;
     }
-    let near = |(value, _): &&(f64, &str)| (ratio.abs() / value - 1.0).abs() < MAX_RATIO_DEVIATION;
+    let near =
+        |(value, _): &&(f64, &str)| (ratio.abs() / value - 1.0).abs() < signal::MAX_RATIO_ERROR;
     let cause = words.causes.iter().find(near).map(|(_, cause)| *cause);
     let inverted = (ratio < 0.0).then_some("one of them has the wrong sign");
     let why: Vec<&str> = [cause, inverted].into_iter().flatten().collect();

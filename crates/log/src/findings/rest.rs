@@ -16,15 +16,7 @@ use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::Percent;
 use stiction_number::{counted as count, short};
-
-/// Shortest rest that is spoken of, s. Shorter ones belong to the motion: a dwell, or the time at a slow reversal.
-const SHORTEST_REST: f64 = 1.0;
-/// What is fitted of a rest beside the motion, s: what the common filter would otherwise take off the motion itself.
-const FITTED: f64 = 0.02;
-/// What a record keeps of a rest beyond that, s, without fitting it: filters settle in it.
-pub(crate) const CARRIED: f64 = 0.48;
-/// Share of the samples at rest between motions above which they are a warning.
-const MANY_AT_REST: f64 = 1.0 / 3.0;
+use stiction_policy::rest;
 
 /// A rest at an end of the record, and what becomes of it.
 struct End {
@@ -35,7 +27,7 @@ struct End {
 }
 
 pub(super) fn rests(log: &mut Log, mapping: &Mapping) {
-    log.rests = still::stretches(log, SHORTEST_REST);
+    log.rests = still::stretches(log, rest::MIN_TIME);
     if log.rests.is_empty() {
         return;
     }
@@ -84,7 +76,10 @@ pub(super) fn rests(log: &mut Log, mapping: &Mapping) {
 /// out altogether.
 fn unfitted(log: &Log, rest: Range<usize>, ends: &[End]) -> Range<usize> {
     let time = &log.time;
-    let (first, last) = (time[rest.start] + FITTED, time[rest.end - 1] - FITTED);
+    let (first, last) = (
+        time[rest.start] + rest::FITTED_TIME,
+        time[rest.end - 1] - rest::FITTED_TIME,
+    );
     let mut from = time.partition_point(|t| *t <= first);
     let mut to = time.partition_point(|t| *t < last);
     if rest.start == 0 {
@@ -110,10 +105,10 @@ fn end(log: &Log, rest: Range<usize>, spread: f64) -> Option<End> {
     let samples = time.len();
     let cut = if rest.start == 0 {
         let until = varies::first_change(log, &rest, spread);
-        let last = time[until - 1] - FITTED;
+        let last = time[until - 1] - rest::FITTED_TIME;
         0..time.partition_point(|t| *t < last)
     } else if rest.end == samples {
-        let first = time[rest.start] + FITTED;
+        let first = time[rest.start] + rest::FITTED_TIME;
         let from = time.partition_point(|t| *t <= first);
         match varies::to_and_fro(log, &(from..samples), spread) {
             true => samples..samples,
@@ -126,7 +121,7 @@ fn end(log: &Log, rest: Range<usize>, spread: f64) -> Option<End> {
         0 => format!("at the start until {} s", short(time[rest.end - 1])),
         start => format!("at the end from {} s", short(time[start])),
     };
-    let long = !cut.is_empty() && time[cut.end - 1] - time[cut.start] >= 0.9 * SHORTEST_REST;
+    let long = !cut.is_empty() && time[cut.end - 1] - time[cut.start] >= 0.9 * rest::MIN_TIME;
     Some(End {
         words,
         cut: long.then_some(cut),
@@ -191,7 +186,7 @@ fn in_between(log: &Log, varying: &[Range<usize>]) -> Option<Finding> {
              carry these along and do not fit them; to fit them: rests = \"keep\" under [log] in the axis file"
         ));
     }
-    let severity = match share > MANY_AT_REST {
+    let severity = match share > rest::MAX_SHARE {
         true => Severity::Warning,
         false => Severity::Note,
     };

@@ -5,18 +5,12 @@ use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::{counted as count, short};
-
-/// Most such samples above all others, and as many below: more are how the force runs. Also at most one in a thousand.
-const MOST: usize = 20;
-/// How far beyond all others they are, in the range of these.
-const BEYOND: f64 = 3.0;
-/// Most of them in a row: a force that lasts longer was there.
-const LONGEST: usize = 2;
+use stiction_policy::force;
 
 /// Finds such samples, puts straight lines in their place, and excludes them.
 pub(super) fn spikes(log: &mut Log) {
     let Some(force) = &mut log.force else { return };
-    let most = MOST.min(force.len() / 1000).max(1);
+    let most = force::MAX_SPIKES.min(force.len() / 1000).max(1);
     if force.len() < 100 * most {
         return;
     }
@@ -27,7 +21,7 @@ pub(super) fn spikes(log: &mut Log) {
     if range.is_nan() || range <= 0.0 {
         return;
     }
-    let far = |(value, _): &&(f64, usize), edge: f64| value - edge > BEYOND * range;
+    let far = |(value, _): &&(f64, usize), edge: f64| value - edge > force::MIN_SPIKE * range;
     let above = above.iter().filter(|at| far(at, high));
     let below = below.iter().filter(|at| far(at, -low));
     let mut rows: Vec<usize> = above.chain(below).map(|(_, row)| *row).collect();
@@ -35,7 +29,9 @@ pub(super) fn spikes(log: &mut Log) {
     let in_a_row = rows.chunk_by(|a, b| a + 1 == *b);
     let runs: Vec<Range<usize>> = in_a_row
         .map(|run| run[0]..run[run.len() - 1] + 1)
-        .filter(|run| run.len() <= LONGEST && run.start > 0 && run.end < force.len())
+        .filter(|run| {
+            run.len() <= force::MAX_SPIKE_SAMPLES && run.start > 0 && run.end < force.len()
+        })
         .collect();
     let Some(first) = runs.first().map(|run| run.start) else {
         return;
@@ -50,8 +46,9 @@ pub(super) fn spikes(log: &mut Log) {
     }
     let samples = runs.iter().map(Range::len).sum::<usize>();
     let message = format!(
-        "force is beyond all others by more than {BEYOND} times their range in {}, first {} {} at {}: errors of the measurement \
+        "force is beyond all others by more than {} times their range in {}, first {} {} at {}: errors of the measurement \
          or its transmission; interpolated and excluded",
+        force::MIN_SPIKE,
         count(samples, "sample"),
         short(largest),
         log.force_unit,

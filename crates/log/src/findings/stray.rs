@@ -4,21 +4,11 @@ use super::finding::{Finding, Severity, place};
 use crate::log::Log;
 use stiction_codes::Code;
 use stiction_number::{counted as count, short};
+use stiction_policy::position;
 use stiction_signal::noise_deviation;
 
 /// Steps to either side that one is compared with.
 const NEIGHBOURS: usize = 5;
-/// How far a step must be off the median of its neighbours, in the second largest such difference of the neighbours:
-/// under a finite force the speed changes little from sample to sample.
-const MIN_OFF_NEIGHBOURS: f64 = 10.0;
-/// The same in encoder steps, or in deviations of the noise where these are larger.
-const MIN_OFF_COUNTS: f64 = 20.0;
-/// The same in usual steps: a row that was lost without a time to show it doubles a step.
-const MIN_OFF_USUAL: f64 = 2.0;
-/// Least usual step, in encoder steps: an axis that slips after a rest may well move in one sample, one in motion does not.
-const MIN_MOTION: f64 = 2.0;
-/// Most such steps of a record: more are how it moves, or how it was logged.
-const MOST_STRAYS: usize = 20;
 
 /// Finds such steps and splits the record there.
 pub(super) fn strays(log: &mut Log) {
@@ -44,7 +34,7 @@ pub(super) fn strays(log: &mut Log) {
                 .filter(|&i| stray(&steps, i, unit))
                 .map(|i| segment.start + i),
         );
-        if found.len() > MOST_STRAYS {
+        if found.len() > position::MAX_STRAYS {
             return;
         }
     }
@@ -75,8 +65,8 @@ fn stray(steps: &[f64], i: usize, unit: f64) -> bool {
     // All but one: a single sample that is off makes two such steps, there and back.
     let spread = differences[2 * NEIGHBOURS - 2];
     let off = (steps[i] - usual).abs();
-    usual.abs() >= MIN_MOTION * unit
-        && off > MIN_OFF_COUNTS * unit
-        && off > MIN_OFF_USUAL * usual.abs()
-        && off > MIN_OFF_NEIGHBOURS * spread.max(unit)
+    usual.abs() >= position::MIN_STRAY_MOTION * unit
+        && off > position::MIN_STRAY_COUNTS * unit
+        && off > position::MIN_STRAY_OF_USUAL * usual.abs()
+        && off > position::MIN_STRAY_OF_NEIGHBOURS * spread.max(unit)
 }

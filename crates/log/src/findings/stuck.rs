@@ -12,27 +12,11 @@
 //!    though the position had followed it before.
 
 use super::finding::{Finding, Severity, extremes, place};
-use super::motion::MIN_NEIGHBOUR_CORRELATION;
 use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::{counted as count, short};
-
-/// Shortest stretch of equal positions that is checked, in samples.
-const MIN_FLAT_SAMPLES: usize = 10;
-/// Least travel by the integral of the velocity that contradicts a frozen position, in encoder steps ...
-const MIN_TRAVEL_STEPS: f64 = 10.0;
-/// ... and as a fraction of the range of the position; the larger of the two.
-const MIN_TRAVEL_SHARE_OF_RANGE: f64 = 0.01;
-/// Least mean speed of such travel, as a fraction of the rms speed of the record.
-const MIN_SPEED_SHARE: f64 = 0.05;
-/// Relative variance of the velocity up to which it is constant to rounding, as that of a held or failed channel.
-const CONSTANT_VARIANCE: f64 = 1e-12;
-/// Least jump at the end of a frozen stretch, in largest ordinary steps.
-const MIN_JUMP_IN_STEPS: f64 = 3.0;
-/// Least range of the reference during a final frozen stretch, and of the position over the record, as a fraction of the
-/// range of the reference.
-const MIN_REFERENCE_SHARE: f64 = 0.5;
+use stiction_policy::{position, signal};
 
 pub(super) fn stuck(log: &mut Log) {
     let found = frozen(log);
@@ -65,7 +49,7 @@ fn frozen(log: &Log) -> Vec<(Range<usize>, String)> {
     let ordinary = ordinary_step(position, &runs, log);
     let rms = log.velocity.as_deref().map_or(0.0, rms);
     let unit = log.motion.position().si_text();
-    let least = (MIN_TRAVEL_STEPS * step).max(MIN_TRAVEL_SHARE_OF_RANGE * range);
+    let least = (position::MIN_FROZEN_TRAVEL_STEPS * step).max(position::MIN_FROZEN_TRAVEL * range);
     let mut found = Vec::new();
     for run in runs {
         if let Some(velocity) = &log.velocity {
@@ -78,7 +62,7 @@ fn frozen(log: &Log) -> Vec<(Range<usize>, String)> {
         }
         if run.end < position.len() && !log.gap_after(run.end - 1) {
             let jump = (position[run.end] - position[run.end - 1]).abs();
-            if ordinary > 0.0 && jump > MIN_JUMP_IN_STEPS * ordinary.max(step) {
+            if ordinary > 0.0 && jump > position::MIN_FROZEN_JUMP * ordinary.max(step) {
                 let text = format!("it then continues with a jump of {} {unit}", short(jump));
                 found.push((run, text));
             }
@@ -88,8 +72,8 @@ fn frozen(log: &Log) -> Vec<(Range<usize>, String)> {
             let whole = span(reference);
             let meanwhile = span(&reference[run.clone()]);
             if whole > 0.0
-                && meanwhile > MIN_REFERENCE_SHARE * whole
-                && range > MIN_REFERENCE_SHARE * whole
+                && meanwhile > position::MIN_FROZEN_REFERENCE * whole
+                && range > position::MIN_FROZEN_REFERENCE * whole
             {
                 let text = format!("the reference covers {} {unit}", short(meanwhile));
                 found.push((run, text));
@@ -107,7 +91,7 @@ fn flat_runs(position: &[f64], log: &Log) -> Vec<Range<usize>> {
     for i in 1..=position.len() {
         let goes_on = i < position.len() && position[i] == position[i - 1] && !gap(i - 1);
         if !goes_on {
-            if i - start >= MIN_FLAT_SAMPLES {
+            if i - start >= position::MIN_FROZEN_SAMPLES {
                 runs.push(start..i);
             }
             start = i;
@@ -138,8 +122,10 @@ fn travelled(time: &[f64], velocity: &[f64], usual: f64) -> Option<f64> {
     let power: f64 = velocity.iter().map(|v| v * v).sum();
     let spread: f64 = velocity.iter().map(|v| (v - mean) * (v - mean)).sum();
     let neighbours: f64 = velocity.windows(2).map(|w| w[0] * w[1]).sum();
-    let varies = spread > CONSTANT_VARIANCE * power;
-    if size <= MIN_SPEED_SHARE * usual || neighbours <= MIN_NEIGHBOUR_CORRELATION * power || !varies
+    let varies = spread > position::MAX_CONSTANT_VARIANCE * power;
+    if size <= position::MIN_FROZEN_SPEED * usual
+        || neighbours <= signal::MIN_NEIGHBOUR_CORRELATION * power
+        || !varies
     {
         return None;
     }

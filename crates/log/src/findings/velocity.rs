@@ -4,11 +4,10 @@ use super::finding::{Finding, Severity};
 use super::ratio::{Sums, Words, fault};
 use crate::log::Log;
 use stiction_codes::Code;
+use stiction_policy::signal;
 
 /// Window over which the travel of both is compared, in samples: long enough that noise and delay matter little.
 const WINDOW_SAMPLES: usize = 32;
-/// Least rms travel within a window, in encoder steps.
-const MIN_WINDOW_STEPS: f64 = 5.0;
 
 /// Ratios that have a usual cause: derivative of the position over the velocity.
 const CAUSES: &[(f64, &str)] = &[
@@ -49,7 +48,7 @@ pub(super) fn consistency(log: &mut Log) {
     }
     let step = log.quantum.unwrap_or(0.0);
     let rms = (xx / windows.max(1) as f64).sqrt();
-    if windows < 3 || xx == 0.0 || vv == 0.0 || rms <= MIN_WINDOW_STEPS * step {
+    if windows < 3 || xx == 0.0 || vv == 0.0 || rms <= signal::MIN_VELOCITY_STEPS * step {
         return;
     }
     let sums = Sums {

@@ -7,22 +7,11 @@
 
 use super::Course;
 use rayon::prelude::*;
+use stiction_policy::join;
 use stiction_signal::{Lags, Spectrum};
 
 /// Most points of a course on the coarse and on the fine grid.
 const POINTS: [usize; 2] = [1 << 15, 1 << 16];
-/// Fewest points of each course, and the part of the shorter one that the two have to share.
-const FEWEST: usize = 100;
-const SHARED: f64 = 0.3;
-/// Part of its variance that a course has to have where the two meet.
-const LIVELY: f64 = 0.25;
-/// How much more than at the best lag is left unexplained at any other one: by a factor, and as a part of the variance, where a
-/// force is explained by a motion and where the two are the same quantity.
-const RIVAL: f64 = 1.2;
-const RIVAL_FORCE: f64 = 0.05;
-const RIVAL_SAME: f64 = 0.01;
-/// Most that may be left unexplained.
-const UNEXPLAINED: f64 = 0.5;
 /// Time over which both are smoothed, s: an encoder is too coarse for accelerations from sample to sample.
 const SMOOTHED: f64 = 0.01;
 /// Lags on the fine grid.
@@ -137,12 +126,20 @@ fn search(motion: (&Course, Is), target: (&Course, Is), allowed: f64) -> Result<
         .ok_or(Unclear::Little)?;
     let seconds =
         |n: usize| ends.0 - ends.1 + coarse.step * (coarse.first_lag() + n as isize) as f64;
-    if left[best] > UNEXPLAINED {
+    if left[best] > join::MAX_UNEXPLAINED {
         return Err(Unclear::Weak(1.0 - left[best]));
     }
     let same = (motion.1 == Is::Force) == (target.1 == Is::Force);
-    let beyond = if same { RIVAL_SAME } else { RIVAL_FORCE };
-    let rivals = rivals(&left, best, (RIVAL * left[best]).max(left[best] + beyond));
+    let beyond = if same {
+        join::MIN_RIVAL_OF_COPY
+    } else {
+        join::MIN_RIVAL_OF_FORCE
+    };
+    let rivals = rivals(
+        &left,
+        best,
+        (join::MIN_RIVAL_RATIO * left[best]).max(left[best] + beyond),
+    );
     let fine = Pair::new(motion, target, 1).ok_or(Unclear::Little)?;
     let half = 0.5 * motion.0.step.max(target.0.step);
     let half = if same { half } else { half.max(FRICTION) };
@@ -234,7 +231,7 @@ impl Pair {
     /// On the coarse (0) or the fine grid (1).
     fn new(motion: (&Course, Is), target: (&Course, Is), grid: usize) -> Option<Self> {
         // Straight lines between a few samples go with anything.
-        if motion.0.time.len().min(target.0.time.len()) < FEWEST {
+        if motion.0.time.len().min(target.0.time.len()) < join::MIN_POINTS {
             return None;
         }
         let most = POINTS[grid];
@@ -274,16 +271,18 @@ impl Pair {
         let target = scaled(target, &target_known)?;
         let counts: [f64; 2] = [known.iter().sum(), target_known.iter().sum()];
         let shorter = counts[0].min(counts[1]);
-        (shorter >= FEWEST as f64 && columns[0].iter().any(|x| *x != 0.0)).then_some(Self {
-            step,
-            columns,
-            known,
-            friction,
-            target,
-            target_known,
-            variance: 1.0,
-            fewest: SHARED * shorter,
-        })
+        (shorter >= join::MIN_POINTS as f64 && columns[0].iter().any(|x| *x != 0.0)).then_some(
+            Self {
+                step,
+                columns,
+                known,
+                friction,
+                target,
+                target_known,
+                variance: 1.0,
+                fewest: join::MIN_SHARED_PART * shorter,
+            },
+        )
     }
 
     fn first_lag(&self) -> isize {
@@ -321,7 +320,7 @@ impl Pair {
                 products: at(&products, n),
                 with_target: at(&with_target, n),
             };
-            sums.unexplained(self.fewest, LIVELY * self.variance)
+            sums.unexplained(self.fewest, join::MIN_COMMON_VARIANCE * self.variance)
         };
         (0..count.len()).map(one).collect()
     }

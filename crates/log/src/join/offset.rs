@@ -1,19 +1,17 @@
 //! The offset between the clocks of two files, from what both show of the same motion.
 
 use super::lag::{self, Is, Lag, Unclear};
-use super::{Course, Elsewhere, Joined, SLOWER, micro};
+use super::{Course, Elsewhere, Joined, micro};
 use crate::findings::{Finding, Severity, short};
 use crate::log::unwrap;
 use crate::mapping::{Channel, Mapping, Role, Source, clear, select, time_source};
 use crate::{Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
 use stiction_number::Percent;
+use stiction_policy::join;
 
 /// What tells the offset where both files show it, or one of them a motion and the other the force of it.
 pub(super) const SHARED: [Role; 3] = [Role::Position, Role::Velocity, Role::Force];
-
-/// Samples of the joined log within which the offset has to be known: a fit finds the delay of the force within as many.
-const WITHIN: f64 = 4.0;
 
 /// What a file shows of the motion.
 #[derive(Default)]
@@ -84,12 +82,12 @@ impl Joined {
                 continue;
             };
             let steps = (own.course.step, other.course.step);
-            let step = if steps.1 >= SLOWER * steps.0 {
+            let step = if steps.1 >= join::MIN_THINNED_RATIO * steps.0 {
                 steps.1
             } else {
                 steps.0
             };
-            let allowed = WITHIN * step;
+            let allowed = join::MAX_OFFSET_ERROR * step;
             let by = format!("{} of the log and {} of {name}", own.column, other.column);
             let found = lag::between((&own.course, own.is), (&other.course, other.is), allowed);
             match found {

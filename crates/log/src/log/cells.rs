@@ -2,18 +2,14 @@
 
 use super::Excluded;
 use super::clock::Clock;
-use crate::findings::{
-    Finding, MAX_BRIDGED_SAMPLES, MISSING_SHARE_FOR_WARNING, Severity, count, short,
-};
-use crate::mapping::{LARGEST_VALUE, Role, Source};
+use crate::findings::{Finding, Severity, count, short};
+use crate::mapping::{Role, Source};
 use crate::{Error, Kind, Table};
 use std::borrow::Cow;
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::Percent;
-
-/// Largest share of missing cells in a column; with more the column is sampled at another rate, or empty.
-pub(super) const MAX_MISSING_SHARE: f64 = 0.5;
+use stiction_policy::signal;
 
 /// The columns of a log in the making, one number a kept row.
 pub(super) struct Columns {
@@ -29,11 +25,6 @@ struct Beyond {
     row: usize,
     number: String,
 }
-
-/// Stretch without a number that is not filled in as if it were nothing, in a channel that changes slowly, as a part of the
-/// time that the record lasts; and the part of that time in such stretches from which the channel is no use.
-const LONG_HOLE: f64 = 0.125;
-const MAX_HOLES: f64 = 0.5;
 
 /// A channel that is no use, and why.
 pub(super) struct LeftOut {
@@ -125,7 +116,7 @@ impl Columns {
                 role,
                 Role::Position | Role::Velocity | Role::Force | Role::External
             );
-            if core && cells as f64 > MAX_MISSING_SHARE * rows as f64 {
+            if core && cells as f64 > signal::MAX_MISSING_SHARE * rows as f64 {
                 if let Some(beyond) = self.beyond.iter().find(|b| b.role == *role)
                     && 2 * beyond.cells > cells
                 {
@@ -146,7 +137,7 @@ impl Columns {
             }
             let slow = matches!(role, Role::Temperature | Role::Load);
             let holes = if slow { holes(time, &runs) } else { 0.0 };
-            if holes >= MAX_HOLES {
+            if holes >= signal::MAX_HOLES {
                 values.clear();
                 let why = format!(
                     "{role}: {cells} of {} missing, in stretches that last {} of the record; less than half of it may be without \
@@ -162,7 +153,7 @@ impl Columns {
             let (mut short, mut long) = (0, 0);
             for run in runs {
                 let inside = run.start > 0 && run.end < rows;
-                if core && !(inside && run.len() <= MAX_BRIDGED_SAMPLES) {
+                if core && !(inside && run.len() <= signal::MAX_BRIDGED_SAMPLES) {
                     long += run.len();
                     drop[run].fill(true);
                     continue;
@@ -197,7 +188,7 @@ impl Columns {
                 beyond.map_or(String::new(), Beyond::among)
             );
             let grave = holes > 0.0
-                || core && (long > 0 || cells as f64 > MISSING_SHARE_FOR_WARNING * rows as f64);
+                || core && (long > 0 || cells as f64 > signal::MAX_MISSING_UNWARNED * rows as f64);
             let severity = if grave {
                 Severity::Warning
             } else {
@@ -228,7 +219,10 @@ fn holes(time: &[f64], missing: &[Range<usize>]) -> f64 {
     let last = time.len() - 1;
     let whole = time[last] - time[0];
     let lasts = |run: &Range<usize>| time[run.end.min(last)] - time[run.start.saturating_sub(1)];
-    let long = missing.iter().map(lasts).filter(|s| *s > LONG_HOLE * whole);
+    let long = missing
+        .iter()
+        .map(lasts)
+        .filter(|s| *s > signal::MIN_HOLE * whole);
     // Divided once, so that a hole that is the whole record is one.
     long.sum::<f64>() / whole
 }
@@ -250,7 +244,10 @@ impl Beyond {
             self.cells,
             count(rows, "cell")
         );
-        let allowed = format!("at most {LARGEST_VALUE:e} in SI units; check its unit and scale");
+        let allowed = format!(
+            "at most {:e} in SI units; check its unit and scale",
+            signal::MAX_MEASURED
+        );
         Error::new(Kind::Value, found, allowed)
             .at_data_row(self.row as u64)
             .in_column(self.role.name())

@@ -2,17 +2,12 @@
 
 use super::coarse::Coarse;
 use crate::findings::{Finding, Severity, count, full, median, short};
-use crate::mapping::{LARGEST_VALUE, Mapping, Role, Source};
+use crate::mapping::{Mapping, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
 use stiction_codes::Code;
+use stiction_policy::{clock, signal};
 
-/// Largest share of the rows that may be dropped for their time stamps; above it the log is refused.
-const MAX_DROPPED_SHARE: f64 = 0.05;
-/// Longest time step across an overflow of the counter, in median time steps; longer ones are not taken as overflows.
-const MAX_STEPS_OVER_OVERFLOW: f64 = 10.0;
-/// Longest plausible recording, s (thirty years); longer ones have a wrong unit of time.
-const MAX_DURATION: f64 = 1e9;
 /// Tolerance of the ends of a crop, relative to them, so that decimal limits keep the samples that they name.
 const CROP_ROUNDING: f64 = 1e-9;
 /// Times that the stamps of recordings behind each other in one file go back; of more the rows are in no order.
@@ -161,7 +156,7 @@ fn stamped(
     let share = |rows: &[usize]| rows.len() as f64 / range.len() as f64;
     if let Some(&first) = stampless.first() {
         let found = format!("{} without a time stamp", count(stampless.len(), "row"));
-        if share(&stampless) > MAX_DROPPED_SHARE {
+        if share(&stampless) > clock::MAX_DROPPED_SHARE {
             let allowed = "at most 5 % of the rows; give the rate instead of the time column";
             return Err(Error::new(Kind::Time, found, allowed).at_data_row(first as u64 + 1));
         }
@@ -169,7 +164,7 @@ fn stamped(
         findings.push(Finding::new(Code::TimeMissing, Severity::Warning, message));
     }
     if let Some(first) = repeated.first()
-        && share(&repeated) <= MAX_DROPPED_SHARE
+        && share(&repeated) <= clock::MAX_DROPPED_SHARE
         && stampless.is_empty()
         && let Some(clock) = coarse()
     {
@@ -185,7 +180,7 @@ fn stamped(
             "{} with the time stamp of the row before",
             count(repeated.len(), "row")
         );
-        if share(&repeated) > MAX_DROPPED_SHARE {
+        if share(&repeated) > clock::MAX_DROPPED_SHARE {
             let lasted = since(range.end - 1, origin) - since(range.start, origin);
             let rate = (range.len() - 1) as f64 / lasted;
             let all: Vec<f64> = range.clone().map(|row| since(row, origin)).collect();
@@ -248,7 +243,7 @@ fn stamped(
         );
         findings.push(Finding::new(Code::TimeWrap, Severity::Note, message));
     }
-    if time.last().is_some_and(|t| *t > MAX_DURATION) {
+    if time.last().is_some_and(|t| *t > clock::MAX_DURATION) {
         let found = format!("the record lasts {} s", short(*time.last().unwrap_or(&0.0)));
         return Err(Error::new(
             Kind::Time,
@@ -319,7 +314,7 @@ pub(super) fn rate_of_coarse(raw: &[f64], source: &Source) -> Option<f64> {
         .collect();
     let repeated = time.windows(2).filter(|pair| pair[1] == pair[0]).count();
     let mean = (time.len() - 1) as f64 / time.last()?;
-    let is_mostly_repeated = repeated as f64 > MAX_DROPPED_SHARE * time.len() as f64;
+    let is_mostly_repeated = repeated as f64 > clock::MAX_DROPPED_SHARE * time.len() as f64;
     let whole = Coarse::of(&time);
     // Where rows are missing no rate counts them.
     let is_whole = whole.is_some() || Coarse::of_a_part(&time).is_none();
@@ -345,7 +340,10 @@ fn overflows(raw: &[f64]) -> (Vec<(usize, f64)>, Vec<usize>) {
             let counter = COUNTER_SIZES.into_iter().find(|size| {
                 let step = now + size - before;
                 let whole = now.fract() == 0.0 && before.fract() == 0.0;
-                whole && now >= -size / 2.0 && step > 0.0 && step <= MAX_STEPS_OVER_OVERFLOW * usual
+                whole
+                    && now >= -size / 2.0
+                    && step > 0.0
+                    && step <= clock::MAX_OVERFLOW_STEP * usual
             });
             match counter {
                 Some(size) => {
@@ -362,7 +360,7 @@ fn overflows(raw: &[f64]) -> (Vec<(usize, f64)>, Vec<usize>) {
 
 /// Whether a number can be a time stamp.
 fn is_stamp(raw: &f64) -> bool {
-    raw.abs() <= LARGEST_VALUE
+    raw.abs() <= signal::MAX_MEASURED
 }
 
 /// The refusal of time that goes back at a row; `end` is the last second, counted from the first sample, that may be kept before it.

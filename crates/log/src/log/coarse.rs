@@ -2,25 +2,13 @@
 
 use crate::findings::median;
 use std::ops::Range;
+use stiction_policy::clock;
 
 /// What is left of a step by the arithmetic of decimal numbers, of a tick.
 const SAME: f64 = 1e-3;
-/// What the digits that a rate is rounded to leave of a step, of a tick.
-const ROUNDED_RATE: f64 = 0.01;
-/// Fewest steps that show a pattern.
-const FEWEST: usize = 20;
-/// Fewest steps of either length: a few long ones are rows that are missing.
-const FEWEST_EACH: usize = 10;
 /// Most halvings of a record, and fewest rows of a part, in which a stretch without missing rows is looked for.
 const HALVINGS: u32 = 6;
 const FEWEST_ROWS: usize = 200;
-/// Least tick, of the step, that is worth a word.
-const LEAST: f64 = 0.01;
-
-/// Part of the steps, at most, that may be twice as long as the others because a row is lost in each.
-const LOST: f64 = 0.15;
-/// Least part of the stamps that have all of their rows, where others are missing.
-const FULL: f64 = 0.02;
 
 /// A clock that rounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -37,7 +25,7 @@ impl Coarse {
     pub fn of(time: &[f64]) -> Option<Self> {
         let (first, last) = (*time.first()?, *time.last()?);
         let steps = time.len() - 1;
-        if steps < FEWEST || !(last - first).is_finite() {
+        if steps < clock::MIN_PATTERN_STEPS || !(last - first).is_finite() {
             return None;
         }
         // The stamps at the ends may have a part of their rows: between the first and the last change none has.
@@ -90,15 +78,15 @@ impl Coarse {
         pairs.sort_unstable();
         let full = pairs
             .len()
-            .checked_sub(1 + (FULL * pairs.len() as f64) as usize);
+            .checked_sub(1 + (clock::MIN_FULL_STAMPS * pairs.len() as f64) as usize);
         let (least, most) = (*pairs.first()?, *pairs.get(full?)?);
-        let is_missing = pairs.len() >= FEWEST && most > 2 && least + 2 < most;
+        let is_missing = pairs.len() >= clock::MIN_PATTERN_STEPS && most > 2 && least + 2 < most;
         is_missing.then(|| most as f64 / (2.0 * tick))
     }
 
     /// The longest step of stamps between which no row is missing, s.
     pub fn longest_step(&self) -> f64 {
-        1.0 / self.rate_hz + self.tick * (1.0 + ROUNDED_RATE)
+        1.0 / self.rate_hz + self.tick * (1.0 + clock::MAX_RATE_ROUNDING)
     }
 
     /// What is to be written instead of the time.
@@ -130,7 +118,7 @@ fn tick(time: &[f64], step: f64) -> Option<f64> {
     let same = |a: f64, b: f64| (a - b).abs() <= SAME * tick;
     let multiple = (least / tick).round();
     let is_rounded = least >= -SAME * tick
-        && tick >= LEAST * step
+        && tick >= clock::MIN_TICK * step
         && same(multiple * tick, least)
         && steps().all(|s| same(s, least) || same(s, most));
     let long = steps().filter(|s| same(*s, most)).count();
@@ -138,8 +126,10 @@ fn tick(time: &[f64], step: f64) -> Option<f64> {
     // Every hundredth step twice as long as the others: of rows of which every hundredth is lost, or of a rate a hundredth below the
     // ticks of a clock. Clocks that round tick in tenths, hundredths or thousandths.
     let is_decimal = is_power_of_ten(tick);
-    let may_be_lost = multiple == 1.0 && (long as f64) < LOST * steps().count() as f64;
-    (is_rounded && (is_decimal || !may_be_lost) && long.min(short) >= FEWEST_EACH).then_some(tick)
+    let may_be_lost =
+        multiple == 1.0 && (long as f64) < clock::MAX_DOUBLE_STEPS * steps().count() as f64;
+    (is_rounded && (is_decimal || !may_be_lost) && long.min(short) >= clock::MIN_STEPS_OF_A_LENGTH)
+        .then_some(tick)
 }
 
 fn is_power_of_ten(x: f64) -> bool {

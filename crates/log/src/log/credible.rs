@@ -7,28 +7,13 @@ use crate::mapping::{RATES, Role, Source};
 use crate::{Error, Kind, Motion, Table};
 use std::ops::RangeInclusive;
 use stiction_codes::Code;
+use stiction_policy::signal;
 
 /// Travels of a position (m, rad) and largest velocities, accelerations and forces that a log may have, in SI units: a thousandth
 /// of the diameter of an atom to far more than any machine.
 const SIZES: RangeInclusive<f64> = 1e-12..=1e12;
-/// Rates of a log of friction, Hz: slower ones have nothing of presliding.
-const USUAL_RATES: RangeInclusive<f64> = 2.0..=1e7;
-/// Travels, m: a part of a wavelength of light to the longest crane; and what a shaft turns at least, rad.
-const USUAL_TRAVELS: RangeInclusive<f64> = 1e-9..=1e4;
-const USUAL_ANGLES: RangeInclusive<f64> = 1e-9..=1e12;
-/// Largest speeds, m/s and rad/s: a projectile, an ultracentrifuge.
-const USUAL_SPEED: f64 = 1e3;
-const USUAL_TURNS: f64 = 1e5;
-/// Forces and torques, N and N m, and currents, voltages and parts of a rated value: of a stage on a chip to the largest press.
-const USUAL_FORCES: RangeInclusive<f64> = 1e-9..=1e8;
-/// Speeds and accelerations, SI, beyond both of which no servo axis is: of a linear one twice the fastest machine, at a hundred
-/// times gravity; of a rotary one a motor of 20 000 rpm, faster than any starts.
-const SERVO_LINEAR: [f64; 2] = [20.0, 981.0];
-const SERVO_ROTARY: [f64; 2] = [2e3, 2e5];
 /// Seconds over which a motion is looked at, so that noise and steps of an encoder are neither speed nor acceleration.
 const LOOK: f64 = 0.01;
-/// Part of the samples that may be faster without a word, such as a few that are damaged.
-const FASTER: f64 = 0.02;
 /// Rounding errors of the largest number up to which a signal counts as constant.
 const CONSTANT_WITHIN: f64 = 8.0;
 
@@ -39,8 +24,8 @@ pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> 
         log.motion.velocity().si_text(),
     );
     let (travels, fastest) = match log.motion {
-        Motion::Linear => (USUAL_TRAVELS, USUAL_SPEED),
-        Motion::Rotary => (USUAL_ANGLES, USUAL_TURNS),
+        Motion::Linear => (signal::USUAL_TRAVELS, signal::MAX_SPEED),
+        Motion::Rotary => (signal::USUAL_ANGLES, signal::MAX_ANGULAR_SPEED),
     };
     let duration = log.time.last().zip(log.time.first()).map(|(b, a)| b - a);
     let mut found = Vec::new();
@@ -67,7 +52,7 @@ pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> 
         found.push(Finding::new(Code::UnlikelySize, Severity::Warning, message));
     };
     let step = 1.0 / log.rate_hz;
-    let steps = 1.0 / USUAL_RATES.end()..=1.0 / USUAL_RATES.start();
+    let steps = 1.0 / signal::USUAL_RATES.end()..=1.0 / signal::USUAL_RATES.start();
     let says = format!("the median time step is {} s", short(step));
     tell(Role::Time, step, says, &steps, "s");
     for (role, values) in [
@@ -95,7 +80,7 @@ pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> 
     let force = log.force_unit.as_str();
     for (role, values, range, unit) in [
         (Role::Velocity, &log.velocity, 0.0..=fastest, speed.as_str()),
-        (Role::Force, &log.force, USUAL_FORCES, force),
+        (Role::Force, &log.force, signal::USUAL_FORCES, force),
     ] {
         if let Some((low, high)) = values.as_deref().and_then(extremes) {
             let largest = low.abs().max(high.abs());
@@ -128,8 +113,8 @@ fn no_servo(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Option<Find
     };
     let (speed, acceleration) = (all_but_few(&velocities)?, all_but_few(&rates(&velocities))?);
     let [fastest, hardest] = match log.motion {
-        Motion::Linear => SERVO_LINEAR,
-        Motion::Rotary => SERVO_ROTARY,
+        Motion::Linear => signal::MAX_LINEAR_SERVO,
+        Motion::Rotary => signal::MAX_ROTARY_SERVO,
     };
     if speed <= fastest || acceleration <= hardest {
         return None;
@@ -165,7 +150,7 @@ fn all_but_few(values: &[f64]) -> Option<f64> {
     if sizes.is_empty() {
         return None;
     }
-    let place = ((1.0 - FASTER) * (sizes.len() - 1) as f64) as usize;
+    let place = ((1.0 - signal::MAX_FASTER_SHARE) * (sizes.len() - 1) as f64) as usize;
     let (_, size, _) = sizes.select_nth_unstable_by(place, f64::total_cmp);
     Some(*size)
 }
@@ -226,9 +211,6 @@ pub(super) fn check(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Res
     Ok(())
 }
 
-/// Largest part of the samples that is taken for damaged cells rather than for a wrong unit.
-const FEW: f64 = 0.01;
-
 /// Few samples that are far beyond all others, which are of a credible size: cells that are damaged, not a unit that is wrong.
 struct Few {
     first: usize,
@@ -251,7 +233,7 @@ impl Few {
         let first = values.iter().position(beyond)?;
         let others = values.iter().filter(|x| !beyond(x));
         let rest = others.map(size).fold(0.0, f64::max);
-        let few = count as f64 <= (FEW * values.len() as f64).max(1.0);
+        let few = count as f64 <= (signal::MAX_DAMAGED_SHARE * values.len() as f64).max(1.0);
         (few && SIZES.contains(&rest)).then_some(Few {
             first,
             value: values[first],

@@ -5,36 +5,21 @@
 //! channel makes by itself.
 //!
 //! A temperature cannot make such steps, however long it stays; a load can. So of a load only what comes back after
-//! few rows, on one value where it is more than [`MAX_BRIDGED_SAMPLES`], is a dropout, and only where there is little of it.
+//! few rows, on one value where it is more than [`signal::MAX_BRIDGED_SAMPLES`], is a dropout, and only where there is little of it.
 //!
 //! These cells become missing ones, which a slow channel has filled in.
 
 use super::cells::{Columns, LeftOut};
 use super::clock::Clock;
 use crate::Table;
-use crate::findings::{Finding, MAX_BRIDGED_SAMPLES, Severity, count, full, median, short};
+use crate::findings::{Finding, Severity, count, full, median, short};
 use crate::mapping::{Role, Source};
 use std::ops::Range;
 use stiction_codes::Code;
+use stiction_policy::signal;
 
-/// Least step into a dropout, in the lower quartile of the steps of the channel: as many may be those of dropouts ...
-const USUAL_STEPS: f64 = 40.0;
-/// ... and for a temperature, K: no part of a machine changes by that from row to row ...
-const LEAST_KELVINS: f64 = 5.0;
-/// ... for a load, as a part of the median of its size.
-const LEAST_OF_LOAD: f64 = 0.1;
 /// Steps are taken over so many rows, and the least quartile counts: with a dropout at every second row none is over one.
 const OVER_ROWS: std::ops::RangeInclusive<usize> = 1..=4;
-/// How far from where it left the course the channel comes back to, in least steps.
-const BACK_WITHIN: f64 = 2.0;
-/// A pause, after which a channel may be anywhere: in median times between two of its numbers, and s.
-const PAUSE_IN_STEPS: f64 = 10.0;
-const PAUSE: f64 = 1.0;
-/// Longest dropout of a load, as a part of the rows, and the most of them in all: more is how it is loaded.
-const LONGEST_OF_LOAD: f64 = 0.01;
-const MOST_OF_LOAD: f64 = 0.05;
-/// Part of a temperature that must be on its course: of two equal parts neither is known to be right.
-const LEAST_ON_COURSE: f64 = 0.5;
 
 /// Turns what no sensor measured into missing cells; says what, and which channels are no use.
 pub(super) fn clear(
@@ -86,7 +71,7 @@ pub(super) fn clear(
             count(found.len(), "time"),
             count(rows(&found), "row")
         );
-        if rows(&found) as f64 >= LEAST_ON_COURSE * whole as f64 {
+        if rows(&found) as f64 >= signal::MIN_ON_COURSE * whole as f64 {
             values.clear();
             let why = format!(
                 "{said}; from row to row it may change by {} {}, and at least half of it must be on one course",
@@ -140,13 +125,13 @@ fn least_step(values: &[f64], role: Role) -> f64 {
     };
     let usual = OVER_ROWS.filter_map(quartile).min_by(f64::total_cmp);
     let least = match role {
-        Role::Temperature => LEAST_KELVINS,
+        Role::Temperature => signal::MIN_TEMPERATURE_DROPOUT,
         _ => {
             let mut sizes: Vec<f64> = numbers.iter().map(|x| x.abs()).collect();
-            LEAST_OF_LOAD * median(&mut sizes).unwrap_or(0.0)
+            signal::MIN_LOAD_DROPOUT * median(&mut sizes).unwrap_or(0.0)
         }
     };
-    least.max(USUAL_STEPS * usual.unwrap_or(0.0))
+    least.max(signal::MIN_DROPOUT_STEPS * usual.unwrap_or(0.0))
 }
 
 /// A stretch of the numbers of a channel without a step out of its course: their places among the numbers.
@@ -175,7 +160,7 @@ fn strays(values: &[f64], time: &[f64], least: f64, role: Role) -> Vec<Range<usi
         return Vec::new();
     };
     let mut on_course = vec![true; pieces.len()];
-    let back = BACK_WITHIN * least;
+    let back = signal::MAX_RETURN_DISTANCE * least;
     let (mut level, mut on) = (value(pieces[longest].numbers.end - 1), true);
     for i in longest + 1..pieces.len() {
         let piece = &pieces[i];
@@ -209,13 +194,14 @@ fn strays(values: &[f64], time: &[f64], least: f64, role: Role) -> Vec<Range<usi
     if role == Role::Temperature {
         return found;
     }
-    let longest = (LONGEST_OF_LOAD * values.len() as f64).max(MAX_BRIDGED_SAMPLES as f64);
+    let longest =
+        (signal::MAX_LOAD_DROPOUT * values.len() as f64).max(signal::MAX_BRIDGED_SAMPLES as f64);
     let brief = |run: &Range<usize>| {
         let first = values[run.start];
-        run.len() <= MAX_BRIDGED_SAMPLES
+        run.len() <= signal::MAX_BRIDGED_SAMPLES
             || run.len() as f64 <= longest && values[run.clone()].iter().all(|x| *x == first)
     };
-    let few = rows(&found) as f64 <= MOST_OF_LOAD * values.len() as f64;
+    let few = rows(&found) as f64 <= signal::MAX_LOAD_DROPOUTS * values.len() as f64;
     match few && !at_an_end && found.iter().all(brief) {
         true => found,
         false => Vec::new(),
@@ -226,7 +212,7 @@ fn strays(values: &[f64], time: &[f64], least: f64, role: Role) -> Vec<Range<usi
 fn pieces(values: &[f64], time: &[f64], at: &[usize], least: f64) -> Vec<Piece> {
     let spacings = at.windows(2).map(|w| time[w[1]] - time[w[0]]);
     let usual = median(&mut spacings.collect::<Vec<_>>()).unwrap_or(0.0);
-    let pause = PAUSE.max(PAUSE_IN_STEPS * usual);
+    let pause = signal::MIN_PAUSE.max(signal::MIN_PAUSE_STEPS * usual);
     let mut out = Vec::new();
     let (mut start, mut resumes) = (0, false);
     for i in 1..=at.len() {

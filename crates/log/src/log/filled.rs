@@ -3,7 +3,7 @@
 //! Some exports write 0, or practically 0, where they have no sample. The number itself does not show it, but its
 //! neighbours do: a signal that passes through 0 comes close to it first. A zero counts as evidence where the three
 //! samples before and the three after all lie on one side of 0 and further from it than
-//! [`MIN_DISTANCE_IN_SPREADS`] times their own spread and the smallest step of the signal. Once there is enough
+//! [`signal::MIN_ZERO_DISTANCE`] times their own spread and the smallest step of the signal. Once there is enough
 //! evidence, all zeros of the column are treated as missing cells.
 //!
 //! A signal that leaves a level at a limit for single samples comes close to 0 without a neighbour that shows it, but then it
@@ -11,23 +11,17 @@
 //!
 //! Velocity is not checked: one that is counted from encoder pulses is 0 wherever no pulse came.
 
-use super::cells::{Columns, MAX_MISSING_SHARE, runs};
-use crate::findings::{Finding, MAX_BRIDGED_SAMPLES, Severity, count, short};
+use super::cells::{Columns, runs};
+use crate::findings::{Finding, Severity, count, short};
 use crate::mapping::Role;
 use crate::{Error, Kind};
 use std::ops::Range;
 use stiction_codes::Code;
 use stiction_number::Percent;
+use stiction_policy::signal;
 
 /// Samples on either side of a zero that it is compared with.
 const NEIGHBOURS: usize = 3;
-/// Distance of a zero from its neighbours above which it is an outlier, in spreads (maximum less minimum) of these
-/// neighbours. Equal neighbours, at a limit say, do not show how far a sample may be from the next.
-const MIN_DISTANCE_IN_SPREADS: f64 = 3.0;
-/// Least number of short runs of zeros that are outliers ...
-const MIN_OUTLYING_RUNS: usize = 5;
-/// ... and their least share of all short runs of zeros: slow motion and reversals hide the rest.
-const MIN_OUTLYING_SHARE: f64 = 0.2;
 
 /// Turns zeros that an export filled in back into missing cells.
 pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Result<(), Error> {
@@ -57,7 +51,7 @@ pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Resul
             first + 1
         );
         // A load that is no use is no reason to refuse the motion.
-        if role != Role::Load && cells as f64 > MAX_MISSING_SHARE * rows as f64 {
+        if role != Role::Load && cells as f64 > signal::MAX_MISSING_SHARE * rows as f64 {
             let allowed = "at most half may be missing; export the column at the rate of the \
                            others, and missing samples as empty cells";
             return Err(Error::new(Kind::Value, found, allowed).in_column(role.name()));
@@ -81,7 +75,7 @@ fn filled(values: &[f64]) -> Vec<Range<usize>> {
     // Below the rounding of the column's own range there is nothing to be measured.
     let zero = |x: &f64| x.abs() <= f64::EPSILON * largest;
     let zeros = runs(values, zero);
-    if zeros.len() < MIN_OUTLYING_RUNS {
+    if zeros.len() < signal::MIN_ZERO_RUNS {
         return Vec::new();
     }
     let rest: Vec<usize> = (0..values.len())
@@ -101,7 +95,7 @@ fn filled(values: &[f64]) -> Vec<Range<usize>> {
         }
         let spread = high - low;
         let nearest = (low - x.max(0.0)).max(x.min(0.0) - high);
-        spread > 0.0 && nearest > MIN_DISTANCE_IN_SPREADS * spread.max(step)
+        spread > 0.0 && nearest > signal::MIN_ZERO_DISTANCE * spread.max(step)
     };
     let before = |at: usize| &rest[at.saturating_sub(NEIGHBOURS)..at];
     let after = |at: usize| &rest[at..(at + NEIGHBOURS).min(rest.len())];
@@ -109,14 +103,14 @@ fn filled(values: &[f64]) -> Vec<Range<usize>> {
         let at = rest.partition_point(|&i| i < run.start);
         outlying(0.0, before(at), after(at))
     };
-    let short = |run: &&Range<usize>| run.len() <= MAX_BRIDGED_SAMPLES;
+    let short = |run: &&Range<usize>| run.len() <= signal::MAX_BRIDGED_SAMPLES;
     let all = zeros.iter().filter(short).count();
     let telling = zeros
         .iter()
         .filter(short)
         .filter(|run| run.start > 0 && run.end < values.len() && sticks_out(run))
         .count();
-    if telling < MIN_OUTLYING_RUNS || (telling as f64) < MIN_OUTLYING_SHARE * all as f64 {
+    if telling < signal::MIN_ZERO_RUNS || (telling as f64) < signal::MIN_ZERO_SHARE * all as f64 {
         return Vec::new();
     }
     let to_other_values = (1..rest.len().saturating_sub(1))
@@ -127,6 +121,6 @@ fn filled(values: &[f64]) -> Vec<Range<usize>> {
     }
     zeros
         .into_iter()
-        .filter(|run| run.len() <= MAX_BRIDGED_SAMPLES || sticks_out(run))
+        .filter(|run| run.len() <= signal::MAX_BRIDGED_SAMPLES || sticks_out(run))
         .collect()
 }

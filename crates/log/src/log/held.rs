@@ -3,12 +3,10 @@
 use crate::findings::{Finding, Severity, median};
 use stiction_codes::Code;
 use stiction_number::full;
+use stiction_policy::position;
 
 /// Most rows between two renewals that are looked for.
 const MOST_ROWS: usize = 64;
-/// Fewest changes of the position, and the part of them that must fall on the same rows.
-const FEWEST_CHANGES: usize = 100;
-const SHARE: f64 = 0.995;
 
 /// Rows between two renewals of a position, and the first row that renews it; `None` where every row may.
 ///
@@ -19,14 +17,15 @@ pub(super) fn period(time: &[f64], position: &[f64]) -> Option<(usize, usize)> {
         .filter(|&i| position[i].is_finite() && position[i - 1].is_finite())
         .filter(|&i| position[i] != position[i - 1])
         .collect();
-    if changes.len() < FEWEST_CHANGES || !is_even(time) {
+    if changes.len() < position::MIN_HELD_CHANGES || !is_even(time) {
         return None;
     }
     (2..=MOST_ROWS).rev().find_map(|rows| {
         let mut on = vec![0_usize; rows];
         changes.iter().for_each(|i| on[i % rows] += 1);
         let first = (0..rows).max_by_key(|&row| on[row])?;
-        (on[first] as f64 >= SHARE * changes.len() as f64).then_some((rows, first))
+        (on[first] as f64 >= position::MIN_HELD_SHARE * changes.len() as f64)
+            .then_some((rows, first))
     })
 }
 
@@ -39,7 +38,7 @@ fn is_even(time: &[f64]) -> bool {
     let odd = steps
         .iter()
         .filter(|step| (**step - median).abs() > 0.5 * median);
-    odd.count() as f64 <= (1.0 - SHARE) * steps.len() as f64
+    odd.count() as f64 <= (1.0 - position::MIN_HELD_SHARE) * steps.len() as f64
 }
 
 /// A force as the mean over as many rows, about each row: the axis moves by all of it, and the rows between are left out. At the

@@ -1,23 +1,13 @@
 //! Positions that begin again, told from their numbers: they jump by nearly their whole range, and go on beyond as before.
 
+use stiction_policy::position;
+
 /// Bits of counters.
 const COUNTERS: std::ops::RangeInclusive<u32> = 8..=48;
-/// Least part of its period that a position has covered once it has begun again.
-const LEAST_COVERED: f64 = 0.8;
 /// Part of the period by which its numbers may go beyond it by rounding.
 const ROUNDING: f64 = 1e-3;
-/// Largest change of the step at a jump once the period is taken out of it, in periods: the speed is that of the sample before.
-const GOES_ON: f64 = 0.1;
-/// Part of the jumps that have to go on so.
-const MOST: f64 = 0.9;
-/// Part of the numbers that have to be whole: some may have been interpolated.
-const WHOLE: f64 = 0.99;
 /// How far rounding moves a whole number of counts.
 const OFF_WHOLE: f64 = 0.01;
-/// Periods that a counter of no power of two has to have gone through, since anything else that jumps covers its range too.
-const PASSED: f64 = 1.5;
-/// Part of its counts that a counter of a round number of counts may not have shown.
-const NOT_SHOWN: f64 = 2e-3;
 /// What the counts of an encoder are a multiple of, where they are no power of two.
 const ROUND: u64 = 100;
 
@@ -31,7 +21,7 @@ pub(crate) fn begins_again(values: &[f64], period: f64) -> bool {
 fn off(values: &[f64], period: f64) -> Option<f64> {
     let numbers: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
     let (low, high) = crate::findings::extremes(&numbers)?;
-    if !(LEAST_COVERED * period..=period * (1.0 + ROUNDING)).contains(&(high - low)) {
+    if !(position::MIN_COVERED * period..=period * (1.0 + ROUNDING)).contains(&(high - low)) {
         return None;
     }
     let step = |i: usize| numbers[i + 1] - numbers[i];
@@ -45,8 +35,12 @@ fn off(values: &[f64], period: f64) -> Option<f64> {
         (beside < steps).then(|| (left(*i) - left(beside)).abs())
     };
     let changes: Vec<f64> = jumps.iter().filter_map(change).collect();
-    let on = changes.iter().filter(|c| **c <= GOES_ON * period).count();
-    (on > 0 && on as f64 >= MOST * jumps.len() as f64).then(|| changes.iter().sum())
+    let on = changes
+        .iter()
+        .filter(|c| **c <= position::MAX_STEP_CHANGE * period)
+        .count();
+    (on > 0 && on as f64 >= position::MIN_STEADY_JUMPS * jumps.len() as f64)
+        .then(|| changes.iter().sum())
 }
 
 /// The counts after which a counter begins again, from its numbers; `None` where they do not jump so.
@@ -55,7 +49,9 @@ pub(crate) fn counts(values: &[f64]) -> Option<u64> {
     let is_whole = |x: &f64| (x - x.round()).abs() <= OFF_WHOLE;
     let whole = numbers.clone().filter(is_whole).count();
     let (low, high) = crate::findings::extremes(values)?;
-    if (whole as f64) < WHOLE * numbers.count() as f64 || high - low > 2_f64.powi(53) {
+    if (whole as f64) < position::MIN_WHOLE_SHARE * numbers.count() as f64
+        || high - low > 2_f64.powi(53)
+    {
         return None;
     }
     let shown = (high - low).round() as u64 + 1;
@@ -65,11 +61,12 @@ pub(crate) fn counts(values: &[f64]) -> Option<u64> {
     let counter = shown.next_power_of_two();
     let by_bits = off(values, counter as f64).filter(|_| COUNTERS.contains(&counter.ilog2()));
     let round = shown.next_multiple_of(ROUND);
-    let other = match (round - shown) as f64 <= NOT_SHOWN * round as f64 {
+    let other = match (round - shown) as f64 <= position::MAX_HIDDEN_COUNTS * round as f64 {
         true => round,
         false => shown,
     };
-    let by_turns = off(values, other as f64).filter(|_| passed(values, other as f64) > PASSED);
+    let by_turns =
+        off(values, other as f64).filter(|_| passed(values, other as f64) > position::MIN_PERIODS);
     match (by_bits, by_turns) {
         (Some(bits), Some(turns)) if turns < bits => Some(other),
         (Some(_), _) => Some(counter),

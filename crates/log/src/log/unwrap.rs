@@ -5,16 +5,10 @@ use crate::findings::{Finding, Severity, count, extremes, full, median, quantum,
 use crate::mapping::{Source, Wrap};
 use crate::{Dimension, Error, Kind};
 use stiction_codes::Code;
-
-/// Fewest encoder steps of a wrap, so that a step forward is none back.
-const LEAST_STEPS: f64 = 2.0;
-/// Part of a counter that an axis may move within a sample, where a jump is taken for its overflow.
-const NEARLY_WHOLE: f64 = 0.1;
+use stiction_policy::position;
 
 /// Part of the wrap by which the numbers of a position may go beyond it by rounding.
 const ROUNDING: f64 = 1e-3;
-/// How many times as long as all others the steps that are left at wraps may be.
-const LEFT: f64 = 3.0;
 
 /// The travel after which a position from this column repeats, m or rad.
 pub(crate) fn period(wrap: Wrap, source: Option<&Source>) -> Result<f64, Error> {
@@ -46,7 +40,7 @@ pub(crate) fn bits(jump: f64, count: f64) -> Option<u32> {
     let counts = (jump / count).abs();
     (8..=48).find(|bits| {
         let whole = (1_u64 << bits) as f64;
-        (counts / whole - 1.0).abs() <= NEARLY_WHOLE
+        (counts / whole - 1.0).abs() <= position::MAX_OVERFLOW_MOTION
     })
 }
 
@@ -60,7 +54,7 @@ pub(super) fn resolved(
     let shown = || quantum(position, &vec![false; position.len()]);
     let Some(step) = given
         .or_else(shown)
-        .filter(|step| period < LEAST_STEPS * step)
+        .filter(|step| period < position::MIN_WRAP_STEPS * step)
     else {
         return Ok(());
     };
@@ -177,7 +171,7 @@ fn wrong(position: &[f64], period: f64, unit: &str) -> Option<String> {
     };
     let how = if covers_more {
         format!("its numbers cover {covered} {unit}, which is more")
-    } else if left > LEFT * longest {
+    } else if left > position::MAX_UNWRAPPED_STEP * longest {
         format!("jumps of {} {unit} are left there", short(left))
     } else {
         return None;

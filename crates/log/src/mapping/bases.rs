@@ -7,11 +7,7 @@ use super::channel::{Role, Selector};
 use super::select::select;
 use super::{Mapping, describe, endings};
 use crate::{Dimension, Table};
-
-/// Part of the samples by which columns of one base may differ in length.
-pub(crate) const MAX_CUT_SHARE: f64 = 0.01;
-/// Part of a log's duration by which two time columns may drift from each other and still be stamps of the same rows.
-const MAX_DRIFT: f64 = 0.01;
+use stiction_policy::clock;
 
 /// A column with other time stamps than the rows of a log.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,7 +77,7 @@ impl Mapping {
 /// Whether two columns are too far apart in length to be of one base.
 fn differ(a: usize, b: usize) -> bool {
     let lost = a.abs_diff(b);
-    lost > 2 && lost as f64 > MAX_CUT_SHARE * a.max(b) as f64
+    lost > 2 && lost as f64 > clock::MAX_CUT_SHARE * a.max(b) as f64
 }
 
 /// The time column of the length of a column, of several the one whose name begins most like its own; of those that are alike in
@@ -155,7 +151,7 @@ fn run_apart(table: &Table, own: usize, other: usize) -> bool {
         return false;
     };
     let (own, other) = (last.0 - first.0, last.1 - first.1);
-    (own - other).abs() > MAX_DRIFT * own.max(other)
+    (own - other).abs() > clock::MAX_BASE_DRIFT * own.max(other)
 }
 
 /// Of columns that could be the time, those as long as the motion, where some are and others are not; of several that are stamps

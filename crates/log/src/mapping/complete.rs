@@ -11,9 +11,7 @@ use crate::findings::{Finding, Severity};
 use crate::{Column, Dimension, Error, Kind, Table, Unit};
 use stiction_codes::Code;
 use stiction_number::full;
-
-/// Median spacings, s, with which a time column without a unit is taken as seconds: 5 Hz to 1 MHz.
-pub(super) const PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2;
+use stiction_policy::clock;
 
 /// One role with its column found and, where anything tells it, its unit.
 pub(super) struct Part {
@@ -448,7 +446,7 @@ fn seconds(table: &Table, part: &Part) -> Result<Unit, Error> {
         .map(|w| w[1] - w[0])
         .filter(|d| d.is_finite());
     let median = crate::findings::median(&mut steps.collect::<Vec<_>>());
-    if median.is_some_and(|dt| PLAUSIBLE_SPACING.contains(&dt)) {
+    if median.is_some_and(|dt| clock::PLAUSIBLE_SPACING.contains(&dt)) {
         return Unit::parse("s");
     }
     let numbers = match median == Some(1.0) {

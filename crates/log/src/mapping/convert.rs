@@ -5,6 +5,7 @@ use super::limits::SCALES;
 use super::select::select;
 use super::{Mapping, counted, describe};
 use crate::{Dimension, Error, Kind, Table, Unit};
+use stiction_policy::signal;
 
 /// The next larger unit for the numbers of a role that come out too small, the next smaller one where they are too large; with a
 /// scale where there is none.
@@ -45,10 +46,6 @@ pub(crate) fn another_unit(
     };
     (units[next].clone(), scale)
 }
-
-/// Largest number that can be a measurement, in SI units (for time stamps in the unit of the file). Larger ones mark
-/// missing samples; the largest `f32`, 3.4e38, is a common marker.
-pub(crate) const LARGEST_VALUE: f64 = 1e30;
 
 /// A column and how its numbers become SI.
 #[derive(Clone, Debug)]
@@ -141,7 +138,7 @@ impl Source {
             _ => number,
         };
         let si = self.unit.to_si(signed) * self.scale;
-        if si.abs() <= LARGEST_VALUE {
+        if si.abs() <= signal::MAX_MEASURED {
             si
         } else {
             f64::NAN
@@ -267,8 +264,6 @@ pub(super) fn is_force(dimension: Dimension) -> bool {
 
 /// Counters of drives, bits.
 const COUNTERS: [u32; 2] = [16, 32];
-/// Fewest numbers on each side of zero that tell a counter from flags and codes.
-const FEWEST_EACH_SIDE: usize = 10;
 
 /// The bits of a counter whose numbers below zero were read without their sign: all are whole, some in its lowest quarter, some in
 /// its highest, and none between. What a drive measures does not jump there.
@@ -287,7 +282,7 @@ fn unsigned_bits(values: &[f64]) -> Option<u32> {
                 &mut high
             }) += 1;
         }
-        low.min(high) >= FEWEST_EACH_SIDE
+        low.min(high) >= signal::MIN_EACH_SIGN
     };
     COUNTERS.into_iter().find(bits_of)
 }

@@ -1,9 +1,9 @@
 //! The line of the axis file that is offered for a column, with a unit where nothing gives one.
 
 use super::channel::{Motion, Role};
-use super::complete::PLAUSIBLE_SPACING;
 use super::{counted, describe, endings, names, rate};
 use crate::{Table, Unit};
+use stiction_policy::clock;
 
 /// The line that makes a column a role, complete: with a unit to correct where neither the file nor its name gives one.
 pub(super) fn line(table: &Table, column: usize, role: Role, motion: Option<Motion>) -> String {
@@ -57,7 +57,8 @@ pub(super) fn times(values: &[f64]) -> Vec<&'static str> {
         return Vec::new();
     };
     let fits = |unit: &&str| {
-        Unit::parse(unit).is_ok_and(|unit| PLAUSIBLE_SPACING.contains(&(unit.factor() * step)))
+        Unit::parse(unit)
+            .is_ok_and(|unit| clock::PLAUSIBLE_SPACING.contains(&(unit.factor() * step)))
     };
     let units = ["s", "ms", "us", "ns", "min"].into_iter();
     units.filter(fits).collect()

@@ -1,18 +1,14 @@
 //! A rate that is given, beside the time stamps that a table has: the rate counts the rows, and the stamps say whether it can.
 
 use super::channel::Role;
-use super::complete::PLAUSIBLE_SPACING;
 use super::describe;
 use crate::findings::{Finding, Severity, median, short};
 use crate::log::coarse::Coarse;
 use crate::{Error, Kind, Table, Unit};
 use std::ops::Range;
 use stiction_codes::Code;
+use stiction_policy::clock;
 
-/// How much a given rate and that of the time stamps may differ, as a fraction.
-const MAX_DEVIATION: f64 = 0.01;
-/// Part of the rows from which on repeated stamps are those of a coarse clock.
-const MANY_REPEATED: f64 = 0.05;
 /// Units that time stamps without one may be in, the likeliest first.
 const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
 
@@ -45,8 +41,6 @@ pub(super) fn compare(
 
 /// Rows on either side of a step from which the place of the stamps beside it is taken: single ones jitter.
 const BESIDE: usize = 5;
-/// Rows by which stamps go on later than they were before from which on a row is missing there.
-const A_ROW: f64 = 0.6;
 
 /// What there is to say where rows are missing between the stamps of a column, as they show beside a rate (Hz) that
 /// agrees with them otherwise: a rate does not count these, and the stamps are read. `None` where none is missing, and of a clock that is
@@ -67,7 +61,7 @@ pub(super) fn missing_rows(
     // Stamps that are late go on where they were; where rows are missing there are fewer than the time has at that rate.
     let span = unit.factor() * (stamps.last()? - stamps.first()?) * rate;
     let fewer = span - (stamps.len() - 1) as f64;
-    if fewer.is_nan() || fewer < A_ROW {
+    if fewer.is_nan() || fewer < clock::MIN_LOST_ROW {
         return None;
     }
     let off = |row: usize| stamps[row] / steps.usual - row as f64;
@@ -84,13 +78,13 @@ pub(super) fn missing_rows(
         let after = place(*row..row + BESIDE);
         before
             .zip(after)
-            .is_some_and(|(before, after)| after - before > A_ROW)
+            .is_some_and(|(before, after)| after - before > clock::MIN_LOST_ROW)
     };
-    let is_long = |row: &usize| off(*row) - off(*row - 1) > A_ROW;
+    let is_long = |row: &usize| off(*row) - off(*row - 1) > clock::MIN_LOST_ROW;
     let jumps: Vec<usize> = (1..stamps.len()).filter(is_long).filter(jump).collect();
     let first = *jumps.first()?;
     // Each would be a row or more.
-    if fewer < A_ROW * jumps.len() as f64 {
+    if fewer < clock::MIN_LOST_ROW * jumps.len() as f64 {
         return None;
     }
     let message = format!(
@@ -110,7 +104,7 @@ pub(super) fn time_line(table: &Table, column: usize) -> Option<String> {
     if are_ticks(values) {
         return Some(describe::line_with(table, column, Role::Time, TICKS));
     }
-    let fits = |unit: &Unit| PLAUSIBLE_SPACING.contains(&(unit.factor() * steps.usual));
+    let fits = |unit: &Unit| clock::PLAUSIBLE_SPACING.contains(&(unit.factor() * steps.usual));
     let mut units = UNITS.iter().filter_map(|unit| Unit::parse(unit).ok());
     let unit = units.find(fits).filter(|_| steps.usual != 1.0)?;
     let named = format!("unit = \"{unit}\"");
@@ -147,7 +141,7 @@ impl Steps {
         let mut forward: Vec<f64> = steps.iter().copied().filter(|step| *step > 0.0).collect();
         let usual = median(&mut forward)?;
         Some(Self {
-            usual: match repeated as f64 > MANY_REPEATED * steps.len() as f64 {
+            usual: match repeated as f64 > clock::MIN_REPEATED_SHARE * steps.len() as f64 {
                 true => mean,
                 false => usual,
             },
@@ -157,7 +151,7 @@ impl Steps {
 
     /// Whether a rate is theirs. The mean step counts as much as the median, from which rows that are missing keep it apart.
     fn agree(&self, rate: f64, unit: &Unit) -> bool {
-        let agrees = |step: f64| (rate * unit.factor() * step - 1.0).abs() <= MAX_DEVIATION;
+        let agrees = |step: f64| (rate * unit.factor() * step - 1.0).abs() <= clock::MAX_RATE_ERROR;
         agrees(self.mean) || agrees(self.usual)
     }
 }
@@ -194,7 +188,7 @@ impl Rounded {
     }
 
     fn agrees(&self, rate: f64) -> bool {
-        (rate / self.clock.rate_hz - 1.0).abs() <= MAX_DEVIATION
+        (rate / self.clock.rate_hz - 1.0).abs() <= clock::MAX_RATE_ERROR
     }
 
     /// What there is to say of rows that are missing, which a rate does not count.
@@ -234,7 +228,7 @@ fn without_unit(table: &Table, column: usize, rate: f64) -> Option<Finding> {
         return None;
     }
     let seconds = |unit: &Unit| unit.factor() * steps.usual;
-    let unit = units().find(|unit| PLAUSIBLE_SPACING.contains(&seconds(unit)))?;
+    let unit = units().find(|unit| clock::PLAUSIBLE_SPACING.contains(&seconds(unit)))?;
     let named = format!("unit = \"{unit}\"");
     let message = format!(
         "the rows are counted at rate = \"{} Hz\" of axis.toml, and {} is not read: in {unit} it runs at {} Hz; if that is right, \
@@ -250,7 +244,7 @@ fn without_unit(table: &Table, column: usize, rate: f64) -> Option<Finding> {
 /// A file without time stamps may state its sample time.
 fn stated(table: &Table, rate: f64) -> Option<Finding> {
     let step = table.sample_time.filter(|step| *step > 0.0)?;
-    if (rate * step - 1.0).abs() <= MAX_DEVIATION {
+    if (rate * step - 1.0).abs() <= clock::MAX_RATE_ERROR {
         return None;
     }
     let message = format!(

@@ -4,22 +4,11 @@ use crate::log::Log;
 use std::collections::VecDeque;
 use std::ops::Range;
 use stiction_codes::Code;
+use stiction_policy::rest;
 use stiction_signal::{Travel, noise_deviation};
 
 /// Samples of a block whose noise is looked at ...
 const BLOCK: usize = 64;
-/// ... and the part of the blocks, the quietest, that shows the noise of an axis at rest: in motion, uneven time steps
-/// and passing encoder steps look like noise too.
-const QUIETEST_SHARE: f64 = 0.1;
-/// Least range of the whole record, in movements that the encoder and the noise could make: a record in presliding has
-/// a few counts in all, and each of them counts.
-const MIN_RANGE: f64 = 30.0;
-/// Least length of a rest, in times that the axis needs on average to move out of the band: slow motion seen through a
-/// coarse encoder stands still from count to count.
-const MIN_CROSSINGS: f64 = 5.0;
-/// Largest distance between the means of the first and the last third of a rest, as a part of the band: slow motion
-/// through the band has two thirds.
-const MAX_DRIFT: f64 = 0.55;
 
 /// The stretches at rest, in order, that last at least `shortest` seconds; none in a record that moves nowhere.
 pub(super) fn stretches(log: &Log, shortest: f64) -> Vec<Range<usize>> {
@@ -69,7 +58,7 @@ impl<'a> Signal<'a> {
             let speed = (travel.up + travel.down) / seconds;
             // A position without step and noise was computed; at rest its steps are those of the numbers.
             let band = band.max(1e-9 * travel.range);
-            if travel.range < MIN_RANGE * band || speed <= 0.0 {
+            if travel.range < rest::MIN_RANGE * band || speed <= 0.0 {
                 return None;
             }
             return Some(Self {
@@ -77,7 +66,7 @@ impl<'a> Signal<'a> {
                 time,
                 sums: sums(position),
                 band,
-                shortest: shortest.max(MIN_CROSSINGS * band / speed),
+                shortest: shortest.max(rest::MIN_CROSSINGS * band / speed),
                 velocity_noise: None,
             });
         }
@@ -86,7 +75,7 @@ impl<'a> Signal<'a> {
         let step = super::super::encoder::quantum(velocity, &vec![false; velocity.len()]);
         let top = velocity.iter().fold(0.0_f64, |top, v| top.max(v.abs()));
         let band = Travel::shortest_movement(step.unwrap_or(0.0), noise).max(1e-9 * top);
-        (top >= MIN_RANGE * band).then_some(Self {
+        (top >= rest::MIN_RANGE * band).then_some(Self {
             values: velocity,
             time,
             sums: integral(time, velocity),
@@ -181,7 +170,7 @@ impl<'a> Signal<'a> {
             let third = n / 3;
             let first = self.sums[rest.start + third] - self.sums[rest.start];
             let last = self.sums[rest.end] - self.sums[rest.end - third];
-            return (last - first).abs() <= MAX_DRIFT * self.band * third as f64;
+            return (last - first).abs() <= rest::MAX_DRIFT * self.band * third as f64;
         };
         // Noise lets an integrated velocity walk; what goes further has moved, however slowly.
         let moved = self.sums[rest.end - 1] - self.sums[rest.start];
@@ -221,7 +210,7 @@ fn quiet(values: &[f64]) -> f64 {
     if noise.is_empty() {
         return 0.0;
     }
-    let at = (QUIETEST_SHARE * noise.len() as f64) as usize;
+    let at = (rest::QUIETEST_SHARE * noise.len() as f64) as usize;
     *noise.select_nth_unstable_by(at, f64::total_cmp).1
 }
 

@@ -2,19 +2,11 @@
 
 use crate::log::Log;
 use std::ops::Range;
+use stiction_policy::rest;
 use stiction_signal::Travel;
 
 /// Length of the blocks over which the force is averaged, s.
 const BLOCK_SECONDS: f64 = 0.25;
-/// Variation of the force in a rest, as a part of its spread in the whole record, up to which it is held by integrator
-/// or brake.
-const HELD: f64 = 0.1;
-/// Distance from the first level at which a larger variation begins, likewise.
-const BEGINS: f64 = 0.02;
-/// The same in standard errors of the mean of a block.
-const ERRORS: f64 = 4.0;
-/// Movements of the force, as a part of its spread, that go to and fro on purpose.
-const SWING: f64 = 0.25;
 
 /// One past the last sample of a rest at the start before which the force is held: the end of the rest where it does
 /// not vary, else where a ramp or a step begins.
@@ -22,7 +14,7 @@ pub(super) fn first_change(log: &Log, rest: &Range<usize>, spread: f64) -> usize
     let Some(force) = Blocks::of(log, rest).filter(|force| force.varies(spread)) else {
         return rest.end;
     };
-    let bound = (BEGINS * spread).max(ERRORS * force.error);
+    let bound = (rest::MIN_CHANGE * spread).max(rest::MIN_CHANGE_DEVIATIONS * force.error);
     let first = force.means[0].1;
     let change = force
         .means
@@ -60,7 +52,7 @@ pub(super) fn to_and_fro(log: &Log, rest: &Range<usize>, spread: f64) -> bool {
     let Some(force) = Blocks::of(log, rest) else {
         return false;
     };
-    let shortest = (SWING * spread).max(2.0 * ERRORS * force.error);
+    let shortest = (rest::MIN_SWING * spread).max(2.0 * rest::MIN_CHANGE_DEVIATIONS * force.error);
     let travel = Travel::of(force.means.iter().map(|(_, mean)| *mean), shortest);
     travel.up > shortest && travel.down > shortest
 }
@@ -102,7 +94,8 @@ impl Blocks {
     /// Whether the means differ by more than where a controller or brake holds the force.
     fn varies(&self, spread: f64) -> bool {
         let (low, high) = self.extremes();
-        high - low > (HELD * spread).max(2.0 * ERRORS * self.error)
+        high - low
+            > (rest::MAX_HELD_FORCE * spread).max(2.0 * rest::MIN_CHANGE_DEVIATIONS * self.error)
     }
 
     fn extremes(&self) -> (f64, f64) {
