@@ -1,4 +1,4 @@
-//! Prints every threshold as a table.
+//! Prints every threshold as a table, and those that mean the same and differ as another.
 
 fn main() {
     println!("| threshold | value | unit | decides | source |");
@@ -11,5 +11,14 @@ fn main() {
                 row.meaning, row.source
             );
         }
+    }
+
+    println!("\n| means the same | thresholds |\n|---|---|");
+    for (meaning, thresholds) in stiction_policy::SAME {
+        let list: Vec<String> = thresholds
+            .iter()
+            .map(|(name, value)| format!("{name} = {value:?}"))
+            .collect();
+        println!("| {meaning} | {} |", list.join(", "));
     }
 }
