@@ -12,4 +12,8 @@ thresholds! {
     MIN_START_R2: f64 = 0.9, "1", "Explained part of the variance from which a simulated fit starts at the separable one.", "choice: less may be the valley of another minimum";
     MAX_EQUAL_LOSS: f64 = 1e-6, "1", "Relative difference of the losses of two maps that are one.", "choice: above rounding, below any other minimum";
     MAX_EQUAL_RESIDUAL: f64 = 1e-6, "1", "Relative difference of the residuals of two fits that are one.", "choice: above rounding";
+    MIN_NAMED_SIMPLER_ERROR: f64 = 1.02, "1", "Held-out error over that of a simpler law from which the simpler one is named.", "choice: twice what counts as equal";
+    MAX_NAMED_RICHER_ERROR: f64 = 0.8, "1", "Held-out error of a richer law over that of this one below which the richer one is named.", "choice: a fifth less biases parameters visibly";
+    MAX_STATIC_REST_SHARE: f64 = 0.05, "1", "Part of the samples near rest above which a static law is warned of.", "choice";
+    MAX_STATIC_REST_ERROR: f64 = 1.5, "1", "Rms residual near rest over that of all samples above which a static law is warned of.", "choice";
 }

@@ -15,4 +15,5 @@ thresholds! {
     TEMPERATURE_SPAN: f64 = 10.0, "K", "Least change of temperature over which a dependence on it is judged.", "choice";
     MIN_CONFUSED_CORRELATION: f64 = 0.9, "1", "Correlation in the joint fit from which two parameters are hard to tell apart.", "choice";
     MAX_RESERVE_HALF_WIDTH: f64 = 5.0, "%", "Half width up to which the whole force may be compensated in the end.", "decision 0020: some percent";
+    MIN_NAMED_SHIFT: f64 = 0.05, "1", "Shift of a parameter by encoder, filters and noise, as a part of its value, above which it is named.", "choice";
 }

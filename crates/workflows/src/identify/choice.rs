@@ -2,7 +2,6 @@
 
 use super::heard::Heard;
 use super::ladder::{self, Candidate, Climb, Ladder, Rung};
-use super::trust::RICHER_LAW_WINS_BELOW;
 use stiction_files::result::{BetterLaw, LawEntry};
 use stiction_identify as engine;
 use stiction_identify::{Estimate, Law, LawKind, Observer, Optimum, Settings, Status};
@@ -308,7 +307,7 @@ fn directions_differ(climb: &Climb) -> bool {
             .find(|rung| rung.estimate.law.asymmetric == asymmetric);
         own.map_or(f64::INFINITY, Rung::held_out_error)
     };
-    of(true) < RICHER_LAW_WINS_BELOW * of(false)
+    of(true) < choice::MAX_NAMED_RICHER_ERROR * of(false)
 }
 
 /// The laws so far with quadratic viscous friction: without it a Stribeck curve bends a viscous line that is none. A Stribeck curve of
@@ -329,7 +328,7 @@ fn second<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
     let mut next = held(climb, ladder, false);
     let errors = climb.rungs.iter().map(Rung::held_out_error);
     let least = errors.fold(f64::INFINITY, f64::min);
-    let close = |rung: &&Rung| RICHER_LAW_WINS_BELOW * rung.held_out_error() <= least;
+    let close = |rung: &&Rung| choice::MAX_NAMED_RICHER_ERROR * rung.held_out_error() <= least;
     // Coulomb and viscous friction stays linear, so it costs next to nothing.
     let wanted = |rung: &&Rung| match rung.estimate.law.kind {
         LawKind::CoulombViscous => true,

@@ -1,6 +1,5 @@
 //! The effects that a residual shows, in words, and what takes each into the fit.
 
-use super::trust::RICHER_LAW_WINS_BELOW;
 use super::{pitch, settled};
 use crate::source::Source;
 use stiction_codes::Code;
@@ -9,7 +8,7 @@ use stiction_files::{Warning, symbols};
 use stiction_identify::{Dependence, Effect, FittedLaw, Found, LawKind};
 use stiction_log::Motion;
 use stiction_number::{Percent, four_digits};
-use stiction_policy::{effect, motion};
+use stiction_policy::{choice, effect, motion};
 
 /// Deviations of a 95 % interval.
 const QUANTILE: f64 = 1.96;
@@ -243,7 +242,7 @@ fn elements_hold_better(law: &FittedLaw, laws: &[LawEntry]) -> bool {
         && own.is_some_and(|own| {
             errors.any(|other| {
                 let error = other.held_out_error_percent;
-                error.is_some_and(|error| error < RICHER_LAW_WINS_BELOW * own)
+                error.is_some_and(|error| error < choice::MAX_NAMED_RICHER_ERROR * own)
             })
         })
 }

@@ -21,23 +21,8 @@ use stiction_identify::{NO_INTERVAL, Parameter};
 use stiction_log::Motion;
 use stiction_parameters::Quantity;
 use stiction_policy::VERDICT;
+use stiction_policy::{choice, interval};
 use stiction_say::{Notice, Reason};
-
-/// Ratio of the held-out error of the law to that of a simpler one above which a warning names the simpler one,
-/// dimensionless: 2 % more, twice what the choice of a law counts as the same.
-pub(super) const SIMPLER_LAW_WINS_FROM: f64 = 1.02;
-
-/// Ratio of the held-out error of a richer law to that of this one below which a warning names the richer one,
-/// dimensionless: a fifth less, which biases parameters visibly.
-pub(super) const RICHER_LAW_WINS_BELOW: f64 = 0.8;
-/// Shift of a parameter by encoder, filters and noise, as a part of its value, above which a warning names it,
-/// dimensionless.
-const NAMED_SHIFT: f64 = 0.05;
-/// Part of the samples that is near rest, above which a static law gets a warning, dimensionless.
-const WARNED_REST_SHARE: f64 = 0.05;
-/// Ratio of the rms residual near rest to that of all samples, above which a static law gets a warning,
-/// dimensionless.
-const WARNED_REST_ERROR: f64 = 1.5;
 
 /// A verdict, and what to beware of.
 pub(super) struct Judged {
@@ -281,8 +266,8 @@ impl Evidence<'_> {
         let [mine, least] = [own, other].map(|law| law.held_out_error_percent);
         let (mine, least) = (mine?, least?);
         match other.parameters <= own.parameters {
-            true => mine > SIMPLER_LAW_WINS_FROM * least,
-            false => least < RICHER_LAW_WINS_BELOW * mine,
+            true => mine > choice::MIN_NAMED_SIMPLER_ERROR * least,
+            false => least < choice::MAX_NAMED_RICHER_ERROR * mine,
         }
         .then_some(better)
     }
@@ -709,7 +694,7 @@ fn another_wins(facts: &Facts, laws: &[LawEntry], warnings: &mut Vec<Warning>) {
         true => format!("{}, asymmetric,", best.law),
         false => best.law.clone(),
     };
-    if other.parameters < own.parameters && own_error > SIMPLER_LAW_WINS_FROM * error {
+    if other.parameters < own.parameters && own_error > choice::MIN_NAMED_SIMPLER_ERROR * error {
         warnings.push(
             Notice::SimplerLaw {
                 law,
@@ -718,7 +703,9 @@ fn another_wins(facts: &Facts, laws: &[LawEntry], warnings: &mut Vec<Warning>) {
             }
             .into(),
         );
-    } else if other.parameters > own.parameters && error < RICHER_LAW_WINS_BELOW * own_error {
+    } else if other.parameters > own.parameters
+        && error < choice::MAX_NAMED_RICHER_ERROR * own_error
+    {
         warnings.push(
             Notice::RicherLaw {
                 law,
@@ -741,7 +728,7 @@ fn shifted(estimate: &FittedLaw, warnings: &mut Vec<Warning>) {
             && p.name != Quantity::Offset
             && p.name != Quantity::Delay
             && !matches!(p.name.quantity, Quantity::CoulombMap(_))
-            && part > NAMED_SHIFT
+            && part > interval::MIN_NAMED_SHIFT
     };
     let biased = estimate.parameters.iter().filter(far).map(|p| {
         let percent = 100.0 * p.bias.unwrap_or(0.0) / p.value;
@@ -762,7 +749,9 @@ fn static_at_rest(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
         return;
     };
     let part = slow.samples as f64 / estimate.fit.samples as f64;
-    if part > WARNED_REST_SHARE && slow.rmse > WARNED_REST_ERROR * estimate.fit.rmse {
+    if part > choice::MAX_STATIC_REST_SHARE
+        && slow.rmse > choice::MAX_STATIC_REST_ERROR * estimate.fit.rmse
+    {
         let notice = Notice::StaticLawAtRest {
             part,
             speed: estimate.low_speed_bound,

@@ -4,11 +4,11 @@ use super::condition::Conditioned;
 use super::ladder::{Ladder, LinearTerms};
 use super::load::{Asked, Loaded};
 use super::method::Method;
-use super::trust::RICHER_LAW_WINS_BELOW;
 use std::f64::consts::FRAC_PI_2;
 use stiction_identify::{Law, LawKind, Observer, Terms};
 use stiction_log::Motion;
 use stiction_number::Percent;
+use stiction_policy::choice;
 
 /// Takes gravity into the fit of a joint where a bristle with it holds clearly better on samples that were left out, and says so. On less than a quarter turn any force that changes along the position looks like a weight.
 pub(super) fn taken(
@@ -49,7 +49,7 @@ pub(super) fn taken(
         Some(rung.held_out_error()).filter(|error| error.is_finite())
     };
     let (before, after) = (error(&conditioned.terms)?, error(&with)?);
-    if after >= RICHER_LAW_WINS_BELOW * before {
+    if after >= choice::MAX_NAMED_RICHER_ERROR * before {
         return None;
     }
     conditioned.terms = with;
