@@ -37,7 +37,6 @@ macro_rules! tables {
 mod same;
 
 pub use same::{SAME, Same};
-pub use verdict::{VERDICT, Verdict};
 
 tables! { agreement, choice, clock, comparison, conditioning, delay, drift, effect, encoder, export, force, interval, join, motion, plan, position, procedure, rest, signal, simulation, tracking, verdict }
 

@@ -25,9 +25,17 @@ same! {
         agreement::MIN_CERTAIN_DEVIATIONS, procedure::MIN_RAMP_STEPS, motion::MIN_ACCELERATION, drift::MIN_RELATIVE_LEVEL,
         procedure::MIN_STEP_HEIGHT, procedure::MIN_LEVEL_ERROR, drift::MIN_STEP;
     "error over that of another law up to which both are equal":
-        choice::MAX_EQUAL_ERROR, choice::MAX_SIMPLER_ERROR, choice::MAX_CERTAIN_ERROR;
+        choice::MAX_EQUAL_ERROR, choice::MIN_NAMED_SIMPLER_ERROR, choice::MAX_SIMPLER_ERROR, choice::MAX_CERTAIN_ERROR;
+    "error over that of another law below which it is better":
+        verdict::MAX_BETTER_ERROR, choice::MAX_NAMED_RICHER_ERROR;
     "explained part of the variance of a fit that stands for the axis":
-        choice::MIN_START_R2, conditioning::MIN_R2;
+        verdict::MIN_R2, choice::MIN_START_R2, conditioning::MIN_R2;
+    "samples for each unknown":
+        verdict::MIN_SAMPLES_PER_UNKNOWN, conditioning::SAMPLES_PER_UNKNOWN;
+    "reversals that are enough":
+        verdict::MIN_REVERSALS, motion::MIN_REVERSALS, effect::MIN_DELAY_REVERSALS;
+    "shift by the conditioning that matters":
+        interval::MIN_NAMED_SHIFT, interval::MAX_CORRECTED_SHIFT;
     "samples that are enough for a fit":
         conditioning::MIN_HELD_OUT_SAMPLES, conditioning::MIN_SETTLED_SAMPLES, signal::MIN_USEFUL_SAMPLES, encoder::MIN_STRETCH,
         conditioning::MIN_SAMPLES, conditioning::MIN_DECIMATED_SAMPLES;

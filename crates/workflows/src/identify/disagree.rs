@@ -12,7 +12,7 @@ use stiction_identify::{Disagreement, FittedLaw};
 use stiction_log::Motion;
 use stiction_number::{Percent, four_digits};
 use stiction_parameters::Quantity;
-use stiction_policy::VERDICT;
+use stiction_policy::verdict;
 
 /// The options of a run that is to be repeated for each log, as they are typed.
 pub(super) fn options(asked: Asked) -> String {
@@ -123,7 +123,8 @@ fn own_level(found: &Disagreement) -> Option<&'static str> {
 pub(super) fn of_two_axes(found: &[Disagreement]) -> Option<(String, f64)> {
     let telling = |d: &&Disagreement| {
         let quantity = d.name.quantity;
-        matches!(quantity, Quantity::Coulomb | Quantity::Mass) && d.part >= VERDICT.several_axes
+        matches!(quantity, Quantity::Coulomb | Quantity::Mass)
+            && d.part >= verdict::MIN_AXES_DIFFERENCE
     };
     let d = found.iter().find(telling)?;
     Some((d.name.to_string(), d.values[1] / d.values[0]))

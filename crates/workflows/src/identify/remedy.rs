@@ -34,7 +34,9 @@ pub(super) fn led_on(mut error: Error, asked: Asked, motion: Motion) -> Error {
                 && losses.excluded * losses.decimate.max(1) > losses.logged / 2
             {
                 **action = left_out("force_limit");
-            } else if is_simulated && losses.left_to_simulate() >= conditioning::MIN_DECIMATED_SAMPLES.max(*needed) {
+            } else if is_simulated
+                && losses.left_to_simulate() >= conditioning::MIN_DECIMATED_SAMPLES.max(*needed)
+            {
                 **action = Action::Simulate;
             }
         }

@@ -20,7 +20,6 @@ use stiction_identify::{Effect, Fit, FittedLaw, LawKind, Series, SimulationFit, 
 use stiction_identify::{NO_INTERVAL, Parameter};
 use stiction_log::Motion;
 use stiction_parameters::Quantity;
-use stiction_policy::VERDICT;
 use stiction_policy::{choice, interval};
 use stiction_say::{Notice, Reason};
 
@@ -49,7 +48,7 @@ impl Judged {
                 && !doubts.few_levels
                 && !doubts.held_position
                 && !doubts.assumed_curve
-                && law.fit.r2 >= VERDICT.least_r2
+                && law.fit.r2 >= stiction_policy::verdict::MIN_R2
                 && match motion {
                     Shown::Sliding => !law.stays_in_presliding(),
                     Shown::Presliding => true,
@@ -397,7 +396,7 @@ fn of_the_force(evidence: &Evidence, more: Option<Against>, mut warnings: Vec<Wa
         held_out,
         ..evidence.facts()
     };
-    let mut against = verdict::of_records(&facts, &VERDICT);
+    let mut against = verdict::of_records(&facts);
     whole_record(evidence, &facts, &against, &mut warnings);
     against.extend(more);
     let doubts = Doubts::of(evidence.sources);
@@ -427,9 +426,9 @@ pub(super) fn of_position(
         ..evidence.facts()
     };
     let simulated = simulated(evidence, found, unseen);
-    let against = verdict::of_simulation(&facts, &simulated, &VERDICT);
+    let against = verdict::of_simulation(&facts, &simulated);
     whole_record(evidence, &facts, &against, &mut warnings);
-    let biased = simulated.is_biased(&VERDICT);
+    let biased = simulated.is_biased();
     if biased {
         warnings.push(Notice::CorrelatedResidual.into());
     }
@@ -500,7 +499,7 @@ pub(super) fn of_static_map(
         level: unfit::largest_level(law, sources),
         explained: law.fit.r2,
     };
-    let against = verdict::of_curve(&facts, &VERDICT);
+    let against = verdict::of_curve(&facts);
     let (stopped, rest): (Vec<Against>, Vec<Against>) =
         (against.iter().cloned()).partition(|own| own.reason == Reason::Interrupted);
     warn(&stopped, &mut warnings);

@@ -2,7 +2,7 @@
 
 use stiction_files::result::Action;
 use stiction_identify::Status;
-use stiction_policy::Verdict as Policy;
+use stiction_policy::verdict;
 use stiction_say::{On, Reason};
 
 /// A reason against a law.
@@ -140,7 +140,7 @@ pub(super) struct Best {
 }
 
 /// All that speaks against a law that was fitted to whole records, what has to be set right first before the rest.
-pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
+pub(super) fn of_records(facts: &Facts) -> Vec<Against> {
     let mut all = Vec::new();
     let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
     if facts.lacks_intervals {
@@ -155,16 +155,16 @@ pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
     }
     let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
     if facts.found.mixed_signs.is_none() {
-        of_axis_file(facts, policy, &mut say);
+        of_axis_file(facts, &mut say);
     }
     if !matches!(facts.status, Status::Converged | Status::Interrupted) {
         let status = facts.status.name();
         say(Reason::NotConverged { status }, facts.another_law.clone());
     }
-    if facts.explained.is_nan() || facts.explained < policy.least_r2 {
+    if facts.explained.is_nan() || facts.explained < verdict::MIN_R2 {
         let reason = Reason::PoorFit {
             explained: facts.explained,
-            least: policy.least_r2,
+            least: verdict::MIN_R2,
             signal: facts.signal,
         };
         say(reason, facts.another_law.clone());
@@ -178,7 +178,7 @@ pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
     if facts.stays_in_presliding {
         say(Reason::NeverSlides, Action::CHECK);
     }
-    of_saturation(facts.saturated, policy, &mut say);
+    of_saturation(facts.saturated, &mut say);
     if let Some(part) = facts.not_given {
         say(Reason::ForceNotGiven { part }, Action::CHECK);
     }
@@ -186,7 +186,7 @@ pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
         say(Reason::Finding(text.clone()), Action::AxisFile);
     }
     if let Some(best) = &facts.best
-        && best.error < policy.better_law * best.own
+        && best.error < verdict::MAX_BETTER_ERROR * best.own
         && !best.passed_over
     {
         let reason = Reason::BetterLaw {
@@ -198,7 +198,7 @@ pub(super) fn of_records(facts: &Facts, policy: &Policy) -> Vec<Against> {
         say(reason, facts.another_law.clone());
     }
     if let Some(held_out) = &facts.held_out {
-        all.extend(of_held_out(held_out, facts, policy));
+        all.extend(of_held_out(held_out, facts));
     }
     all
 }
@@ -222,9 +222,9 @@ fn of_logs(found: &Findings, say: &mut impl FnMut(Reason, Action)) {
 }
 
 /// What the axis file lacks where the law explains little.
-fn of_axis_file(facts: &Facts, policy: &Policy, say: &mut impl FnMut(Reason, Action)) {
+fn of_axis_file(facts: &Facts, say: &mut impl FnMut(Reason, Action)) {
     let found = &facts.found;
-    let poor = facts.error.is_nan() || facts.error > policy.poor_fit;
+    let poor = facts.error.is_nan() || facts.error > verdict::MAX_FIT_ERROR;
     let mut finding = |text: &String| say(Reason::Finding(text.clone()), Action::AxisFile);
     // Where the position jumps, all else is seen in pieces; one that begins again is refused whatever is left.
     if let Some(text) = &found.jump
@@ -247,24 +247,26 @@ fn of_axis_file(facts: &Facts, policy: &Policy, say: &mut impl FnMut(Reason, Act
 }
 
 /// Refuses a force that is saturated in too many samples.
-fn of_saturation(saturated: f64, policy: &Policy, say: &mut impl FnMut(Reason, Action)) {
-    if saturated > policy.most_saturated {
+fn of_saturation(saturated: f64, say: &mut impl FnMut(Reason, Action)) {
+    if saturated > verdict::MAX_SATURATED_SHARE {
         let reason = Reason::Saturated {
             part: saturated,
-            most: policy.most_saturated,
+            most: verdict::MAX_SATURATED_SHARE,
         };
         say(reason, Action::CHECK);
     }
 }
 
-fn of_held_out(held_out: &HeldOut, facts: &Facts, policy: &Policy) -> Vec<Against> {
+fn of_held_out(held_out: &HeldOut, facts: &Facts) -> Vec<Against> {
     let HeldOut {
         error, on, fitted, ..
     } = *held_out;
     let fails = |v: &&Validation| {
         // Where every simpler law leaves more, nothing is lost with this one.
         let loses = v.inverted || v.simpler.is_none_or(|simpler| v.error >= simpler);
-        v.error > policy.little_friction_left && v.error > policy.validation_error * fitted && loses
+        v.error > verdict::MIN_HELD_OUT_ERROR
+            && v.error > verdict::MAX_VALIDATION_ERROR * fitted
+            && loses
     };
     let failed = held_out.validations.iter().filter(fails);
     let failed = failed.map(|v| Against {
@@ -279,7 +281,7 @@ fn of_held_out(held_out: &HeldOut, facts: &Facts, policy: &Policy) -> Vec<Agains
     });
     let mut all: Vec<Against> = failed.collect();
     let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
-    let most = policy.most_friction_left;
+    let most = verdict::MAX_HELD_OUT_ERROR;
     if error.is_nan() || error > most {
         say(
             Reason::FrictionLeft { error, most, on },
@@ -290,7 +292,7 @@ fn of_held_out(held_out: &HeldOut, facts: &Facts, policy: &Policy) -> Vec<Agains
         say(Reason::NothingHeldOut, facts.no_law.clone());
     }
     let reversals = facts.reversals;
-    if (reversals as f64) < policy.least_reversals && facts.coulomb_is_open {
+    if (reversals as f64) < verdict::MIN_REVERSALS && facts.coulomb_is_open {
         say(Reason::FewReversals { reversals }, Action::CHECK);
     }
     all
@@ -349,22 +351,18 @@ pub(super) struct UnseenFacts {
 
 impl SimulatedFacts {
     /// Whether noise of the logged force, integrated twice, biases the parameters beyond their intervals.
-    pub fn is_biased(&self, policy: &Policy) -> bool {
+    pub fn is_biased(&self) -> bool {
         let (samples, unknowns) = self.samples;
-        let enough = samples >= policy.least_samples_per_unknown * unknowns as f64;
-        !(self.closed_loop || self.over_encoder < policy.encoder_residual || enough)
+        let enough = samples >= verdict::MIN_SAMPLES_PER_UNKNOWN * unknowns as f64;
+        !(self.closed_loop || self.over_encoder < verdict::MAX_ENCODER_RESIDUAL || enough)
     }
 }
 
 /// All that speaks against a law that was fitted to a simulated position, beside what does against any.
-pub(super) fn of_simulation(
-    facts: &Facts,
-    simulated: &SimulatedFacts,
-    policy: &Policy,
-) -> Vec<Against> {
-    let mut all = of_records(facts, policy);
+pub(super) fn of_simulation(facts: &Facts, simulated: &SimulatedFacts) -> Vec<Against> {
+    let mut all = of_records(facts);
     let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
-    if simulated.is_biased(policy) {
+    if simulated.is_biased() {
         let (samples, unknowns) = simulated.samples;
         say(
             Reason::CorrelatedResidual { samples, unknowns },
@@ -379,7 +377,7 @@ pub(super) fn of_simulation(
         say(Reason::NothingDetermined { closed_loop }, Action::CHECK);
     }
     for unseen in &simulated.unseen {
-        if let Some(reason) = of_unseen(unseen, policy) {
+        if let Some(reason) = of_unseen(unseen) {
             say(reason, Action::CHECK);
         }
     }
@@ -395,8 +393,8 @@ pub(super) fn of_simulation(
     all
 }
 
-fn of_unseen(unseen: &UnseenFacts, policy: &Policy) -> Option<Reason> {
-    let most = policy.most_position_error;
+fn of_unseen(unseen: &UnseenFacts) -> Option<Reason> {
+    let most = verdict::MAX_POSITION_ERROR;
     let fails = |ratio: f64, seconds: Option<f64>, of_encoder: bool| Reason::PositionFails {
         log: unseen.log.clone(),
         seconds,
@@ -414,11 +412,11 @@ fn of_unseen(unseen: &UnseenFacts, policy: &Policy) -> Option<Reason> {
         return Some(fails(ratio, Some(seconds), short));
     }
     let explained = unseen.explained;
-    let is_poor = explained.is_nan() || explained < policy.least_r2;
+    let is_poor = explained.is_nan() || explained < verdict::MIN_R2;
     (unseen.over_encoder > most && is_poor).then(|| Reason::PositionUnexplained {
         log: unseen.log.clone(),
         explained,
-        least: policy.least_r2,
+        least: verdict::MIN_R2,
     })
 }
 
@@ -442,7 +440,7 @@ pub(super) struct CurveFacts {
 }
 
 /// All that speaks against a steady curve.
-pub(super) fn of_curve(facts: &CurveFacts, policy: &Policy) -> Vec<Against> {
+pub(super) fn of_curve(facts: &CurveFacts) -> Vec<Against> {
     let mut all = Vec::new();
     let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
     if facts.lacks_intervals {
@@ -451,20 +449,20 @@ pub(super) fn of_curve(facts: &CurveFacts, policy: &Policy) -> Vec<Against> {
     if facts.status == Status::Interrupted {
         say(Reason::Interrupted, Action::Again);
     }
-    of_saturation(facts.saturated, policy, &mut say);
+    of_saturation(facts.saturated, &mut say);
     let part = facts.outlying;
-    if part > policy.most_outlying {
+    if part > verdict::MAX_OUTLYING_SHARE {
         say(Reason::OutlyingPoints { part }, Action::CHECK);
     }
     if facts.lacks_coulomb {
         say(Reason::NoCoulomb, Action::CHECK);
     }
     let (level, ratio) = facts.level;
-    if ratio > policy.extrapolated_level {
+    if ratio > verdict::MAX_EXTRAPOLATION {
         say(Reason::Extrapolated { level, ratio }, Action::CHECK);
     }
-    if facts.explained.is_nan() || facts.explained < policy.least_r2 {
-        let least = policy.least_r2;
+    if facts.explained.is_nan() || facts.explained < verdict::MIN_R2 {
+        let least = verdict::MIN_R2;
         say(Reason::PoorCurve { least }, Action::CHECK);
     }
     all
@@ -503,7 +501,6 @@ pub(super) fn of_a_stop() -> Vec<Against> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use stiction_policy::VERDICT;
 
     /// A law that nothing speaks against.
     fn sound() -> Facts {
@@ -539,7 +536,7 @@ mod tests {
     fn with(change: impl Fn(&mut Facts)) -> Vec<Against> {
         let mut facts = sound();
         change(&mut facts);
-        of_records(&facts, &VERDICT)
+        of_records(&facts)
     }
 
     #[test]
