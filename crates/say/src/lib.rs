@@ -9,8 +9,13 @@
 //! assert_eq!(reason.to_string(), "the log has 1 reversal, too few to determine the Coulomb level");
 //! ```
 
+mod found;
 mod notice;
 mod reason;
 
-pub use notice::Notice;
+pub use found::{
+    AtRest, Dropout, ForceLine, Found, Jump, Mended, Mismatch, Moving, Sample, Size, Turn, Useless,
+    Value, WrongWrap, Zeros, counter,
+};
+pub use notice::{Notice, Whose};
 pub use reason::{On, Reason};

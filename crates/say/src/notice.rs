@@ -1,13 +1,32 @@
 //! What to beware of in a result.
 
+use crate::Found;
 use std::fmt;
 use stiction_codes::Code;
 use stiction_number::{Percent, four_digits, short};
+
+/// The logs that a finding is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Whose {
+    /// One that is fitted.
+    Fitted,
+    /// So many of all that are fitted.
+    Many(usize, usize),
+    /// One that is validated on.
+    Validated,
+}
 
 /// Something a user should know although the work went on. Parts are dimensionless, 1 is all.
 #[derive(Clone, Debug, PartialEq)]
 #[allow(missing_docs)] // A field is what its name says; the variant says of what.
 pub enum Notice {
+    /// Something found in a log, or in many of which it is the first.
+    InLog {
+        log: String,
+        whose: Whose,
+        found: Box<Found>,
+        axis_file: String,
+    },
     /// Positions were sampled beside their time stamps.
     InaccurateStamps { seconds: f64, of_sample: f64 },
     /// No delay within the range fits.
@@ -38,6 +57,7 @@ impl Notice {
     /// The code that its page is named by.
     pub fn code(&self) -> Code {
         match self {
+            Self::InLog { found, .. } => found.code(),
             Self::InaccurateStamps { .. } => Code::Jitter,
             Self::DelayOutOfRange | Self::DelayOfStep => Code::DelayOutOfRange,
             Self::CheckpointLost { .. } => Code::BadCheckpoint,
@@ -59,6 +79,14 @@ impl fmt::Display for Notice {
     #[rustfmt::skip] // One line a sentence.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::InLog { log, whose, found, axis_file } => {
+                let found = found.words(axis_file);
+                match whose {
+                    Whose::Fitted => write!(f, "{log}: {found}"),
+                    Whose::Many(alike, all) => write!(f, "in {alike} of {all} logs, the first {log}: {found}"),
+                    Whose::Validated => write!(f, "{log}, which is not fitted: {found}"),
+                }
+            }
             Self::InaccurateStamps { seconds, of_sample } => write!(f, "time stamps are inaccurate: positions were sampled {} us rms ({:.0} % of a sample) away from their stamps. Intervals include this; a log with hardware time stamps narrows them", four_digits(1e6 * seconds), 100.0 * of_sample),
             Self::DelayOutOfRange => f.write_str("no delay of up to four samples fits and it is taken as zero: force or motion was logged late or filtered, or something acts that the law does not describe"),
             Self::DelayOfStep => f.write_str("the delay between force and position is at its search bound of two samples: it stands for something that the law does not describe, such as another force held before the step than that of the model"),

@@ -274,12 +274,12 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
             .findings
             .iter()
             .map(|f| Finding {
-                code: f.code,
+                code: f.code(),
                 severity: match f.severity {
                     Severity::Note => "note".into(),
                     Severity::Warning => "warning".into(),
                 },
-                message: f.message.clone(),
+                message: f.to_string(),
             })
             .collect(),
         conditioning: Vec::new(),

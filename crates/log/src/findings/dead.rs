@@ -1,10 +1,10 @@
 //! A force that is zero while the axis moves: the drive was off, and something else moved it.
 
-use super::finding::{Finding, Severity, extremes, place};
+use super::finding::{Finding, extremes, place};
 use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
-use stiction_number::{counted as count, short};
+use stiction_say::Found;
 
 /// Largest force that counts as none, in parts of what nine of ten samples do not exceed: friction of a moving axis is more.
 const NONE: f64 = 0.03;
@@ -42,17 +42,13 @@ pub(super) fn dead(log: &mut Log) {
         return;
     };
     let Some(first) = runs.first() else { return };
-    let samples: usize = runs.iter().map(Range::len).sum();
-    let message = format!(
-        "the force is zero while the axis moves, in {} ({} in all), the first from {} to {} s: the drive was off, and something else moved \
-         the axis; these samples are excluded",
-        count(runs.len(), "stretch").replace("stretchs", "stretches"),
-        count(samples, "sample"),
-        place(log, first.start),
-        short(log.time[first.end - 1]),
-    );
-    let finding = Finding::new(Code::ForceDead, Severity::Warning, message).at(first.start);
-    log.findings.push(finding);
+    let found = Found::ForceDead {
+        stretches: runs.len(),
+        samples: runs.iter().map(Range::len).sum(),
+        first: place(log, first.start),
+        until: log.time[first.end - 1],
+    };
+    log.findings.push(Finding::warning(found).at(first.start));
     let beside = (BESIDE * log.rate_hz).ceil() as usize;
     for run in runs {
         let last = log.time.len();

@@ -1,10 +1,10 @@
 //! Single samples of the force far beyond all others: transmission errors, which would be most of what a fit sees.
 
-use super::finding::{Finding, Severity, place};
+use super::finding::{Finding, place};
 use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
-use stiction_number::{counted as count, short};
+use stiction_say::{Found, Value};
 
 /// Most such samples above all others, and as many below: more are how the force runs. Also at most one in a thousand.
 const MOST: usize = 20;
@@ -48,17 +48,13 @@ pub(super) fn spikes(log: &mut Log) {
             force[row] = from + (to - from) * f64::from(step) / steps;
         }
     }
-    let samples = runs.iter().map(Range::len).sum::<usize>();
-    let message = format!(
-        "force is beyond all others by more than {BEYOND} times their range in {}, first {} {} at {}: errors of the measurement \
-         or its transmission; interpolated and excluded",
-        count(samples, "sample"),
-        short(largest),
-        log.force_unit,
-        place(log, first)
-    );
-    log.findings
-        .push(Finding::new(Code::ForceSpike, Severity::Warning, message).at(first));
+    let found = Found::Outliers {
+        samples: runs.iter().map(Range::len).sum(),
+        times: BEYOND,
+        force: Value::new(largest, &log.force_unit),
+        first: place(log, first),
+    };
+    log.findings.push(Finding::warning(found).at(first));
     for run in runs {
         log.exclude(run, Code::ForceSpike);
     }

@@ -2,11 +2,11 @@
 
 use super::coarse::Coarse;
 use crate::error::Settled;
-use crate::findings::{Finding, Severity, count, full, median, short};
+use crate::findings::{Finding, count, full, median, short};
 use crate::mapping::{LARGEST_VALUE, Mapping, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
-use stiction_codes::Code;
+use stiction_say::Found;
 
 /// Largest share of the rows that may be dropped for their time stamps; above it the log is refused.
 const MAX_DROPPED_SHARE: f64 = 0.05;
@@ -166,15 +166,22 @@ fn stamped(
             let allowed = "at most 5 % of the rows; give the rate instead of the time column";
             return Err(Error::new(Kind::Time, found, allowed).at_data_row(first as u64 + 1));
         }
-        let message = format!("{found}, first data row {}; dropped", first + 1);
-        findings.push(Finding::new(Code::TimeMissing, Severity::Warning, message));
+        findings.push(Finding::warning(Found::NoStamps {
+            rows: stampless.len(),
+            first: first + 1,
+        }));
     }
     if let Some(first) = repeated.first()
         && share(&repeated) <= MAX_DROPPED_SHARE
         && stampless.is_empty()
         && let Some(clock) = coarse()
     {
-        findings.push(counted_in_place(&clock, &repeated, first + 1));
+        findings.push(Finding::note(Found::CountedRows {
+            rows: repeated.len(),
+            first: first + 1,
+            tick: clock.tick,
+            rate: clock.rate_hz,
+        }));
         time = (0..range.len())
             .map(|row| row as f64 / clock.rate_hz)
             .collect();
@@ -229,25 +236,16 @@ fn stamped(
             let error = Error::new(Kind::Time, found, allowed).settled(Settled::Elsewhere);
             return Err(error.at_data_row(first as u64 + 1));
         }
-        let message = format!(
-            "{found}, first data row {} at {} s; the first of each is kept",
-            first + 1,
-            short(since(first, origin))
-        );
-        findings.push(Finding::new(
-            Code::DuplicateTime,
-            Severity::Warning,
-            message,
-        ));
+        findings.push(Finding::warning(Found::RepeatedStamps {
+            rows: repeated.len(),
+            first: first + 1,
+            seconds: since(first, origin),
+        }));
     }
     if let Some(&(row, size)) = lifts.iter().find(|(row, _)| range.contains(row)) {
         let times = lifts.iter().filter(|(row, _)| range.contains(row)).count();
-        let message = format!(
-            "the time counter overflowed at {size} {}, first in data row {}; it was unwrapped",
-            count(times, "time"),
-            row + 1
-        );
-        findings.push(Finding::new(Code::TimeWrap, Severity::Note, message));
+        let first = row + 1;
+        findings.push(Finding::note(Found::TimeOverflow { size, times, first }));
     }
     if time.last().is_some_and(|t| *t > MAX_DURATION) {
         let found = format!("the record lasts {} s", short(*time.last().unwrap_or(&0.0)));
@@ -297,18 +295,6 @@ fn two_units(time: &[f64]) -> Option<(usize, [f64; 2])> {
     // The longest stretch of them that reaches the end.
     let at = steps.iter().rposition(|step| !is_of_the_end(step))? + 1;
     Some((at + 1, [from, to]))
-}
-
-/// Says that rows are at one rate, which the stamps of a coarse clock do not show one by one.
-fn counted_in_place(clock: &Coarse, repeated: &[usize], first: usize) -> Finding {
-    let message = format!(
-        "{} with the time stamp of the row before, first data row {first}: the stamps are rounded to {} s, and the rows are at one rate, \
-         {} Hz, at which they are counted",
-        count(repeated.len(), "row"),
-        short(clock.tick),
-        clock.rate_hz
-    );
-    Finding::new(Code::DuplicateTime, Severity::Note, message)
 }
 
 /// The rate of the rows, Hz, whose stamps a clock rounds that is coarser than the sampling; `None` where the stamps are to be kept.

@@ -12,7 +12,7 @@ use stiction_identify::{
     Alignment, Delay, FittedLaw, ForceFilter, Observer, Smoothing, alignment, force_filter,
     lateness,
 };
-use stiction_log::{Offset, Role};
+use stiction_log::{Found, Offset, Role};
 use stiction_number::{four_digits, full};
 use stiction_parameters::Quantity;
 
@@ -99,11 +99,12 @@ pub(super) fn unfiltered(
         return Ok((loaded, conditioned));
     };
     // What a position that is held hides of the motion looks like a force that is smoothed.
-    let is_held = |source: &Source| {
-        let mut findings = source.log.findings.iter();
-        findings.any(|finding| finding.code == Code::HeldPosition)
-    };
-    if loaded.sources.iter().any(is_held) {
+    let is_held = |found: &Found| matches!(found, Found::HeldPosition { .. });
+    if loaded
+        .sources
+        .iter()
+        .any(|source| source.log.finds(is_held))
+    {
         return Ok((loaded, conditioned));
     }
     let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
@@ -141,10 +142,7 @@ pub(super) fn unfiltered(
 /// Whether a delay is looked for.
 fn is_sought(asked: Asked, loaded: &Loaded) -> bool {
     // A force of the wrong sign looks late, by half of a period.
-    let is_inverted = |source: &Source| {
-        let mut findings = source.log.findings.iter();
-        findings.any(|finding| finding.code == Code::ForceSign)
-    };
+    let is_inverted = super::logs::has_wrong_sign;
     asked.axis.terms.delay == Delay::Fitted
         && asked.options.procedures.method.fits_force()
         && loaded.contradicted.is_none()
