@@ -5,14 +5,13 @@
 
 use super::condition::Conditioned;
 use super::load::{Asked, Loaded};
-use stiction_codes::Code;
 use stiction_files::{Warning, symbols};
 use stiction_identify as engine;
 use stiction_identify::{
     Delay, Effect, Law, LawKind, Mass, Observer, Parameter, Settings, Status, Terms,
 };
-use stiction_number::{Percent, four_digits, full};
 use stiction_parameters::{Name, Quantity};
+use stiction_say::{Notice, Stated as Kind};
 
 /// Distance of a fitted Stribeck exponent from another one, of logarithms, that filters and encoder may have made: on simulated axes up to
 /// 0.14 (decision 0064).
@@ -61,7 +60,7 @@ pub(super) fn named(
             if log.force_unit == symbols::force_unit(log.motion) =>
         {
             Stated {
-                code: Code::MassDisagrees,
+                stated: Kind::Mass,
                 law,
                 open: Terms {
                     mass: Mass::Fitted,
@@ -69,13 +68,12 @@ pub(super) fn named(
                 },
                 quantity: Quantity::Mass,
                 scale: 1.0,
-                what: format!("a mass of {} {unit}", four_digits(mass)),
-                unit: format!(" {unit}"),
-                to_do: "Write mass = \"fit\" in its place in the axis file; a mass that is known surely is a force in another scale or unit",
+                value: mass,
+                unit,
             }
         }
         (Effect::Delay(_), _, Delay::Given(delay), _) => Stated {
-            code: Code::DelayDisagrees,
+            stated: Kind::Delay,
             law,
             open: Terms {
                 delay: Delay::Fitted,
@@ -83,20 +81,18 @@ pub(super) fn named(
             },
             quantity: Quantity::Delay,
             scale: 1e3,
-            what: format!("a delay of {} ms", four_digits(1e3 * delay)),
-            unit: " ms".into(),
-            to_do: "Write delay = \"fit\" in its place under [terms] in the axis file",
+            value: 1e3 * delay,
+            unit: "ms".into(),
         },
         (Effect::Curve, _, _, Some(exponent)) if asked.options.law.is_none_or(has_curve) => {
             Stated {
-                code: Code::ExponentDisagrees,
+                stated: Kind::Exponent,
                 law: law.with_fitted_exponent(),
                 open,
                 quantity: Quantity::StribeckExponent,
                 scale: 1.0,
-                what: format!("a Stribeck exponent of {}", full(exponent)),
+                value: exponent,
                 unit: String::new(),
-                to_do: "Write stribeck_exponent = \"fit\" in its place under [terms] in the axis file",
             }
         }
         _ => return None,
@@ -104,23 +100,19 @@ pub(super) fn named(
     let (free, _) = fit(stated.law, &stated.open)?;
     let found = free.parameter(stated.quantity)?;
     let (low, high) = found.ci95?;
-    let [value, low, high] = [found.value, low, high].map(|x| four_digits(stated.scale * x));
-    let left = Percent::error(100.0 * (free.fit.rmse / held.fit.rmse).powi(2)).digits(2);
-    let Stated {
-        what, unit, to_do, ..
-    } = stated;
-    Some(Warning::new(
-        stated.code,
-        format!(
-            "the axis file states {what}, and the log shows {value}{unit} ({low} to {high}): with that {left} of what the law leaves beside the \
-             stated one is left. {to_do}"
-        ),
-    ))
+    let notice = Notice::Contradicted {
+        stated: stated.stated,
+        value: stated.value,
+        shown: [found.value, low, high].map(|x| stated.scale * x),
+        unit: stated.unit,
+        left: (free.fit.rmse / held.fit.rmse).powi(2),
+    };
+    Some(notice.into())
 }
 
 /// What an axis file states and a log contradicts.
 struct Stated {
-    code: Code,
+    stated: Kind,
     /// The law and the terms with which it is fitted instead.
     law: Law,
     open: Terms,
@@ -128,8 +120,8 @@ struct Stated {
     /// From SI to the unit of the message, and that.
     scale: f64,
     unit: String,
-    what: String,
-    to_do: &'static str,
+    /// In that unit.
+    value: f64,
 }
 
 /// How many times larger or smaller than `limits.mass` what moves may be (docs/axis.md).
@@ -149,15 +141,12 @@ pub(super) fn against_limits(
     let (low, high) = found.ci95?;
     (low > OF_LIMITS * mass || high < mass / OF_LIMITS).then_some(())?;
     let unit = symbols::unit(found.name.dimension(), log.motion, &log.force_unit, "");
-    let [limit, value, low, high] = [mass, found.value, low, high].map(four_digits);
-    Some(Warning::new(
-        Code::MassDisagrees,
-        format!(
-            "limits.mass of the axis file is {limit} {unit}, within a factor of two, and the log shows {value} {unit} ({low} to {high}): the \
-             position, the time or the force of the log has another unit or scale than the axis file says, and every number with it, or \
-             limits.mass is not what moves. Correct the one that is wrong"
-        ),
-    ))
+    let notice = Notice::LimitsMass {
+        limit: mass,
+        shown: [found.value, low, high],
+        unit,
+    };
+    Some(notice.into())
 }
 
 fn of(parameters: &[Parameter], name: Quantity) -> Option<Parameter> {

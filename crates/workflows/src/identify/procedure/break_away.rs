@@ -5,12 +5,12 @@ use crate::error::Error;
 use crate::identify::beside::Beside;
 use crate::identify::logs::{refused, samples};
 use std::collections::VecDeque;
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::{BreakAwayEntry, ResultFile};
 use stiction_identify::FittedLaw;
 use stiction_identify::procedure::{Run, break_away as find, predict_break_away};
 use stiction_parameters::{Name, ParameterSet, Quantity, Side};
+use stiction_say::Notice;
 
 /// Speed that counts as broken away, as a part of the Stribeck velocity, where a model is known, dimensionless: well above
 /// the creep of presliding, well below the velocity at which friction has fallen.
@@ -96,8 +96,8 @@ pub(in crate::identify) fn break_away(
         return Err(first);
     }
     for refusal in refusals {
-        let text = format!("{refusal}; this run is left out");
-        out.warnings.push(Warning::new(Code::NoBreakAway, text));
+        let why = refusal.to_string();
+        out.warnings.push(Notice::NoBreakAway { why }.into());
     }
     Ok(out)
 }

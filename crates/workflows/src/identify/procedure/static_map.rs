@@ -12,6 +12,7 @@ use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::{Axis, Warning};
 use stiction_identify::{LawKind, Observer, Status};
+use stiction_say::Notice;
 
 /// The whole workflow.
 pub(in crate::identify) fn run(
@@ -65,12 +66,8 @@ fn one_direction(found: &Mapped) -> Option<Warning> {
     if forward > 0 && forward < points.len() {
         return None;
     }
-    let text = format!(
-        "all {} points are of one direction: friction cannot be separated from a constant force; record the same speeds \
-         the other way too",
-        points.len()
-    );
-    Some(Warning::new(Code::OneDirection, text))
+    let points = points.len();
+    Some(Notice::PointsOneWay { points }.into())
 }
 
 fn notes(found: &Mapped, sources: &[Source], axis: &Axis) -> Vec<String> {

@@ -21,6 +21,7 @@ use stiction_identify::procedure::{Run, Statics, StepFit, StepResponse, StepSett
 use stiction_identify::{LawKind, Mass, Observer};
 use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity, Side};
+use stiction_say::Notice;
 
 /// Findings about a log that hardly moves, which a step below break-away does on purpose.
 const ON_PURPOSE: [Code; 5] = [
@@ -143,12 +144,7 @@ fn settings(
         given: [[0.0; 7]; 7],
     };
     if beside.model.is_none() && beside.statics.is_empty() {
-        warnings.push(Warning::new(
-            Code::StaticsAssumed,
-            "neither a model nor logs of constant velocities give the steady curve: its level is taken as constant and \
-             fitted, sigma2 and the constant force F₀ as zero: the bristles are taken to carry all that is held before the step. sigma1 then stands for sigma1 + sigma2, and where the axis gets \
-             near the Stribeck velocity all parameters are off by more than their intervals",
-        ));
+        warnings.push(Notice::AssumedCurve.into());
         return Ok((settings, None, Vec::new()));
     }
     let known = curve::known(asked, sources, beside, observer)?;
@@ -244,14 +240,8 @@ fn entry(
         .map(|(k, (_, step))| {
             let inverted = step.invert(mass, viscous);
             if inverted.sigma1.is_none() {
-                warnings.push(Warning::new(
-                    Code::NoOvershoot,
-                    format!(
-                        "{}: the published inversion gives no sigma1, since the axis does not overshoot; \
-                         the fit by simulation needs no overshoot",
-                        path_of(sources, k)
-                    ),
-                ));
+                let log = path_of(sources, k);
+                warnings.push(Notice::NoOvershoot { log }.into());
             }
             InversionEntry {
                 path: path_of(sources, k),
