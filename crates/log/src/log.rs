@@ -510,9 +510,7 @@ impl Log {
         };
         let code = found.code();
         // A row or two more than the low-pass itself are how a drive counts its filter.
-        let is_smoothed =
-            |f: &Found| matches!(f, Found::ForceLowPass { .. } | Found::ForceMean { .. });
-        let filtered = self.finds(is_smoothed);
+        let filtered = self.finds(Found::is_force_smoothed);
         let least = if filtered { 3 } else { 1 };
         self.findings
             .retain(|f| !matches!(f.kind, Found::ForceLate { .. }));

@@ -423,6 +423,21 @@ impl Found {
         }
     }
 
+    /// Whether time steps vary.
+    pub fn is_jitter(&self) -> bool {
+        matches!(self, Self::Jitter { .. } | Self::RoundedStamps { .. })
+    }
+
+    /// Whether force and motion were not logged together, or the force smoothed.
+    pub fn is_force_moved(&self) -> bool {
+        matches!(self, Self::ForceLate { .. }) || self.is_force_smoothed()
+    }
+
+    /// Whether the force was logged smoothed.
+    pub fn is_force_smoothed(&self) -> bool {
+        matches!(self, Self::ForceLowPass { .. } | Self::ForceMean { .. })
+    }
+
     /// Whether a unit is probably wrong.
     pub fn is_unlikely_size(&self) -> bool {
         matches!(
@@ -599,7 +614,10 @@ pub fn counter(counts: u64) -> String {
 }
 
 fn stretches(number: usize) -> String {
-    counted(number, "stretch").replace("stretchs", "stretches")
+    match number {
+        1 => "1 stretch".into(),
+        _ => format!("{number} stretches"),
+    }
 }
 
 fn and(all: impl Iterator<Item = String>) -> String {

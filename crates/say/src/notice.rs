@@ -196,6 +196,8 @@ impl fmt::Display for Whole {
 pub enum Notice {
     /// Something found in a log, or in many of which it is the first.
     InLog { log: String, whose: Whose, found: Box<Found>, axis_file: String },
+    /// A force that is late or early, with what states it.
+    Late { found: Box<Self>, whole: Whole },
     /// Positions were sampled beside their time stamps.
     InaccurateStamps { seconds: f64, of_sample: f64 },
     /// No delay within the range fits.
@@ -293,10 +295,20 @@ pub enum Notice {
 }
 
 impl Notice {
+    /// What was found in a log, if it is that.
+    pub fn found(&self) -> Option<&Found> {
+        match self {
+            Self::InLog { found, .. } => Some(found),
+            Self::Late { found, .. } => found.found(),
+            _ => None,
+        }
+    }
+
     /// The code that its page is named by.
     pub fn code(&self) -> Code {
         match self {
             Self::InLog { found, .. } => found.code(),
+            Self::Late { found, .. } => found.code(),
             Self::InaccurateStamps { .. } => Code::Jitter,
             Self::DelayOutOfRange | Self::DelayOfStep => Code::DelayOutOfRange,
             Self::CheckpointLost { .. } => Code::BadCheckpoint,
@@ -392,6 +404,7 @@ impl fmt::Display for Notice {
                     Whose::Validated => write!(f, "{log}, which is not fitted: {found}"),
                 }
             }
+            Self::Late { found, whole } => write!(f, "{found}. {whole}"),
             Self::InaccurateStamps { seconds, of_sample } => write!(f, "time stamps are inaccurate: positions were sampled {} us rms ({:.0} % of a sample) away from their stamps. Intervals include this; a log with hardware time stamps narrows them", four_digits(1e6 * seconds), 100.0 * of_sample),
             Self::DelayOutOfRange => f.write_str("no delay of up to four samples fits and it is taken as zero: force or motion was logged late or filtered, or something acts that the law does not describe"),
             Self::DelayOfStep => f.write_str("the delay between force and position is at its search bound of two samples: it stands for something that the law does not describe, such as another force held before the step than that of the model"),

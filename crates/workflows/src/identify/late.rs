@@ -6,7 +6,6 @@ use super::load::{Asked, Loaded};
 use super::logs::paths;
 use crate::error::Error;
 use crate::source::Source;
-use stiction_codes::Code;
 use stiction_files::{Axis, Warning, shell};
 use stiction_identify::{
     Alignment, Delay, FittedLaw, ForceFilter, Observer, Smoothing, alignment, force_filter,
@@ -14,7 +13,7 @@ use stiction_identify::{
 };
 use stiction_log::{Found, Offset, Role};
 use stiction_parameters::Quantity;
-use stiction_say::Whole;
+use stiction_say::{Notice, Whole};
 
 /// Lays force and motion beside each other, where no delay is given and whole records are fitted.
 pub(super) fn aligned(asked: Asked, mut loaded: Loaded) -> Result<Loaded, Error> {
@@ -166,11 +165,12 @@ impl Loaded {
 
 /// Adds to the warning of a force that is late or early the line that states the whole delay, and the command that then takes it.
 pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &mut [Warning]) {
-    let late = warnings
-        .iter_mut()
-        .rev()
-        .find(|w| [Code::ForceLate, Code::MotionLate].contains(&w.code));
-    let Some(warning) = late else { return };
+    let late = warnings.iter_mut().rev().find_map(|warning| {
+        let kind = warning.kind()?.clone();
+        let is_late = matches!(kind.found(), Some(Found::ForceLate { .. }));
+        is_late.then_some((warning, kind))
+    });
+    let Some((warning, kind)) = late else { return };
     let (further, in_table) = match (law.value(Quantity::Delay), law.terms.delay) {
         (Some(delay), _) => (delay, true),
         (None, Delay::Given(delay)) => (delay, false),
@@ -210,7 +210,8 @@ pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &
             command: command(&axis),
         },
     };
-    warning.message.push_str(&format!(". {whole}"));
+    let found = Box::new(kind);
+    *warning = Notice::Late { found, whole }.into();
 }
 
 /// What is added to the time stamps of a force that comes from another file, s; `None` where it comes from the log.

@@ -55,11 +55,19 @@ const MOST_NAMED: usize = 3;
 
 /// What the reader warned of, with the log it is about; what was found in many logs is said once.
 pub(super) fn log_warnings(sources: &[Source]) -> Vec<Warning> {
+    log_warnings_but(sources, |_| false)
+}
+
+/// The same but for some kinds.
+pub(super) fn log_warnings_but(
+    sources: &[Source],
+    passed_over: impl Fn(&Found) -> bool,
+) -> Vec<Warning> {
     let mut out = Vec::new();
     let mut said: Vec<Code> = Vec::new();
     for source in sources {
         for finding in warnings_of(source) {
-            if said.contains(&finding.code()) {
+            if said.contains(&finding.code()) || passed_over(&finding.kind) {
                 continue;
             }
             let same = |s: &&Source| warnings_of(s).any(|f| f.code() == finding.code());

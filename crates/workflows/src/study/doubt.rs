@@ -1,7 +1,6 @@
 //! What a run shows that its figures do not: a force at its limit, a command that shakes, a load that nothing was learnt of.
 
 use super::machine::largest_force;
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::study::Study;
 use stiction_files::study::result::ResultRow;
@@ -14,12 +13,13 @@ const WARNED_SHARE_AT_LIMIT: f64 = 0.01;
 /// dimensionless: a loop that swings between its limits in 64 samples or fewer.
 const WARNED_COMMAND_CHANGE: f64 = 0.1;
 
-/// Codes of the warnings that are made here.
-pub const CODES: [Code; 3] = [
-    Code::AtForceLimit,
-    Code::UnsteadyCommand,
-    Code::LoadNotLearnt,
-];
+/// Whether a warning is one of those that are made here: some figures are misleading.
+pub fn is_misleading(warning: &Warning) -> bool {
+    matches!(
+        warning.kind(),
+        Some(Notice::AtForceLimit { .. } | Notice::Shaking { .. } | Notice::LoadNotLearnt { .. })
+    )
+}
 
 /// What is to be said of the rows of a path or contour under a controller.
 pub(super) fn warnings(study: &Study, rows: &[ResultRow]) -> Vec<Warning> {

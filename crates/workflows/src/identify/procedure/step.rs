@@ -7,12 +7,11 @@ use crate::error::Error;
 use crate::identify::assemble::{self, Parts};
 use crate::identify::beside::Beside;
 use crate::identify::load::{Asked, Loaded};
-use crate::identify::logs::{log_warnings, path_of, refused, run_of, samples};
+use crate::identify::logs::{log_warnings_but, path_of, refused, run_of, samples};
 use crate::identify::outcome::{Found, Outcome};
 use crate::identify::trust;
 use crate::source::Source;
 use crate::wording::{Setting, TOGETHER_WITH};
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::{InversionEntry, PreslidingStepEntry, StaticMapEntry};
 use stiction_files::symbols;
@@ -21,16 +20,19 @@ use stiction_identify::procedure::{Run, Statics, StepFit, StepResponse, StepSett
 use stiction_identify::{LawKind, Mass, Observer};
 use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity, Side};
-use stiction_say::Notice;
+use stiction_say::{Found as Kind, Notice};
 
 /// Findings about a log that hardly moves, which a step below break-away does on purpose.
-const ON_PURPOSE: [Code; 5] = [
-    Code::NoMotion,
-    Code::NoiseOnly,
-    Code::CoarsePosition,
-    Code::OneDirection,
-    Code::ConstantVelocity,
-];
+fn is_on_purpose(found: &Kind) -> bool {
+    matches!(
+        found,
+        Kind::NoMotion { .. }
+            | Kind::Noise { .. }
+            | Kind::FewSteps { .. }
+            | Kind::OneDirection { .. }
+            | Kind::OneSpeed { .. }
+    )
+}
 
 /// The whole workflow.
 pub(in crate::identify) fn run(
@@ -48,8 +50,7 @@ pub(in crate::identify) fn run(
         let step = StepResponse::read(&run, k).map_err(|e| refused(sources, e))?;
         runs.push((run, step));
     }
-    let mut warnings = log_warnings(sources);
-    warnings.retain(|w| !ON_PURPOSE.contains(&w.code));
+    let mut warnings = log_warnings_but(sources, is_on_purpose);
     let (settings, map, undetermined) = settings(
         asked,
         sources,
