@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_number::short;
+use stiction_say::Notice;
 
 /// A file that cannot be read, understood or written.
 #[derive(Debug, thiserror::Error)]
@@ -167,12 +168,14 @@ fn lines(all: &[Error]) -> String {
 }
 
 /// Something a user should know although the work went on.
-#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Debug, serde::Serialize, serde::Deserialize)]
 pub struct Warning {
     /// What it is; each code has a page in `docs/codes/`.
     pub code: Code,
     /// What was seen, with numbers.
     pub message: String,
+    #[serde(skip)]
+    kind: Option<Box<Notice>>,
 }
 
 impl Warning {
@@ -181,12 +184,30 @@ impl Warning {
         Self {
             code,
             message: message.into(),
+            kind: None,
         }
+    }
+
+    /// What it is, with its numbers; `None` where only its words are known, as after it was read from a file.
+    pub fn kind(&self) -> Option<&Notice> {
+        self.kind.as_deref()
     }
 }
 
-impl From<stiction_say::Notice> for Warning {
-    fn from(notice: stiction_say::Notice) -> Self {
-        Self::new(notice.code(), notice.to_string())
+impl PartialEq for Warning {
+    fn eq(&self, other: &Self) -> bool {
+        (self.code, &self.message) == (other.code, &other.message)
+    }
+}
+
+impl Eq for Warning {}
+
+impl From<Notice> for Warning {
+    fn from(notice: Notice) -> Self {
+        Self {
+            code: notice.code(),
+            message: notice.to_string(),
+            kind: Some(Box::new(notice)),
+        }
     }
 }

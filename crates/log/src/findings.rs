@@ -53,6 +53,7 @@ pub use finding::{Finding, Severity};
 pub(crate) use finding::{extremes, median};
 pub(crate) use force::{levels, sign_of_another_clock};
 pub(crate) use stiction_number::{counted as count, full, short};
+pub use stiction_say::Found;
 
 /// Inspects a log whose columns are complete, adds what it finds, and excludes what it must.
 pub(crate) fn inspect(log: &mut Log, mapping: &Mapping) {

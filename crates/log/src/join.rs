@@ -8,11 +8,11 @@
 mod lag;
 mod offset;
 
-use crate::findings::{Finding, Severity, count, full, median, short};
+use crate::findings::{Finding, count, full, median};
 use crate::mapping::{Channel, Mapping, Role, Source, select, time_source, wanted};
 use crate::{Column, Error, Kind, Selector, Table};
-use stiction_codes::Code;
 use stiction_policy::join;
+use stiction_say::Found;
 
 /// Part of a step by which a row at an end of the other column may miss it by the rounding of time stamps.
 const ROUNDING: f64 = 1e-4;
@@ -249,41 +249,19 @@ impl Joined {
         step: f64,
         (from, offset): (&Elsewhere, f64),
     ) {
-        let cut = values.iter().filter(|x| x.is_nan()).count();
-        let mut message = format!("{} is joined from {name} by time stamps", from.role.name());
-        if offset != 0.0 {
-            message.push_str(&format!(", {} s added to them", short(offset)));
-        }
-        message.push_str(&format!(
-            "; it is sampled at {} Hz, the log at {} Hz",
-            short(1.0 / course.step),
-            short(1.0 / step)
-        ));
         let last = time.iter().copied().rfind(|t| t.is_finite()).unwrap_or(0.0);
         let slow = matches!(from.role, Role::Temperature | Role::Load);
-        if !slow && course.step >= join::MIN_THINNED_RATIO * step {
-            message.push_str(&format!(
-                ", so the {} nearest to its samples are kept",
-                count(values.len(), "row")
-            ));
-        }
-        if cut > 0 {
-            message.push_str(&format!(
-                "; {} of {} lie beyond its ends or in a gap of it and are left out",
-                cut,
-                count(values.len(), "row")
-            ));
-        }
         let beyond = |t: &&f64| **t < -course.step || **t > last + course.step;
-        let unused = course.time.iter().filter(beyond).count();
-        if unused > 0 {
-            message.push_str(&format!(
-                "; {} of {name} lie beyond the log",
-                count(unused, "sample")
-            ));
-        }
-        self.findings
-            .push(Finding::new(Code::Joined, Severity::Note, message));
+        self.findings.push(Finding::note(Found::Joined {
+            channel: from.role.name(),
+            file: name.to_string(),
+            offset,
+            rates: [1.0 / course.step, 1.0 / step],
+            thinned: !slow && course.step >= join::MIN_THINNED_RATIO * step,
+            rows: values.len(),
+            outside: values.iter().filter(|x| x.is_nan()).count(),
+            unused: course.time.iter().filter(beyond).count(),
+        }));
     }
 }
 

@@ -60,7 +60,7 @@ mod watch;
 mod xlsx;
 
 pub use error::{Counted, Error, Kind, Place};
-pub use findings::{Finding, Severity};
+pub use findings::{Finding, Found, Severity};
 pub use join::{Elsewhere, Joined, Offset};
 pub use limits::{Limits, allow_memory, allowed_memory, within_memory};
 pub use log::{Excluded, Gap, Log, NotEnabled};

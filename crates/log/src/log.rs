@@ -37,7 +37,7 @@ mod held;
 pub(crate) mod overflow;
 pub(crate) mod unwrap;
 
-use crate::findings::{self, Finding, Severity};
+use crate::findings::{self, Finding, Found, Severity};
 use crate::join::Joined;
 use crate::mapping::{
     Enable, Mapping, Motion, Role, Source, Understood, Wrap, another_unit, parts,
@@ -135,15 +135,6 @@ pub struct Log {
 /// Fewest samples of a log; derivatives need three.
 const MIN_SAMPLES: usize = 3;
 
-/// Says that numbers of a counter were read with their sign.
-fn signed(role: Role, bits: u32) -> Finding {
-    let largest = (1_u64 << bits) - 1;
-    let message = format!(
-        "{role}: whole numbers near 0 and near {largest} alone, as a counter of {bits} bits without its sign; {largest} is read as -1"
-    );
-    Finding::new(Code::UnsignedCounts, Severity::Note, message)
-}
-
 impl Log {
     /// Reads a table as this mapping says; what the mapping leaves open is detected.
     ///
@@ -203,7 +194,8 @@ impl Log {
                     Role::Velocity | Role::Acceleration | Role::Force | Role::External
                 ) && let Some(bits) = source.restore_sign(&table)
                 {
-                    findings.push(signed(role, bits));
+                    let channel = role.name();
+                    findings.push(Finding::note(Found::Unsigned { channel, bits }));
                 }
                 sources.push((role, source));
             }
@@ -253,7 +245,8 @@ impl Log {
             .get_mut(Role::Position)
             .and_then(|position| held::period(&time, position));
         if let Some((rows, first)) = held {
-            findings.push(held::finding(rows, rate(&time)));
+            let rate = rate(&time) / rows as f64;
+            findings.push(Finding::warning(Found::HeldPosition { rows, rate }));
             for role in [Role::Force, Role::External] {
                 if let Some(force) = columns.get_mut(role) {
                     *force = held::meaned(force, rows);
@@ -378,9 +371,9 @@ impl Log {
     pub fn overflow(&self) -> Option<Error> {
         let position = self.position.as_deref()?;
         let mut found = self.findings.iter();
-        let jump = found.find(|finding| finding.code == Code::PositionJump)?;
+        let jump = found.find(|finding| matches!(finding.kind, Found::Jumps { .. }))?;
         findings::begins_again(self, position).then(|| {
-            Error::new(Kind::Value, jump.message.clone(), "")
+            Error::new(Kind::Value, jump.to_string(), "")
                 .in_column("position")
                 .settled_by_line()
         })
@@ -449,6 +442,11 @@ impl Log {
             .filter(|samples| !samples.is_empty())
     }
 
+    /// Whether any finding is of a kind.
+    pub fn finds(&self, is: impl Fn(&Found) -> bool) -> bool {
+        self.findings.iter().any(|finding| is(&finding.kind))
+    }
+
     /// Whether any finding is a warning.
     pub fn has_warnings(&self) -> bool {
         self.findings
@@ -501,30 +499,19 @@ impl Log {
     /// other motion than its own; with those before, `whole` rows. Rows at the ends of a segment whose force is not in it are
     /// excluded.
     pub fn take_force_from(&mut self, rows: isize, whole: isize) {
-        const CODES: [Code; 2] = [Code::ForceLate, Code::MotionLate];
-        let ms = stiction_number::short(1e3 * whole.unsigned_abs() as f64 / self.rate_hz);
-        let by = format!("about {} rows ({ms} ms) later than", whole.unsigned_abs());
-        let (code, message) = match whole > 0 {
-            true => (
-                Code::ForceLate,
-                format!(
-                    "the force was logged {by} the motion that it belongs to; that of every row is taken that much later"
-                ),
-            ),
-            false => (
-                Code::MotionLate,
-                format!(
-                    "the motion was logged {by} the force that it belongs to; the force of every row is taken that much earlier"
-                ),
-            ),
+        let seconds = whole.unsigned_abs() as f64 / self.rate_hz;
+        let found = Found::ForceLate {
+            rows: whole,
+            seconds,
         };
+        let code = found.code();
         // A row or two more than the low-pass itself are how a drive counts its filter.
-        let filtered = self.findings.iter().any(|f| f.code == Code::ForceFiltered);
+        let filtered = self.finds(Found::is_force_smoothed);
         let least = if filtered { 3 } else { 1 };
-        self.findings.retain(|f| !CODES.contains(&f.code));
+        self.findings
+            .retain(|f| !matches!(f.kind, Found::ForceLate { .. }));
         if whole.unsigned_abs() >= least {
-            self.findings
-                .push(Finding::new(code, Severity::Warning, message));
+            self.findings.push(Finding::warning(found));
         }
         for segment in self.segments.clone() {
             let moved = rows.unsigned_abs().min(segment.len());
@@ -561,18 +548,15 @@ impl Log {
     /// Undoes a low-pass of first order of that time constant, s, behind which the force was logged, within each segment; the
     /// first row of each, whose force from before is not known, is excluded.
     pub fn undo_force_filter(&mut self, time: f64) {
-        let ms = stiction_number::short(1e3 * time);
         let samples = time * self.rate_hz;
-        self.undo_smoothing(
-            &format!("behind a low-pass of first order with a time constant of about {ms} ms"),
-            |force| undo_low_pass(force, samples),
-        );
+        let found = Found::ForceLowPass { seconds: time };
+        self.undo_smoothing(found, |force| undo_low_pass(force, samples));
     }
 
     /// Undoes a mean over so many rows that the logged force is, within each segment; the first and the last row of each are
     /// excluded.
     pub fn undo_force_mean(&mut self, rows: usize) {
-        self.undo_smoothing(&format!("as a mean over about {rows} rows"), |force| {
+        self.undo_smoothing(Found::ForceMean { rows }, |force| {
             undo_mean(force, rows as f64)
         });
         for segment in self.segments.clone() {
@@ -580,15 +564,8 @@ impl Log {
         }
     }
 
-    fn undo_smoothing(&mut self, how: &str, undo: impl Fn(&mut [f64])) {
-        let message = format!(
-            "the force was logged {how}, which smears it at every reversal; the force before it is computed and used"
-        );
-        self.findings.push(Finding::new(
-            Code::ForceFiltered,
-            Severity::Warning,
-            message,
-        ));
+    fn undo_smoothing(&mut self, found: Found, undo: impl Fn(&mut [f64])) {
+        self.findings.push(Finding::warning(found));
         for segment in self.segments.clone() {
             if let Some(force) = &mut self.force {
                 undo(&mut force[segment.clone()]);
@@ -728,9 +705,11 @@ fn common_length(
         };
         return Err(Error::new(Kind::Value, found, allowed));
     }
-    let message = format!("{found}; the record is cut to {shortest}");
-    findings.push(
-        Finding::new(Code::ShortColumn, Severity::Warning, message).at(shortest.saturating_sub(1)),
-    );
+    let cut = Found::ShortColumn {
+        channel: role.name(),
+        samples: shortest,
+        longest,
+    };
+    findings.push(Finding::warning(cut).at(shortest.saturating_sub(1)));
     Ok(shortest)
 }

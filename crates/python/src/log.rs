@@ -105,7 +105,7 @@ impl Log {
                 Severity::Note => "note",
                 Severity::Warning => "warning",
             };
-            (f.code.to_string(), severity, f.message.clone())
+            (f.code().to_string(), severity, f.to_string())
         });
         told.collect()
     }

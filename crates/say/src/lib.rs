@@ -9,8 +9,20 @@
 //! assert_eq!(reason.to_string(), "the log has 1 reversal, too few to determine the Coulomb level");
 //! ```
 
+mod effect;
+mod found;
 mod notice;
 mod reason;
+mod unplanned;
 
-pub use notice::Notice;
+pub use effect::{Effect, Explained, Extent, Remedy, What};
+pub use found::{
+    AtRest, Dropout, ForceLine, Found, Jump, Mended, Mismatch, Moving, Sample, Size, Turn, Useless,
+    Value, WrongWrap, Zeros, counter,
+};
+pub use notice::{
+    Differs, Doubt, DrawnAxis, NoRun, Notice, OffPlan, Origin, Outside, Sought, Stated, Taken,
+    Unsteady, Whole, Whose,
+};
 pub use reason::{On, Reason};
+pub use unplanned::Unplanned;

@@ -210,12 +210,12 @@ fn loaded(source: Source, marks: Marks) -> Loaded {
     let log = &source.log;
     let at = |sample: usize| log.time.get(sample).copied();
     let findings = log.findings.iter().take(MOST_TOLD).map(|found| Found {
-        code: found.code.to_string(),
+        code: found.code().to_string(),
         severity: match found.severity {
             Severity::Note => "note",
             Severity::Warning => "warning",
         },
-        message: found.message.clone(),
+        message: found.to_string(),
         at_s: found.at.and_then(at),
     });
     let excluded = log.excluded.iter().take(MOST_TOLD).filter_map(|out| {

@@ -18,19 +18,24 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use stiction_codes::Code;
+use stiction_files::Warning;
 use stiction_files::axis::{Axis, Use};
 use stiction_files::result::{Action, Input};
-use stiction_identify::Observer;
-use stiction_log::{Log, Severity, Understood};
+use stiction_identify::{Error as Fit, Observer};
+use stiction_log::{Found, Log, Severity, Understood};
 use stiction_number::four_digits as short;
+use stiction_say::Notice;
 
-/// What only the fit shows of the log itself.
-const OF_THE_FIT: [Code; 4] = [
-    Code::Jitter,
-    Code::ForceLate,
-    Code::MotionLate,
-    Code::ForceFiltered,
-];
+/// Whether a warning is of what only the fit shows of the log itself; `known` is what the log showed before.
+fn is_of_the_fit(warning: &Warning, known: &[Found]) -> bool {
+    match warning.kind() {
+        Some(Notice::InaccurateStamps { .. }) => true,
+        Some(kind) => kind.found().is_some_and(|found| {
+            (found.is_jitter() || found.is_force_moved()) && !known.contains(found)
+        }),
+        None => false,
+    }
+}
 
 /// What a check found, log by log.
 #[derive(Clone, Debug, Serialize)]
@@ -240,9 +245,15 @@ fn changes(logs: &mut [LogCheck]) -> Vec<TrackingChange> {
     out
 }
 
+/// Whether an engine refused what an axis file or an option gives.
+fn is_setting(error: &Fit) -> bool {
+    matches!(error, Fit::Setting { .. } | Fit::Filter { .. })
+}
+
 fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCheck, Error> {
     let clock = Instant::now();
     let log = &source.log;
+    let known: Vec<Found> = log.findings.iter().map(|f| f.kind.clone()).collect();
     let mut out = LogCheck {
         input: source.input(true),
         kind: log.motion.to_string(),
@@ -253,12 +264,12 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
             .findings
             .iter()
             .map(|f| Finding {
-                code: f.code,
+                code: f.code(),
                 severity: match f.severity {
                     Severity::Note => "note".into(),
                     Severity::Warning => "warning".into(),
                 },
-                message: f.message.clone(),
+                message: f.to_string(),
             })
             .collect(),
         conditioning: Vec::new(),
@@ -315,29 +326,29 @@ fn one(source: Source, axis: &Axis, observer: &mut dyn Observer) -> Result<LogCh
             });
             out.conditioning = outcome.result.axis.conditioning;
             let shown = outcome.result.warnings.into_iter();
-            let of_the_log = shown.filter(|w| OF_THE_FIT.contains(&w.code));
-            for warning in of_the_log {
-                let known = |f: &Finding| warning.message.ends_with(&f.message);
-                if !out.findings.iter().any(known) {
-                    out.findings.push(Finding {
-                        code: warning.code,
-                        severity: "warning".into(),
-                        message: warning.message,
-                    });
-                }
-            }
+            let of_the_fit = shown.filter(|warning| is_of_the_fit(warning, &known));
+            out.findings.extend(of_the_fit.map(|warning| Finding {
+                code: warning.code,
+                severity: "warning".into(),
+                message: warning.message,
+            }));
         }
         // What the log cannot give is a verdict on the log; a bad axis file is an error of its own.
-        Err(e @ Error::Identify { .. }) if e.code() != Code::BadSetting => {
+        Err(
+            ref e @ Error::Identify {
+                ref source,
+                ref action,
+                ..
+            },
+        ) if !is_setting(source) => {
+            let is_short = matches!(source, Fit::TooFewSamples { .. });
             out.refused = Some(format!("{}: {e}", e.code()));
             let left = e.losses().map(|(losses, _)| losses.left_to_simulate());
             let simulates = simulates && left.is_none_or(|left| left > 0);
-            if e.code() == Code::TooFewSamples && simulates && slides {
+            if is_short && simulates && slides {
                 out.next = Action::Simulate;
             }
-            if let Error::Identify { action, .. } = &e
-                && matches!(**action, Action::Line { .. } | Action::Remove { .. })
-            {
+            if matches!(**action, Action::Line { .. } | Action::Remove { .. }) {
                 out.next = (**action).clone();
             }
         }

@@ -12,7 +12,6 @@ mod wrapped;
 use crate::compile;
 use crate::error::Error;
 use std::path::Path;
-use stiction_codes::Code;
 use stiction_export::{Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
@@ -20,6 +19,7 @@ use stiction_files::model::ReadModel;
 use stiction_files::write_folder;
 use stiction_friction::ParamError;
 use stiction_friction::compensator::{Adaptation, Compensator};
+use stiction_say::Notice;
 
 use asked::within;
 use doubts::{another_rate, doubts, less};
@@ -201,11 +201,7 @@ fn code(read: &ReadModel, options: &ExportOptions) -> Result<Exported, Error> {
             })
             .map_err(|e| place(e, read, options))?;
             if !tried.iter().any(|(_, is_made)| *is_made) {
-                warnings.push(Warning::new(
-                    Code::ExportSource,
-                    "no C compiler of this machine makes a binary: the FMUs hold their C source only; a tool that runs them has to compile it, \
-                     or install gcc and export again",
-                ));
+                warnings.push(Notice::SourceOnly.into());
             }
             files
         }
@@ -316,12 +312,11 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
     }
     warnings.extend(less(&lowered, options.limit.is_none()));
     if options.name.is_none() && !stiction_export::is_whole(&title) {
-        warnings.push(Warning::new(
-            Code::ExportName,
-            format!(
-                "the names in the code begin with {identifier}, only a part of the axis name '{title}': another axis may get the same; give a name"
-            ),
-        ));
+        let short = Notice::ShortName {
+            identifier: identifier.clone(),
+            title: title.clone(),
+        };
+        warnings.push(short.into());
     }
     let model = Model {
         title,

@@ -214,7 +214,7 @@ fn mapped(
     };
     let mut log = log.map_err(refused)?;
     for finding in &mut log.findings {
-        finding.message = axis.named(&finding.message);
+        finding.name_axis_file(axis.named("axis.toml"));
     }
     let mut detected = log.detected.clone();
     detected.extend(left_out);

@@ -1,10 +1,10 @@
 //! Whether acceleration and position describe the same motion.
 
-use super::finding::{Finding, Severity};
-use super::ratio::{Sums, Words, fault};
+use super::finding::Finding;
+use super::ratio::{Sums, fault};
 use crate::log::Log;
-use stiction_codes::Code;
 use stiction_policy::signal;
+use stiction_say::Found;
 
 /// Samples on each side over which both are compared: long enough that noise and delay matter little.
 const REACH: usize = 32;
@@ -67,14 +67,6 @@ pub(super) fn consistency(log: &mut Log) {
         other: aa,
         both: xa,
     };
-    let words = Words {
-        apart: "the acceleration is not that of the position",
-        samples: 2 * REACH,
-        ratio_of: ["the acceleration of the position", "the one of the log"],
-        causes: CAUSES,
-    };
-    if let Some(message) = fault(&sums, &words) {
-        let finding = Finding::new(Code::AccelerationMismatch, Severity::Warning, message);
-        log.findings.push(finding);
-    }
+    let found = fault(&sums, 2 * REACH, CAUSES).map(Found::Acceleration);
+    log.findings.extend(found.map(Finding::warning));
 }

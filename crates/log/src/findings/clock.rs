@@ -1,12 +1,10 @@
 //! Gaps and jitter of the time stamps, which are increasing by now.
 
-use super::finding::{Finding, Severity, median, place};
+use super::finding::{Finding, median, place};
 use crate::log::coarse::Coarse;
 use crate::log::{Gap, Log};
-use stiction_codes::Code;
-use stiction_number::Percent;
-use stiction_number::{counted as count, short};
 use stiction_policy::{clock, signal};
+use stiction_say::Found;
 
 /// Finds the median step, the gaps, and the stretches between the long ones.
 pub(super) fn gaps(log: &mut Log) {
@@ -54,26 +52,15 @@ pub(super) fn gaps(log: &mut Log) {
         .iter()
         .fold(0_usize, |sum, g| sum.saturating_add(g.missing_samples));
     let many = missing as f64 > signal::MAX_MISSING_UNWARNED * log.time.len() as f64;
-    let severity = if many || !long.is_empty() {
-        Severity::Warning
-    } else {
-        Severity::Note
+    let found = Found::Gaps {
+        gaps,
+        missing,
+        longest: longest.seconds,
+        after: place(log, first),
+        splits: long.len(),
     };
-    let mut message = format!(
-        "{} with {} missing, the longest {} s; first after {}",
-        count(gaps, "gap"),
-        count(missing, "sample"),
-        short(longest.seconds),
-        place(log, first)
-    );
-    if !long.is_empty() {
-        message.push_str(&format!(
-            "; the record is split at {}",
-            count(long.len(), "gap")
-        ));
-    }
-    log.findings
-        .push(Finding::new(Code::Gap, severity, message).at(first));
+    let finding = Finding::graded(found, many || !long.is_empty());
+    log.findings.push(finding.at(first));
 }
 
 /// How far steps other than gaps are from the median.
@@ -105,36 +92,25 @@ pub(super) fn jitter(log: &mut Log) {
     if rms <= clock::MAX_UNNOTED_JITTER * step {
         return;
     }
-    let severity = if rms > clock::MAX_JITTER * step {
-        Severity::Warning
-    } else {
-        Severity::Note
+    let is_warning = rms > clock::MAX_JITTER * step;
+    let finding = match clock {
+        Some((clock, rows)) => {
+            let found = Found::RoundedStamps {
+                tick: clock.tick,
+                rate: clock.rate_hz,
+                line: (rows.len() == log.time.len()).then(|| clock.line()),
+            };
+            Finding::graded(found, is_warning)
+        }
+        None => {
+            let found = Found::Jitter {
+                step,
+                rms,
+                worst,
+                at: place(log, at),
+            };
+            Finding::graded(found, is_warning).at(at)
+        }
     };
-    if let Some((clock, rows)) = clock {
-        let tick = short(clock.tick);
-        let message = match rows.len() == log.time.len() {
-            true => format!(
-                "the time stamps are rounded to {tick} s, and the rows are at one rate: above [columns] of axis.toml write {}, and \
-                 delete time under it",
-                clock.line()
-            ),
-            false => format!(
-                "the time stamps are rounded to {tick} s; the rows are at {} Hz, and some are missing",
-                clock.rate_hz
-            ),
-        };
-        log.findings
-            .push(Finding::new(Code::Jitter, severity, message));
-        return;
-    }
-    let message = format!(
-        "time steps deviate from their median of {} s by {} s rms ({}), at most {} s at {}",
-        short(step),
-        short(rms),
-        Percent::error(100.0 * rms / step).short(),
-        short(worst),
-        place(log, at)
-    );
-    log.findings
-        .push(Finding::new(Code::Jitter, severity, message).at(at));
+    log.findings.push(finding);
 }

@@ -1,13 +1,13 @@
 //! A force that is zero while the axis moves: the drive was off, and something else moved it.
 
-use super::finding::{Finding, Severity, extremes, place};
+use super::finding::{Finding, extremes, place};
 use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
-use stiction_number::{counted as count, short};
 use stiction_policy::force;
+use stiction_say::Found;
 
-/// Parts of the samples by which usual forces are told: nine of ten, and half.
+/// Part of the samples that do not exceed that, and half of them.
 const USUAL: f64 = 0.9;
 const HALF: f64 = 0.5;
 /// What is excluded to either side too, s: a drive that is switched on or off takes its time.
@@ -23,17 +23,13 @@ pub(super) fn dead(log: &mut Log) {
         return;
     };
     let Some(first) = runs.first() else { return };
-    let samples: usize = runs.iter().map(Range::len).sum();
-    let message = format!(
-        "the force is zero while the axis moves, in {} ({} in all), the first from {} to {} s: the drive was off, and something else moved \
-         the axis; these samples are excluded",
-        count(runs.len(), "stretch").replace("stretchs", "stretches"),
-        count(samples, "sample"),
-        place(log, first.start),
-        short(log.time[first.end - 1]),
-    );
-    let finding = Finding::new(Code::ForceDead, Severity::Warning, message).at(first.start);
-    log.findings.push(finding);
+    let found = Found::ForceDead {
+        stretches: runs.len(),
+        samples: runs.iter().map(Range::len).sum(),
+        first: place(log, first.start),
+        until: log.time[first.end - 1],
+    };
+    log.findings.push(Finding::warning(found).at(first.start));
     let beside = (BESIDE * log.rate_hz).ceil() as usize;
     for run in runs {
         let last = log.time.len();

@@ -1,12 +1,11 @@
 //! Encoder steps, and jumps of the position that no motion explains.
 
-use super::finding::{Finding, Severity, extremes, place};
+use super::finding::{Finding, extremes, place};
 use crate::log::{Log, overflow};
 use crate::mapping::{Mapping, Motion, Role, Selector};
 use std::f64::consts::TAU;
-use stiction_codes::Code;
-use stiction_number::{counted as count, short};
 use stiction_policy::position;
+use stiction_say::{Found, Jump, Value};
 
 /// The quantum of a quantised signal, in its own unit; `None` where it is continuous or too short to tell.
 /// Samples where `skip` is true are left out.
@@ -57,31 +56,18 @@ pub(super) fn steps(log: &mut Log, mapping: &Mapping) {
         .resolution
         .or_else(|| quantum(position, &log.skipped()));
     let Some(step) = log.quantum else { return };
-    let source = if mapping.resolution.is_some() {
-        "as given"
-    } else {
-        "detected in the data"
-    };
-    let message = format!(
-        "position is quantised in steps of {} {unit} ({source}); its range of {} {unit} is {} steps",
-        short(step),
-        short(range),
-        short((range / step).round())
-    );
-    log.findings
-        .push(Finding::new(Code::Quantisation, Severity::Note, message));
+    log.findings.push(Finding::note(Found::Quantised {
+        step,
+        range,
+        unit,
+        given: mapping.resolution.is_some(),
+    }));
     let degrees = in_degrees(log, step);
     log.findings.extend(degrees);
     if range > 0.0 && range / step < position::MIN_TRAVEL_STEPS {
-        let message = format!(
-            "the whole travel is {} encoder steps; presliding is hardly resolved",
-            short((range / step).round())
-        );
-        log.findings.push(Finding::new(
-            Code::CoarsePosition,
-            Severity::Warning,
-            message,
-        ));
+        let steps = (range / step).round();
+        log.findings
+            .push(Finding::warning(Found::FewSteps { steps }));
     }
 }
 
@@ -107,20 +93,18 @@ fn in_degrees(log: &Log, step: f64) -> Option<Finding> {
         Selector::Name(name) => format!("\"{name}\""),
         Selector::Index(number) => number.to_string(),
     };
-    let message = format!(
-        "position, column {}, is read in rad, but its steps of {} are 360/2^{bits}, those of an encoder of {bits} bits in degrees: \
-         write position = {{ column = {column}, unit = \"deg\" }} under [columns] in axis.toml, and mind the unit of the others \
-         beside it",
-        of.column,
-        short(step)
-    );
-    Some(Finding::new(Code::UnlikelySize, Severity::Warning, message))
+    Some(Finding::warning(Found::StepsOfDegrees {
+        place: of.column.clone(),
+        column,
+        step,
+        bits,
+    }))
 }
 
-/// A position that begins again: after which travel, and the line of the axis file that says so.
+/// A position that begins again: after which travel, and why.
 struct Again {
     period: f64,
-    line: String,
+    cause: Jump,
 }
 
 /// Where the position begins again though the axis file has no wrap: a counter that overflows, or an angle after each turn.
@@ -132,17 +116,13 @@ fn again(log: &Log, position: &[f64]) -> Option<Again> {
         let count = log.mapping.position.as_ref()?.scale.as_ref()?.si().abs();
         return Some(Again {
             period: counts as f64 * count,
-            line: format!(
-                "that is {}: write wrap = \"{counts} counts\" under [log] in axis.toml",
-                overflow::counter(counts)
-            ),
+            cause: Jump::Counter(counts),
         });
     }
     let turns = log.motion == Motion::Rotary && overflow::begins_again(position, TAU);
-    turns.then(|| Again {
+    turns.then_some(Again {
         period: TAU,
-        line: "it begins again after each turn: write wrap = \"360 deg\" under [log] in axis.toml"
-            .into(),
+        cause: Jump::Turn,
     })
 }
 
@@ -188,24 +168,16 @@ pub(super) fn jumps(log: &mut Log) {
     }
     let unit = log.motion.position().si_text();
     let size = (position[first + 1] - position[first]).abs();
-    let wraps = match (again, log.counter(size)) {
-        (Some(again), _) => again.line,
-        (None, Some(counts)) => format!(
-            "that is {}: write wrap = \"{counts} counts\" under [log] in axis.toml",
-            overflow::counter(counts)
-        ),
-        (None, None) => {
-            "if the position wraps there, give that travel as wrap under [log] in axis.toml".into()
-        }
+    let cause = match again {
+        Some(again) => again.cause,
+        None => log.counter(size).map_or(Jump::Unknown, Jump::Counter),
     };
-    let message = format!(
-        "position jumps {} by more than half its range, first by {} {unit} after {}; {wraps}; the \
-         record is split at the jumps",
-        count(jumps.len(), "time"),
-        short(size),
-        place(log, first)
-    );
-    log.findings
-        .push(Finding::new(Code::PositionJump, Severity::Warning, message).at(first));
+    let found = Found::Jumps {
+        jumps: jumps.len(),
+        size: Value::new(size, unit),
+        after: place(log, first),
+        cause,
+    };
+    log.findings.push(Finding::warning(found).at(first));
     log.split(&jumps.iter().map(|jump| jump + 1).collect::<Vec<_>>());
 }

@@ -1,14 +1,13 @@
 //! A force that saturates, and a force with the wrong sign.
 
 use super::encoder::quantum;
-use super::finding::{Finding, Severity, extremes, place};
+use super::finding::{Finding, extremes, place};
 use crate::log::Log;
 use crate::mapping::Mapping;
 use std::ops::Range;
 use stiction_codes::Code;
-use stiction_number::Percent;
-use stiction_number::{counted as count, short};
 use stiction_policy::force;
+use stiction_say::{Found, Turn, Value};
 
 /// Most values of a force that are told apart.
 const MOST_LEVELS: usize = 64;
@@ -31,17 +30,13 @@ pub(super) fn saturation(log: &mut Log, mapping: &Mapping) {
     let Some(first) = runs.first().cloned() else {
         return;
     };
-    let samples: usize = runs.iter().map(Range::len).sum();
-    let message = format!(
-        "force saturates near {} {} for {} in {}, first from {}; these samples are excluded",
-        short(limit),
-        log.force_unit,
-        count(samples, "sample"),
-        count(runs.len(), "stretch").replace("stretchs", "stretches"),
-        place(log, first.start)
-    );
-    log.findings
-        .push(Finding::new(Code::Saturation, Severity::Warning, message).at(first.start));
+    let found = Found::Saturated {
+        limit: Value::new(limit, &log.force_unit),
+        samples: runs.iter().map(Range::len).sum(),
+        stretches: runs.len(),
+        first: place(log, first.start),
+    };
+    log.findings.push(Finding::warning(found).at(first.start));
     for run in runs {
         log.exclude(run, Code::Saturation);
     }
@@ -160,37 +155,21 @@ pub(super) fn steps(log: &mut Log) {
     let Some(step) = step.filter(|step| (high - low) / step < force::MIN_RANGE_STEPS) else {
         return;
     };
-    let known = match log.has_few_force_levels() {
-        false => "friction is known to a part of a step",
-        true => {
-            "friction is known to a part of a step, and no parameter that is fitted to it is a constant of the machine"
-        }
+    let found = Found::CoarseForce {
+        step: Value::new(step, &log.force_unit),
+        range: high - low,
+        few: log.has_few_force_levels(),
     };
-    let message = format!(
-        "the force comes in steps of {} {}, and its range of {} is {} of them: {known}",
-        short(step),
-        log.force_unit,
-        short(high - low),
-        short(((high - low) / step).round())
-    );
-    log.findings
-        .push(Finding::new(Code::CoarseForce, Severity::Warning, message));
+    log.findings.push(Finding::warning(found));
 }
-
-/// What turns the sign of a force.
-const TURN_ROUND: &str =
-    "if the column is the friction force rather than the driving force, set invert = true";
 
 /// Says of a force that brakes, and comes from another file by time stamps whose offset nothing tells, that its clock may be the
 /// cause.
 pub(crate) fn sign_of_another_clock(findings: &mut [Finding]) {
-    let sign = findings.iter_mut().filter(|f| f.code == Code::ForceSign);
-    for finding in sign {
-        let found = finding.message.split("; ").next().unwrap_or_default();
-        finding.message = format!(
-            "{found}; it comes from another file, whose clock may be another: set offset = \"estimate\" beside its file first; where it \
-             brakes then too, {TURN_ROUND}"
-        );
+    for finding in findings {
+        if let Found::ForceBrakes { turn, .. } = &mut finding.kind {
+            *turn = Turn::Clock;
+        }
     }
 }
 
@@ -219,16 +198,10 @@ pub(super) fn sign(log: &mut Log) {
             log.mapping.force.as_ref().is_some_and(|f| {
                 f.invert != f.scale.as_ref().is_some_and(|scale| scale.number < 0.0)
             });
-        let cure = if inverted {
-            "the axis file inverts its sign already (invert or a negative scale): undo that"
-        } else {
-            TURN_ROUND
+        let found = Found::ForceBrakes {
+            part: -net / gross,
+            turn: if inverted { Turn::Undo } else { Turn::Invert },
         };
-        let message = format!(
-            "the force brakes: its net work is -{} of all the work it does, as if it opposed the motion; {cure}",
-            Percent::error(-100.0 * net / gross).short()
-        );
-        log.findings
-            .push(Finding::new(Code::ForceSign, Severity::Warning, message));
+        log.findings.push(Finding::warning(found));
     }
 }

@@ -1,11 +1,10 @@
 //! Whether the motion is informative: too short, none, noise, one direction, one speed.
 
-use super::finding::{Finding, Severity, extremes};
+use super::finding::{Finding, extremes};
 use crate::log::Log;
 use std::borrow::Cow;
-use stiction_codes::Code;
-use stiction_number::{counted as count, short};
 use stiction_policy::{rest, signal};
+use stiction_say::{Found, Value};
 use stiction_signal::{Travel, noise_deviation};
 
 /// Windows whose mean velocities are compared to see whether the axis moves at one speed ...
@@ -14,25 +13,21 @@ const SPEED_WINDOWS: usize = 50;
 pub(super) fn few_samples(log: &mut Log) {
     let samples = log.time.len();
     if samples < signal::MIN_USEFUL_SAMPLES {
-        let message = format!(
-            "{}; with fewer than {} an identification means little",
-            count(samples, "sample"),
-            signal::MIN_USEFUL_SAMPLES
-        );
-        log.findings
-            .push(Finding::new(Code::FewSamples, Severity::Warning, message));
+        log.findings.push(Finding::warning(Found::FewSamples {
+            samples,
+            least: signal::MIN_USEFUL_SAMPLES,
+        }));
     }
 }
 
 /// At most one of: no motion, noise only, one direction (perhaps at one speed).
 pub(super) fn kind_of_motion(log: &mut Log) {
-    let finding = judge(log);
-    log.findings.extend(finding);
+    let found = judge(log);
+    log.findings.extend(found.into_iter().map(Finding::warning));
 }
 
-fn judge(log: &Log) -> Vec<Finding> {
-    let warning = |code, message: String| Finding::new(code, Severity::Warning, message);
-    let (x, what): (Cow<[f64]>, _) = match (&log.position, &log.velocity) {
+fn judge(log: &Log) -> Vec<Found> {
+    let (x, channel): (Cow<[f64]>, _) = match (&log.position, &log.velocity) {
         (Some(position), _) => (Cow::Borrowed(position), "position"),
         (None, Some(velocity)) => (Cow::Owned(integral(&log.time, velocity)), "velocity"),
         (None, None) => return Vec::new(),
@@ -44,38 +39,24 @@ fn judge(log: &Log) -> Vec<Finding> {
     let step = log.quantum.unwrap_or(0.0);
     let unit = log.motion.position().si_text();
     if range <= rest::MAX_STEPS * step {
-        let message = format!(
-            "the axis does not move: {what} covers {} {unit}",
-            short(range)
-        );
-        return vec![warning(Code::NoMotion, message)];
+        let range = Value::new(range, unit);
+        return vec![Found::NoMotion { channel, range }];
     }
     let judged = log.position.as_ref().or(log.velocity.as_ref());
     if judged.is_some_and(|values| {
         values.len() >= signal::MIN_USEFUL_SAMPLES / 2
             && neighbour_correlation(values) < signal::MIN_NEIGHBOUR_CORRELATION
     }) {
-        let message =
-            format!("{what} looks like noise: neighbouring samples are hardly correlated");
-        return vec![warning(Code::NoiseOnly, message)];
+        return vec![Found::Noise { channel }];
     }
     let mut found = Vec::new();
     if travel(log, &x, step).is_one_way() {
-        let message = format!(
-            "the axis moves in one direction only, over {} {unit}; friction in the other \
-             direction and an offset of the force cannot be identified",
-            short(range)
-        );
-        found.push(warning(Code::OneDirection, message));
+        let range = Value::new(range, unit);
+        found.push(Found::OneDirection { range });
     }
     if let Some(speed) = one_speed(&log.time, &x) {
-        let unit = log.motion.velocity().si_text();
-        let message = format!(
-            "the axis moves at one speed, {} {unit}; the mass and how friction depends on speed \
-             cannot be identified",
-            short(speed)
-        );
-        found.push(warning(Code::ConstantVelocity, message));
+        let speed = Value::new(speed, log.motion.velocity().si_text());
+        found.push(Found::OneSpeed { speed });
     }
     found
 }
@@ -139,18 +120,16 @@ pub(super) fn constant_columns(log: &mut Log) {
         ("reference", &log.reference),
     ];
     let mut found = Vec::new();
-    for (name, values) in columns {
+    for (channel, values) in columns {
         let Some((low, high)) = values.as_deref().and_then(extremes) else {
             continue;
         };
         if low == high {
-            let severity = if name == "reference" {
-                Severity::Note
-            } else {
-                Severity::Warning
+            let constant = Found::Constant {
+                channel,
+                value: low,
             };
-            let message = format!("{name} is {} throughout", short(low));
-            found.push(Finding::new(Code::ConstantColumn, severity, message));
+            found.push(Finding::graded(constant, channel != "reference"));
         }
     }
     log.findings.extend(found);

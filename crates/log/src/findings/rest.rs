@@ -9,19 +9,20 @@
 mod still;
 mod varies;
 
-use super::finding::{Finding, Severity};
+use super::finding::Finding;
 use crate::log::Log;
 use crate::mapping::{Mapping, Parts, Rests};
 use std::ops::Range;
 use stiction_codes::Code;
-use stiction_number::Percent;
-use stiction_number::{counted as count, short};
 use stiction_policy::rest;
+use stiction_say::{AtRest, Found};
 
 /// A rest at an end of the record, and what becomes of it.
 struct End {
-    /// `at the start until 8.2 s`.
-    words: String,
+    /// Whether it is the start of the record.
+    is_first: bool,
+    /// Time at which the motion begins or ends, s.
+    at: f64,
     /// The samples to leave out; nothing where the force says something.
     cut: Option<Range<usize>>,
 }
@@ -117,50 +118,46 @@ fn end(log: &Log, rest: Range<usize>, spread: f64) -> Option<End> {
     } else {
         return None;
     };
-    let words = match rest.start {
-        0 => format!("at the start until {} s", short(time[rest.end - 1])),
-        start => format!("at the end from {} s", short(time[start])),
+    let at = match rest.start {
+        0 => time[rest.end - 1],
+        start => time[start],
     };
     let long = !cut.is_empty() && time[cut.end - 1] - time[cut.start] >= 0.9 * rest::MIN_TIME;
     Some(End {
-        words,
+        is_first: rest.start == 0,
+        at,
         cut: long.then_some(cut),
     })
 }
 
-fn at_the_ends(log: &Log, ends: &[End], keep: Option<&str>) -> Finding {
-    let words: Vec<&str> = ends.iter().map(|end| end.words.as_str()).collect();
-    let mut message = format!("the axis stands still {}", words.join(" and "));
+fn at_the_ends(log: &Log, ends: &[End], keep: Option<&'static str>) -> Finding {
     let cuts: Vec<&Range<usize>> = ends.iter().filter_map(|end| end.cut.as_ref()).collect();
-    if let Some(key) = keep {
-        message.push_str(&format!(
-            "; kept, because the axis file gives {key} under [log]"
-        ));
-    } else if cuts.is_empty() {
-        message.push_str(
-            "; the force varies meanwhile, as before a break-away: procedures that start from rest see it, fits of the whole \
-             record do not",
-        );
-    } else {
-        let times: Vec<String> = cuts
-            .iter()
-            .map(|cut| {
-                let (from, to) = (log.time[cut.start], log.time[cut.end - 1]);
-                format!("{} to {} s", short(from), short(to))
-            })
-            .collect();
-        let samples: usize = cuts.iter().map(|cut| cut.len()).sum();
-        let part = 100.0 * samples as f64 / log.time.len() as f64;
-        message.push_str(&format!(
-            "; fits of the whole record leave out {} ({}, {}), where the force says nothing of friction; to keep it: \
-             rests = \"keep\" under [log] in the axis file",
-            times.join(" and "),
-            count(samples, "sample"),
-            Percent::error(part).short()
-        ));
-    }
+    let then = match keep {
+        Some(key) => AtRest::Kept { key },
+        None if cuts.is_empty() => AtRest::Varying,
+        None => {
+            let seconds = cuts
+                .iter()
+                .map(|cut| [log.time[cut.start], log.time[cut.end - 1]]);
+            let samples: usize = cuts.iter().map(|cut| cut.len()).sum();
+            AtRest::Cut {
+                seconds: seconds.collect(),
+                samples,
+                part: samples as f64 / log.time.len() as f64,
+            }
+        }
+    };
+    let time = |is_first| {
+        let mut ends = ends.iter();
+        ends.find(|end| end.is_first == is_first).map(|end| end.at)
+    };
     let at = cuts.first().map_or(0, |cut| cut.start);
-    Finding::new(Code::RestAtEnd, Severity::Note, message).at(at)
+    Finding::note(Found::RestAtEnds {
+        until: time(true),
+        from: time(false),
+        then,
+    })
+    .at(at)
 }
 
 fn in_between(log: &Log, varying: &[Range<usize>]) -> Option<Finding> {
@@ -172,23 +169,12 @@ fn in_between(log: &Log, varying: &[Range<usize>]) -> Option<Finding> {
         .iter()
         .max_by(|a, b| seconds(a).total_cmp(&seconds(b)))?;
     let share = inside.iter().map(|rest| rest.len()).sum::<usize>() as f64 / samples as f64;
-    let mut message = format!(
-        "{} between motions, {} of the samples, the longest {} s from {} s",
-        count(inside.len(), "rest"),
-        Percent::error(100.0 * share).short(),
-        short(seconds(longest)),
-        short(log.time[longest.start]),
-    );
-    let unfitted = inside.iter().filter(|rest| varying.contains(rest)).count();
-    if unfitted > 0 {
-        message.push_str(&format!(
-            "; in {unfitted} of them the force varies without motion, which no friction law follows: fits of the whole record \
-             carry these along and do not fit them; to fit them: rests = \"keep\" under [log] in the axis file"
-        ));
-    }
-    let severity = match share > rest::MAX_SHARE {
-        true => Severity::Warning,
-        false => Severity::Note,
+    let found = Found::RestBetween {
+        rests: inside.len(),
+        part: share,
+        longest: seconds(longest),
+        from: log.time[longest.start],
+        varying: inside.iter().filter(|rest| varying.contains(rest)).count(),
     };
-    Some(Finding::new(Code::RestBetween, severity, message).at(longest.start))
+    Some(Finding::graded(found, share > rest::MAX_SHARE).at(longest.start))
 }

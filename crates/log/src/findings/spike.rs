@@ -1,11 +1,11 @@
 //! Single samples of the force far beyond all others: transmission errors, which would be most of what a fit sees.
 
-use super::finding::{Finding, Severity, place};
+use super::finding::{Finding, place};
 use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
-use stiction_number::{counted as count, short};
 use stiction_policy::force;
+use stiction_say::{Found, Value};
 
 /// Finds such samples, puts straight lines in their place, and excludes them.
 pub(super) fn spikes(log: &mut Log) {
@@ -44,18 +44,13 @@ pub(super) fn spikes(log: &mut Log) {
             force[row] = from + (to - from) * f64::from(step) / steps;
         }
     }
-    let samples = runs.iter().map(Range::len).sum::<usize>();
-    let message = format!(
-        "force is beyond all others by more than {} times their range in {}, first {} {} at {}: errors of the measurement \
-         or its transmission; interpolated and excluded",
-        force::MIN_SPIKE,
-        count(samples, "sample"),
-        short(largest),
-        log.force_unit,
-        place(log, first)
-    );
-    log.findings
-        .push(Finding::new(Code::ForceSpike, Severity::Warning, message).at(first));
+    let found = Found::Outliers {
+        samples: runs.iter().map(Range::len).sum(),
+        times: force::MIN_SPIKE,
+        force: Value::new(largest, &log.force_unit),
+        first: place(log, first),
+    };
+    log.findings.push(Finding::warning(found).at(first));
     for run in runs {
         log.exclude(run, Code::ForceSpike);
     }

@@ -1,10 +1,9 @@
 //! Single steps of a moving position that no motion makes: counts that an encoder lost or a transmission garbled.
 
-use super::finding::{Finding, Severity, place};
+use super::finding::{Finding, place};
 use crate::log::Log;
-use stiction_codes::Code;
-use stiction_number::{counted as count, short};
 use stiction_policy::position;
+use stiction_say::{Found, Jump, Value};
 use stiction_signal::noise_deviation;
 
 /// Steps to either side that one is compared with.
@@ -39,16 +38,13 @@ pub(super) fn strays(log: &mut Log) {
         }
     }
     let Some(&first) = found.first() else { return };
-    let message = format!(
-        "position steps {} by far more than just before and after, which no motion does, first by {} {} after {}: counts were \
-         lost or garbled; the record is split there",
-        count(found.len(), "time"),
-        short(x[first + 1] - x[first]),
-        log.motion.position().si_text(),
-        place(log, first)
-    );
-    log.findings
-        .push(Finding::new(Code::PositionJump, Severity::Warning, message).at(first));
+    let jumps = Found::Jumps {
+        jumps: found.len(),
+        size: Value::new(x[first + 1] - x[first], log.motion.position().si_text()),
+        after: place(log, first),
+        cause: Jump::Stray,
+    };
+    log.findings.push(Finding::warning(jumps).at(first));
     log.split(&found.iter().map(|i| i + 1).collect::<Vec<_>>());
 }
 

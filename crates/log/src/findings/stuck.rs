@@ -11,32 +11,30 @@
 //! 3. or it is frozen to the end of the record while the reference still covers half its range,
 //!    though the position had followed it before.
 
-use super::finding::{Finding, Severity, extremes, place};
+use super::finding::{Finding, extremes, place};
 use crate::log::Log;
 use std::ops::Range;
 use stiction_codes::Code;
-use stiction_number::{counted as count, short};
 use stiction_policy::{position, signal};
+use stiction_say::{Found, Moving, Value};
 
 pub(super) fn stuck(log: &mut Log) {
     let found = frozen(log);
     let Some(first) = found.first() else { return };
-    let samples: usize = found.iter().map(|(run, _)| run.len()).sum();
-    let message = format!(
-        "position is frozen in {} ({} in all) while {}; first from {}; these samples are excluded",
-        count(found.len(), "stretch").replace("stretchs", "stretches"),
-        count(samples, "sample"),
-        first.1,
-        place(log, first.0.start)
-    );
-    let finding = Finding::new(Code::StuckEncoder, Severity::Warning, message).at(first.0.start);
+    let stuck = Found::Stuck {
+        stretches: found.len(),
+        samples: found.iter().map(|(run, _)| run.len()).sum(),
+        moving: first.1.clone(),
+        first: place(log, first.0.start),
+    };
+    let finding = Finding::warning(stuck).at(first.0.start);
     log.findings.push(finding);
     for (run, _) in found {
         log.exclude(run, Code::StuckEncoder);
     }
 }
 
-fn frozen(log: &Log) -> Vec<(Range<usize>, String)> {
+fn frozen(log: &Log) -> Vec<(Range<usize>, Moving)> {
     let Some(position) = &log.position else {
         return Vec::new();
     };
@@ -54,17 +52,15 @@ fn frozen(log: &Log) -> Vec<(Range<usize>, String)> {
     for run in runs {
         if let Some(velocity) = &log.velocity {
             let travelled = travelled(&log.time[run.clone()], &velocity[run.clone()], rms);
-            if travelled.is_some_and(|x| x > least) {
-                let x = short(travelled.unwrap_or(0.0));
-                found.push((run, format!("the velocity covers {x} {unit}")));
+            if let Some(x) = travelled.filter(|x| *x > least) {
+                found.push((run, Moving::Velocity(Value::new(x, &unit))));
                 continue;
             }
         }
         if run.end < position.len() && !log.gap_after(run.end - 1) {
             let jump = (position[run.end] - position[run.end - 1]).abs();
             if ordinary > 0.0 && jump > position::MIN_FROZEN_JUMP * ordinary.max(step) {
-                let text = format!("it then continues with a jump of {} {unit}", short(jump));
-                found.push((run, text));
+                found.push((run, Moving::Jump(Value::new(jump, &unit))));
             }
         } else if run.end == position.len()
             && let Some(reference) = &log.reference
@@ -75,8 +71,7 @@ fn frozen(log: &Log) -> Vec<(Range<usize>, String)> {
                 && meanwhile > position::MIN_FROZEN_REFERENCE * whole
                 && range > position::MIN_FROZEN_REFERENCE * whole
             {
-                let text = format!("the reference covers {} {unit}", short(meanwhile));
-                found.push((run, text));
+                found.push((run, Moving::Reference(Value::new(meanwhile, &unit))));
             }
         }
     }

@@ -1,10 +1,10 @@
 //! Whether velocity and position describe the same motion.
 
-use super::finding::{Finding, Severity};
-use super::ratio::{Sums, Words, fault};
+use super::finding::Finding;
+use super::ratio::{Sums, fault};
 use crate::log::Log;
-use stiction_codes::Code;
 use stiction_policy::signal;
+use stiction_say::Found;
 
 /// Window over which the travel of both is compared, in samples: long enough that noise and delay matter little.
 const WINDOW_SAMPLES: usize = 32;
@@ -56,14 +56,6 @@ pub(super) fn consistency(log: &mut Log) {
         other: vv,
         both: xv,
     };
-    let words = Words {
-        apart: "velocity is not the derivative of the position",
-        samples: WINDOW_SAMPLES,
-        ratio_of: ["the derivative of the position", "the velocity"],
-        causes: CAUSES,
-    };
-    if let Some(message) = fault(&sums, &words) {
-        let finding = Finding::new(Code::VelocityMismatch, Severity::Warning, message);
-        log.findings.push(finding);
-    }
+    let found = fault(&sums, WINDOW_SAMPLES, CAUSES).map(Found::Velocity);
+    log.findings.extend(found.map(Finding::warning));
 }

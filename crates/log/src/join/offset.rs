@@ -2,13 +2,13 @@
 
 use super::lag::{self, Is, Lag, Unclear};
 use super::{Course, Elsewhere, Joined, micro};
-use crate::findings::{Finding, Severity, short};
+use crate::findings::{Finding, short};
 use crate::log::unwrap;
 use crate::mapping::{Channel, Mapping, Role, Source, clear, select, time_source};
 use crate::{Dimension, Error, Kind, Table, Unit};
-use stiction_codes::Code;
 use stiction_number::Percent;
 use stiction_policy::join;
+use stiction_say::Found;
 
 /// What tells the offset where both files show it, or one of them a motion and the other the force of it.
 pub(super) const SHARED: [Role; 3] = [Role::Position, Role::Velocity, Role::Force];
@@ -38,16 +38,14 @@ pub(super) struct Estimate {
 
 impl Estimate {
     pub fn finding(&self, name: &str, role: Role) -> Finding {
-        let message = format!(
-            "{} s added to the time stamps of {name} make {} go together, to {} s (95 %); {} of the variance is explained then; to keep \
-             it, write offset = \"{} s\" in place of \"estimate\" for {role}; a delay that is fitted is known no better than that",
-            micro(self.seconds),
-            self.by,
-            short(self.lag.half_width),
-            Percent::error(100.0 * self.lag.explained).decimals(1),
-            micro(self.seconds),
-        );
-        Finding::new(Code::OffsetEstimated, Severity::Note, message)
+        Finding::note(Found::Offset {
+            channel: role.name(),
+            file: name.to_string(),
+            columns: self.by.clone(),
+            seconds: micro(self.seconds),
+            half_width: self.lag.half_width,
+            explained: self.lag.explained,
+        })
     }
 }
 

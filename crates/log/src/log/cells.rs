@@ -2,14 +2,14 @@
 
 use super::Excluded;
 use super::clock::Clock;
-use crate::findings::{Finding, Severity, count, short};
+use crate::findings::{Finding, count, short};
 use crate::mapping::{Role, Source};
 use crate::{Error, Kind, Table};
 use std::borrow::Cow;
 use std::ops::Range;
 use stiction_codes::Code;
-use stiction_number::Percent;
 use stiction_policy::signal;
+use stiction_say::{Found, Mended as Done, Useless};
 
 /// The columns of a log in the making, one number a kept row.
 pub(super) struct Columns {
@@ -29,7 +29,18 @@ struct Beyond {
 /// A channel that is no use, and why.
 pub(super) struct LeftOut {
     pub role: Role,
-    pub why: String,
+    pub why: Useless,
+}
+
+impl LeftOut {
+    pub fn new(role: Role, why: Useless) -> Self {
+        Self { role, why }
+    }
+
+    /// What is said of it.
+    pub fn finding(&self) -> Finding {
+        Finding::warning(Found::LeftOut(self.why.clone()))
+    }
 }
 
 /// What was done about missing cells.
@@ -129,25 +140,23 @@ impl Columns {
             }
             if cells == rows {
                 values.clear();
-                let why = format!("{role} holds no numbers");
-                let message = format!("{why} and is left out");
-                findings.push(Finding::new(Code::MissingCells, Severity::Warning, message));
-                left_out.push(LeftOut { role: *role, why });
+                let channel = role.name();
+                left_out.push(LeftOut::new(*role, Useless::Empty { channel }));
+                findings.extend(left_out.last().map(LeftOut::finding));
                 continue;
             }
             let slow = matches!(role, Role::Temperature | Role::Load);
             let holes = if slow { holes(time, &runs) } else { 0.0 };
             if holes >= signal::MAX_HOLES {
                 values.clear();
-                let why = format!(
-                    "{role}: {cells} of {} missing, in stretches that last {} of the record; less than half of it may be without \
-                     a number for longer than an eighth",
-                    count(rows, "cell"),
-                    Percent::error(100.0 * holes).digits(2)
-                );
-                let message = format!("{why}; it is left out");
-                findings.push(Finding::new(Code::MissingCells, Severity::Warning, message));
-                left_out.push(LeftOut { role: *role, why });
+                let why = Useless::Holes {
+                    channel: role.name(),
+                    cells,
+                    of: rows,
+                    part: holes,
+                };
+                left_out.push(LeftOut::new(*role, why));
+                findings.extend(left_out.last().map(LeftOut::finding));
                 continue;
             }
             let (mut short, mut long) = (0, 0);
@@ -167,34 +176,25 @@ impl Columns {
                 }
                 bridge(time, values, run);
             }
-            let done = match (short, long) {
-                (_, 0) if core => "interpolated and excluded".to_string(),
-                (_, 0) if holes > 0.0 => format!(
-                    "bridged by straight lines in time, held at the ends, though {} of the record is without a number for longer \
-                     than an eighth of it",
-                    Percent::error(100.0 * holes).digits(2)
-                ),
-                (_, 0) => "bridged".to_string(),
-                (0, _) => "dropped with their rows".to_string(),
-                (short, long) => {
-                    format!("{short} interpolated and excluded, {long} dropped with their rows")
-                }
+            let done = match core {
+                true => Done::Excluded {
+                    interpolated: short,
+                    dropped: long,
+                },
+                false => Done::Bridged { holes },
             };
             let beyond = self.beyond.iter().find(|b| b.role == *role);
-            let message = format!(
-                "{role}: {} of {rows} missing, first in data row {} of the part that is kept{}; {done}",
-                count(cells, "cell"),
-                first.start + 1,
-                beyond.map_or(String::new(), Beyond::among)
-            );
+            let found = Found::Missing {
+                channel: role.name(),
+                cells,
+                of: rows,
+                first: first.start + 1,
+                implausible: beyond.map(|b| (b.cells, b.number.clone(), b.row)),
+                done,
+            };
             let grave = holes > 0.0
                 || core && (long > 0 || cells as f64 > signal::MAX_MISSING_UNWARNED * rows as f64);
-            let severity = if grave {
-                Severity::Warning
-            } else {
-                Severity::Note
-            };
-            findings.push(Finding::new(Code::MissingCells, severity, message).at(first.start));
+            findings.push(Finding::graded(found, grave).at(first.start));
         }
         if drop.contains(&true) {
             retain(&mut bridged, &drop);
@@ -228,14 +228,6 @@ fn holes(time: &[f64], missing: &[Range<usize>]) -> f64 {
 }
 
 impl Beyond {
-    /// How many of the missing cells hold such a number, in words.
-    fn among(&self) -> String {
-        format!(
-            ", {} of them beyond any measurement, as {} in data row {}",
-            self.cells, self.number, self.row
-        )
-    }
-
     fn refusal(&self, rows: usize) -> Error {
         let found = format!(
             "{} is {}, and {} of {} are implausibly large",

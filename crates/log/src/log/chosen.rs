@@ -6,11 +6,11 @@
 
 use super::cells::{Columns, runs};
 use super::clock::Clock;
-use crate::findings::{Finding, Severity, count, short};
+use crate::findings::{Finding, count, short};
 use crate::mapping::{Enable, Mapping, Parts, enable, parts};
 use crate::{Error, Kind, Table};
-use stiction_codes::Code;
 use stiction_number::full;
+use stiction_say::Found;
 
 /// Most different numbers of a column that are named.
 const MOST_NAMED: usize = 6;
@@ -177,18 +177,14 @@ impl Chosen {
     /// What was left out; times are those of the kept part.
     pub fn finding(&self) -> Option<Finding> {
         let (left_out, (from, to)) = self.left_out.as_ref().zip(self.first)?;
-        let message = format!(
-            "column {} is not {} in {} of {}, at {}, the first from {} to {} s of the part that is kept; they are left out, and \
-             the record is split there",
-            left_out.column,
-            self.words,
-            left_out.rows,
-            count(left_out.of, "row"),
-            count(self.stretches, "place"),
-            short(from),
-            short(to)
-        );
-        Some(Finding::new(Code::NotEnabled, Severity::Note, message))
+        Some(Finding::note(Found::NotEnabled {
+            column: left_out.column.clone(),
+            enabled: self.words.clone(),
+            rows: left_out.rows,
+            of: left_out.of,
+            places: self.stretches,
+            seconds: [from, to],
+        }))
     }
 
     /// How many rows the column leaves out.

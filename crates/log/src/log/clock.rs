@@ -1,12 +1,12 @@
 //! Time stamps to seconds: overflow, order, crop, duplicates.
 
 use super::coarse::Coarse;
-use crate::findings::{Finding, Severity, count, full, median, short};
+use crate::findings::{Finding, count, full, median, short};
 use crate::mapping::{Mapping, Role, Source};
 use crate::{Error, Kind, Table};
 use std::ops::Range;
-use stiction_codes::Code;
 use stiction_policy::{clock, signal};
+use stiction_say::Found;
 
 /// Tolerance of the ends of a crop, relative to them, so that decimal limits keep the samples that they name.
 const CROP_ROUNDING: f64 = 1e-9;
@@ -160,15 +160,22 @@ fn stamped(
             let allowed = "at most 5 % of the rows; give the rate instead of the time column";
             return Err(Error::new(Kind::Time, found, allowed).at_data_row(first as u64 + 1));
         }
-        let message = format!("{found}, first data row {}; dropped", first + 1);
-        findings.push(Finding::new(Code::TimeMissing, Severity::Warning, message));
+        findings.push(Finding::warning(Found::NoStamps {
+            rows: stampless.len(),
+            first: first + 1,
+        }));
     }
     if let Some(first) = repeated.first()
         && share(&repeated) <= clock::MAX_DROPPED_SHARE
         && stampless.is_empty()
         && let Some(clock) = coarse()
     {
-        findings.push(counted_in_place(&clock, &repeated, first + 1));
+        findings.push(Finding::note(Found::CountedRows {
+            rows: repeated.len(),
+            first: first + 1,
+            tick: clock.tick,
+            rate: clock.rate_hz,
+        }));
         time = (0..range.len())
             .map(|row| row as f64 / clock.rate_hz)
             .collect();
@@ -223,25 +230,16 @@ fn stamped(
             let error = Error::new(Kind::Time, found, allowed).settled_by_line();
             return Err(error.at_data_row(first as u64 + 1));
         }
-        let message = format!(
-            "{found}, first data row {} at {} s; the first of each is kept",
-            first + 1,
-            short(since(first, origin))
-        );
-        findings.push(Finding::new(
-            Code::DuplicateTime,
-            Severity::Warning,
-            message,
-        ));
+        findings.push(Finding::warning(Found::RepeatedStamps {
+            rows: repeated.len(),
+            first: first + 1,
+            seconds: since(first, origin),
+        }));
     }
     if let Some(&(row, size)) = lifts.iter().find(|(row, _)| range.contains(row)) {
         let times = lifts.iter().filter(|(row, _)| range.contains(row)).count();
-        let message = format!(
-            "the time counter overflowed at {size} {}, first in data row {}; it was unwrapped",
-            count(times, "time"),
-            row + 1
-        );
-        findings.push(Finding::new(Code::TimeWrap, Severity::Note, message));
+        let first = row + 1;
+        findings.push(Finding::note(Found::TimeOverflow { size, times, first }));
     }
     if time.last().is_some_and(|t| *t > clock::MAX_DURATION) {
         let found = format!("the record lasts {} s", short(*time.last().unwrap_or(&0.0)));
@@ -291,18 +289,6 @@ fn two_units(time: &[f64]) -> Option<(usize, [f64; 2])> {
     // The longest stretch of them that reaches the end.
     let at = steps.iter().rposition(|step| !is_of_the_end(step))? + 1;
     Some((at + 1, [from, to]))
-}
-
-/// Says that rows are at one rate, which the stamps of a coarse clock do not show one by one.
-fn counted_in_place(clock: &Coarse, repeated: &[usize], first: usize) -> Finding {
-    let message = format!(
-        "{} with the time stamp of the row before, first data row {first}: the stamps are rounded to {} s, and the rows are at one rate, \
-         {} Hz, at which they are counted",
-        count(repeated.len(), "row"),
-        short(clock.tick),
-        clock.rate_hz
-    );
-    Finding::new(Code::DuplicateTime, Severity::Note, message)
 }
 
 /// The rate of the rows, Hz, whose stamps a clock rounds that is coarser than the sampling; `None` where the stamps are to be kept.

@@ -2,12 +2,12 @@
 //! known to do, for which one probably is.
 
 use super::Log;
-use crate::findings::{Finding, Severity, extremes, median, short};
+use crate::findings::{Finding, extremes, median, short};
 use crate::mapping::{RATES, Role, Source};
 use crate::{Error, Kind, Motion, Table};
 use std::ops::RangeInclusive;
-use stiction_codes::Code;
 use stiction_policy::signal;
+use stiction_say::{Found, Size, Value};
 
 /// Travels of a position (m, rad) and largest velocities, accelerations and forces that a log may have, in SI units: a thousandth
 /// of the diameter of an atom to far more than any machine.
@@ -29,32 +29,26 @@ pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> 
     };
     let duration = log.time.last().zip(log.time.first()).map(|(b, a)| b - a);
     let mut found = Vec::new();
-    let mut tell = |role: Role,
-                    value: f64,
-                    says: String,
-                    range: &RangeInclusive<f64>,
-                    unit: &str| {
+    let mut tell = |role: Role, size: Size, range: &RangeInclusive<f64>| {
         let Some((_, source)) = sources.iter().find(|(own, _)| *own == role) else {
             return;
         };
+        let value = size.value().number;
         // What never changes has no size.
         if value == 0.0 || range.contains(&value) {
             return;
         }
-        let message = format!(
-            "{says}; machines have {} to {} {unit}: the unit of column {} ({}) is probably wrong; another one is given in axis.toml under [columns], as in: {}",
-            short(*range.start()),
-            short(*range.end()),
-            source.place(table),
-            source.unit,
-            source.line(table, role, value < *range.start()),
-        );
-        found.push(Finding::new(Code::UnlikelySize, Severity::Warning, message));
+        found.push(Finding::warning(Found::UnlikelySize {
+            size,
+            usual: [*range.start(), *range.end()],
+            column: source.place(table),
+            unit: source.unit.to_string(),
+            line: source.line(table, role, value < *range.start()),
+        }));
     };
     let step = 1.0 / log.rate_hz;
     let steps = 1.0 / signal::USUAL_RATES.end()..=1.0 / signal::USUAL_RATES.start();
-    let says = format!("the median time step is {} s", short(step));
-    tell(Role::Time, step, says, &steps, "s");
+    tell(Role::Time, Size::TimeStep(Value::new(step, "s")), &steps);
     for (role, values) in [
         (Role::Position, &log.position),
         (Role::Reference, &log.reference),
@@ -65,16 +59,16 @@ pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> 
         if high - low <= CONSTANT_WITHIN * f64::EPSILON * low.abs().max(high.abs()) {
             continue;
         }
-        let says = format!("{role} travels {} {length} in all", short(high - low));
-        tell(role, high - low, says, &travels, &length);
+        let travel = Value::new(high - low, &length);
+        tell(role, Size::Travel(role.name(), travel), &travels);
         let path = |x: &[f64]| x.windows(2).map(|w| (w[1] - w[0]).abs()).sum::<f64>();
         let (Some(x), Some(duration)) = (values, duration.filter(|d| *d > 0.0)) else {
             continue;
         };
         let mean = path(x) / duration;
         if travels.contains(&(high - low)) && mean > fastest {
-            let says = format!("{role} moves with {} {speed} on average", short(mean));
-            tell(role, mean, says, &(0.0..=fastest), &speed);
+            let size = Size::MeanSpeed(role.name(), Value::new(mean, &speed));
+            tell(role, size, &(0.0..=fastest));
         }
     }
     let force = log.force_unit.as_str();
@@ -84,8 +78,8 @@ pub(super) fn unlikely(log: &Log, table: &Table, sources: &[(Role, Source)]) -> 
     ] {
         if let Some((low, high)) = values.as_deref().and_then(extremes) {
             let largest = low.abs().max(high.abs());
-            let says = format!("{role} is {} {unit} at most", short(largest));
-            tell(role, largest, says, &range, unit);
+            let size = Size::Largest(role.name(), Value::new(largest, unit));
+            tell(role, size, &range);
         }
     }
     if found.is_empty() {
@@ -122,25 +116,19 @@ fn no_servo(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Option<Find
     let units = [log.motion.velocity(), log.motion.acceleration()];
     let [of_speed, of_acceleration] = units.map(|dimension| dimension.si_text());
     let time = sources.iter().find(|(own, _)| *own == Role::Time);
-    let time = time.map_or(String::new(), |(_, time)| {
-        format!(
-            ", or that of time, column {} ({})",
-            time.place(table),
-            time.unit
-        )
-    });
-    let message = format!(
-        "{role} shows {} {of_speed} and {} {of_acceleration} at once, and no servo axis has more than {} {of_speed} with more than {} \
-         {of_acceleration}: is the unit of column {} ({}) wrong{time}? Another one is given in axis.toml under [columns], as in: {}",
-        short(speed),
-        short(acceleration),
-        short(fastest),
-        short(hardest),
-        source.place(table),
-        source.unit,
-        source.line(table, role, false),
-    );
-    Some(Finding::new(Code::UnlikelySize, Severity::Warning, message))
+    Some(Finding::warning(Found::NoServo {
+        channel: role.name(),
+        speed: Value::new(speed, &of_speed),
+        acceleration: Value::new(acceleration, &of_acceleration),
+        most: [
+            Value::new(fastest, &of_speed),
+            Value::new(hardest, &of_acceleration),
+        ],
+        column: source.place(table),
+        unit: source.unit.to_string(),
+        time: time.map(|(_, time)| (time.place(table), time.unit.to_string())),
+        line: source.line(table, role, false),
+    }))
 }
 
 /// The size that all but a few are below.
@@ -161,16 +149,9 @@ pub(super) fn check(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Res
         && !RATES.contains(&log.rate_hz)
     {
         let step = 1.0 / log.rate_hz;
-        let says = format!("the median time step is {} s", short(step));
+        let size = Size::TimeStep(Value::new(step, "s"));
         let steps = 1.0 / RATES.end()..=1.0 / RATES.start();
-        return Err(refusal(
-            table,
-            Role::Time,
-            source,
-            (step, says),
-            &steps,
-            "s",
-        ));
+        return Err(refusal(table, Role::Time, source, &size, &steps));
     }
     let force = log.force_unit.as_str();
     let units = [
@@ -199,14 +180,15 @@ pub(super) fn check(log: &Log, table: &Table, sources: &[(Role, Source)]) -> Res
         if constant || SIZES.contains(&size) {
             continue;
         }
-        let says = match travels {
-            true => format!("{role} travels {} {unit} in all", short(size)),
-            false => format!("{role} is {} {unit} at most", short(size)),
-        };
         if let Some(few) = values.as_deref().and_then(|x| Few::of(x, travels)) {
             return Err(few.refusal(log, table, role, source, unit));
         }
-        return Err(refusal(table, role, source, (size, says), &SIZES, unit));
+        let value = Value::new(size, unit);
+        let size = match travels {
+            true => Size::Travel(role.name(), value),
+            false => Size::Largest(role.name(), value),
+        };
+        return Err(refusal(table, role, source, &size, &SIZES));
     }
     Ok(())
 }
@@ -270,18 +252,18 @@ fn refusal(
     table: &Table,
     role: Role,
     source: &Source,
-    (size, found): (f64, String),
+    size: &Size,
     range: &RangeInclusive<f64>,
-    unit: &str,
 ) -> Error {
+    let Value { number, unit } = size.value();
     let allowed = format!(
         "allowed: from {:e} to {:e} {unit}; its unit ({}) or its scale is wrong: give the right one in axis.toml under [columns], as in: {}",
         range.start(),
         range.end(),
         source.unit,
-        source.line(table, role, size < *range.start()),
+        source.line(table, role, *number < *range.start()),
     );
-    Error::new(Kind::Value, found, allowed)
+    Error::new(Kind::Value, size.to_string(), allowed)
         .in_column(source.place(table))
         .of_setting(role.key("unit"))
 }

@@ -12,11 +12,11 @@
 use super::cells::{Columns, LeftOut};
 use super::clock::Clock;
 use crate::Table;
-use crate::findings::{Finding, Severity, count, full, median, short};
+use crate::findings::{Finding, full, median};
 use crate::mapping::{Role, Source};
 use std::ops::Range;
-use stiction_codes::Code;
 use stiction_policy::signal;
+use stiction_say::{Dropout, Found, Useless, Value};
 
 /// Steps are taken over so many rows, and the least quartile counts: with a dropout at every second row none is over one.
 const OVER_ROWS: std::ops::RangeInclusive<usize> = 1..=4;
@@ -43,19 +43,19 @@ pub(super) fn clear(
             let number = table.columns[source.column].values[row];
             (row + 1, format!("{} {}", full(number), source.unit))
         };
-        let of = format!("of column {}", source.place(table));
+        let column = source.place(table);
         if *role == Role::Temperature {
             let found = runs_below_zero(values);
             if let Some(first) = found.first().map(|run| run.start) {
                 let (row, number) = cell(first);
-                let message = format!(
-                    "{role} is at or below 0 K in {} of {}, first in data row {row} {of}: {number}; a temperature is above 0 K \
-                     (-273.15 degC). These cells are taken as missing",
-                    rows(&found),
-                    count(values.len(), "row")
-                );
-                let finding = Finding::new(Code::SensorDropout, Severity::Warning, message);
-                findings.push(finding.at(first));
+                let found_below = Found::BelowAbsoluteZero {
+                    rows: rows(&found),
+                    of: values.len(),
+                    first: row,
+                    column: column.clone(),
+                    number,
+                };
+                findings.push(Finding::warning(found_below).at(first));
                 empty(values, &found);
             }
         }
@@ -66,33 +66,22 @@ pub(super) fn clear(
         };
         let (row, number) = cell(first);
         let whole = (0..values.len()).filter(|i| !values[*i].is_nan()).count();
-        let said = format!(
-            "{role} leaves its course {} for {}, first in data row {row} {of}: {number}",
-            count(found.len(), "time"),
-            count(rows(&found), "row")
-        );
+        let dropout = Dropout {
+            channel: role.name(),
+            times: found.len(),
+            rows: rows(&found),
+            first: row,
+            column,
+            number,
+            step: Value::new(least, source.dimension.si_text()),
+        };
         if rows(&found) as f64 >= signal::MIN_ON_COURSE * whole as f64 {
             values.clear();
-            let why = format!(
-                "{said}; from row to row it may change by {} {}, and at least half of it must be on one course",
-                short(least),
-                source.dimension.si_text()
-            );
-            findings.push(Finding::new(
-                Code::SensorDropout,
-                Severity::Warning,
-                format!("{why}; it is left out"),
-            ));
-            left_out.push(LeftOut { role: *role, why });
+            left_out.push(LeftOut::new(*role, Useless::Scattered(dropout)));
+            findings.extend(left_out.last().map(LeftOut::finding));
             continue;
         }
-        let message = format!(
-            "{said}: the sensor dropped out; from row to row it may change by {} {}. These cells are taken \
-             as missing",
-            short(least),
-            source.dimension.si_text()
-        );
-        findings.push(Finding::new(Code::SensorDropout, Severity::Warning, message).at(first));
+        findings.push(Finding::warning(Found::Dropout(dropout)).at(first));
         empty(values, &found);
     }
     left_out

@@ -12,13 +12,12 @@
 //! Velocity is not checked: one that is counted from encoder pulses is 0 wherever no pulse came.
 
 use super::cells::{Columns, runs};
-use crate::findings::{Finding, Severity, count, short};
+use crate::findings::Finding;
 use crate::mapping::Role;
 use crate::{Error, Kind};
 use std::ops::Range;
-use stiction_codes::Code;
-use stiction_number::Percent;
 use stiction_policy::signal;
+use stiction_say::{Found, Zeros};
 
 /// Samples on either side of a zero that it is compared with.
 const NEIGHBOURS: usize = 3;
@@ -38,27 +37,20 @@ pub(super) fn clear(columns: &mut Columns, findings: &mut Vec<Finding>) -> Resul
             .iter()
             .flat_map(|run| &values[run.clone()])
             .fold(0.0_f64, |most, x| most.max(x.abs()));
-        let value = if largest == 0.0 {
-            "0".to_string()
-        } else {
-            format!("0 or practically 0 (at most {})", short(largest))
+        let zeros = Zeros {
+            channel: role.name(),
+            largest,
+            cells,
+            of: rows,
+            first: first + 1,
         };
-        let found = format!(
-            "{role} is {value} in {cells} of {} ({}), first in data row {} of the part that is kept, between \
-             samples far from 0",
-            count(rows, "sample"),
-            Percent::error(100.0 * cells as f64 / rows as f64).short(),
-            first + 1
-        );
         // A load that is no use is no reason to refuse the motion.
         if role != Role::Load && cells as f64 > signal::MAX_MISSING_SHARE * rows as f64 {
             let allowed = "at most half may be missing; export the column at the rate of the \
                            others, and missing samples as empty cells";
-            return Err(Error::new(Kind::Value, found, allowed).in_column(role.name()));
+            return Err(Error::new(Kind::Value, zeros.to_string(), allowed).in_column(role.name()));
         }
-        let message =
-            format!("{found}: the export wrote 0 for missing samples, which are not fitted to");
-        findings.push(Finding::new(Code::ZeroFilled, Severity::Warning, message).at(first));
+        findings.push(Finding::warning(Found::ZeroFilled(zeros)).at(first));
         for run in filled {
             values[run].fill(f64::NAN);
         }

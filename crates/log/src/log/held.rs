@@ -1,8 +1,6 @@
 //! A position that is renewed less often than it is logged.
 
-use crate::findings::{Finding, Severity, median};
-use stiction_codes::Code;
-use stiction_number::full;
+use crate::findings::median;
 use stiction_policy::position;
 
 /// Most rows between two renewals that are looked for.
@@ -60,15 +58,4 @@ pub(super) fn meaned(force: &[f64], rows: usize) -> Vec<f64> {
         })
     };
     (0..force.len()).map(mean).collect()
-}
-
-/// What is said of it.
-pub(super) fn finding(rows: usize, rate: f64) -> Finding {
-    let message = format!(
-        "the position is renewed once in {rows} rows only; the rows between are left out, their force goes into the mean, and the log \
-         is read at {} Hz. Nothing has to be done; for constants of the machine log at the rate of the encoder, or the position that the \
-         controller sees",
-        full(rate / rows as f64)
-    );
-    Finding::new(Code::HeldPosition, Severity::Warning, message)
 }

@@ -74,14 +74,6 @@ pub(crate) fn counts(values: &[f64]) -> Option<u64> {
     }
 }
 
-/// A counter in words: of how many bits, or of how many counts.
-pub(crate) fn counter(counts: u64) -> String {
-    match counts.is_power_of_two() {
-        true => format!("a counter of {} bits", counts.ilog2()),
-        false => format!("a counter of {counts} counts"),
-    }
-}
-
 /// How many periods a position has gone through.
 fn passed(values: &[f64], period: f64) -> f64 {
     let mut whole: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();

@@ -1,11 +1,11 @@
 //! Unwrapping a position.
 
 use super::overflow;
-use crate::findings::{Finding, Severity, count, extremes, full, median, quantum, short};
+use crate::findings::{Finding, extremes, full, median, quantum, short};
 use crate::mapping::{Source, Wrap};
 use crate::{Dimension, Error, Kind};
-use stiction_codes::Code;
 use stiction_policy::position;
+use stiction_say::{Found, Value, WrongWrap};
 
 /// Part of the wrap by which the numbers of a position may go beyond it by rounding.
 const ROUNDING: f64 = 1e-3;
@@ -79,69 +79,50 @@ pub(super) fn unwrap(
         .and_then(|counts| wrong_counts(position, period, counts))
         .or_else(|| wrong(position, period, unit));
     let wraps = straighten(position, period);
-    let likewise = reference.is_some_and(|reference| {
+    let reference = reference.is_some_and(|reference| {
         let followed = straighten(reference, period).is_some();
         let moved = beside(position, reference, period);
         followed || moved
     });
-    let likewise = match likewise {
-        true => "; the reference likewise",
-        false => "",
+    let is_wrong = wrong.is_some();
+    let found = Found::Wrapped {
+        wraps,
+        period: Value::new(period, unit),
+        reference,
+        wrong,
     };
-    let period = short(period);
-    let Some((wraps, first)) = wraps else {
-        let message = format!(
-            "position never wraps: no step is longer than half the wrap of {period} {unit}; nothing was unwrapped{}",
-            likewise.replace("likewise", "was")
-        );
-        return stated(message, wrong);
-    };
-    let message = format!(
-        "position wrapped {}, first at sample {first}; unwrapped with a period of {period} {unit}{likewise}",
-        count(wraps, "time")
-    );
-    stated(message, wrong).at(first)
-}
-
-/// What was done, and why that is probably wrong, if so.
-fn stated(message: String, wrong: Option<String>) -> Finding {
-    match wrong {
-        None => Finding::new(Code::PositionWrap, Severity::Note, message),
-        Some(wrong) => {
-            let message = format!("{message}, but {wrong}");
-            Finding::new(Code::PositionWrap, Severity::Warning, message)
-        }
+    let finding = Finding::graded(found, is_wrong);
+    match wraps {
+        Some((_, first)) => finding.at(first),
+        None => finding,
     }
 }
 
 /// Why a counter does not begin again after so many counts, if so: it shows more, or is one short of those of its bits.
-fn wrong_counts(position: &[f64], period: f64, counts: f64) -> Option<String> {
+fn wrong_counts(position: &[f64], period: f64, counts: f64) -> Option<WrongWrap> {
     let (low, high) = extremes(position)?;
     let shown = ((high - low) * counts / period).round() + 1.0;
     let bits = (8..=48).find(|bits| counts + 1.0 == (1_u64 << bits) as f64);
-    let how = match bits {
-        Some(bits) => format!(
-            "a counter of {bits} bits begins again after {} counts",
-            full(counts + 1.0)
-        ),
-        None if shown > counts => format!("its numbers show {} counts, which is more", full(shown)),
-        None => return None,
-    };
+    if bits.is_none() && shown <= counts {
+        return None;
+    }
     let right = overflow::counts(
         &position
             .iter()
             .map(|x| x * counts / period)
             .collect::<Vec<_>>(),
     );
-    let right = right.or(bits.map(|bits| 1 << bits));
-    let line = right.map_or("correct wrap".into(), |right| {
-        format!("write wrap = \"{right} counts\"")
-    });
-    Some(format!("{how}: {line} under [log] in axis.toml"))
+    Some(match bits {
+        Some(bits) => WrongWrap::Bits {
+            bits,
+            right: right.unwrap_or(1 << bits),
+        },
+        None => WrongWrap::Counts { shown, right },
+    })
 }
 
 /// Why a position as it is logged does not begin again after this period, if so.
-fn wrong(position: &[f64], period: f64, unit: &str) -> Option<String> {
+fn wrong(position: &[f64], period: f64, unit: &str) -> Option<WrongWrap> {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     // Steps where it wraps, as they are logged and as they are left, and the longest of the others.
     let (mut logged, mut left, mut longest) = (Vec::new(), Vec::new(), 0.0_f64);
@@ -160,27 +141,16 @@ fn wrong(position: &[f64], period: f64, unit: &str) -> Option<String> {
         before = Some(x);
     }
     let covers_more = high - low > period * (1.0 + ROUNDING);
-    let covered = short(high - low);
+    let covers = Value::new(high - low, unit);
     let Some(left) = median(&mut left) else {
-        return covers_more.then(|| {
-            format!(
-                "its numbers cover {covered} {unit}, which is more than the wrap, and go on without a jump: it does not begin again after \
-                 that, so leave wrap out of [log] in axis.toml, or correct it"
-            )
-        });
+        return covers_more.then_some(WrongWrap::Beyond { covers });
     };
-    let how = if covers_more {
-        format!("its numbers cover {covered} {unit}, which is more")
-    } else if left > position::MAX_UNWRAPPED_STEP * longest {
-        format!("jumps of {} {unit} are left there", short(left))
-    } else {
-        return None;
-    };
-    let jump = short(median(&mut logged).unwrap_or(0.0));
-    Some(format!(
-        "{how}: it does not begin again after that; it jumps by {jump} {unit}, so correct wrap under [log] in axis.toml, or leave \
-         it out"
-    ))
+    let jump = Value::new(median(&mut logged).unwrap_or(0.0), unit);
+    if covers_more {
+        return Some(WrongWrap::Jumps { covers, jump });
+    }
+    let left = (left > position::MAX_UNWRAPPED_STEP * longest).then(|| Value::new(left, unit));
+    left.map(|left| WrongWrap::Left { left, jump })
 }
 
 /// How often a column wrapped, and at which sample first; `None` where it never did.

@@ -8,9 +8,9 @@ use super::names::{self, Hint};
 use super::select::{distinct, select};
 use super::still::{has_to_change, never_changes};
 use super::{Detected, Mapping, bases, counted, describe, endings, motion, offered, rate, wanted};
-use crate::findings::{Finding, Severity};
+use crate::findings::Finding;
 use crate::{Dimension, Error, Kind, Table, Unit, Value};
-use stiction_codes::Code;
+use stiction_say::{ForceLine, Found};
 
 /// Sample times, s, that a file may give: those of the rates that an axis file may give.
 const PLAUSIBLE_SAMPLE_TIME: std::ops::RangeInclusive<f64> = 1e-9..=1e3;
@@ -689,62 +689,45 @@ impl<'a> Scan<'a> {
             let free = !self.used[*c] && !self.flags[*c] && !self.still[*c];
             free && !named && self.unit_allows(*c, Role::Force)
         };
-        let how = match (0..self.units.len()).rev().find(open) {
-            Some(column) => {
-                let with = |unit| describe::line_with(self.table, column, Role::Force, unit);
-                let line = match &self.units[column] {
-                    Some(_) => describe::line(self.table, column, Role::Force),
-                    None if names::says_current(&self.table.columns[column].name) => {
-                        with("unit = \"A\"")
-                    }
-                    None => format!(
-                        "{}, where UNIT is N of a force, N m of a torque, A of a current",
-                        with("unit = \"UNIT\"")
-                    ),
-                };
-                format!(
-                    "name it in axis.toml under [columns], as in: {line} (docs/axis.md tells what makes a force of the voltage, \
-                     the duty or the current of a motor: [drive])"
-                )
-            }
-            None => "one of another file is joined by its time stamps, in axis.toml under [columns]: force = { file = \
-                     \"FILE\", column = \"NAME\", unit = \"UNIT\" }"
-                .to_string(),
+        let of_column = |column: usize| {
+            let with = |unit| describe::line_with(self.table, column, Role::Force, unit);
+            let (line, open_unit) = match &self.units[column] {
+                Some(_) => (describe::line(self.table, column, Role::Force), false),
+                None if names::says_current(&self.table.columns[column].name) => {
+                    (with("unit = \"A\""), false)
+                }
+                None => (with("unit = \"UNIT\""), true),
+            };
+            ForceLine::Column { line, open_unit }
         };
-        let how = self
-            .nanometres()
-            .or_else(|| self.counted_force())
-            .unwrap_or(how);
-        let message = format!(
-            "no column was recognised as force, torque or current; friction needs one; {}; {how}",
-            describe::columns(self.table)
-        );
-        Finding::new(Code::NoForce, Severity::Warning, message)
+        let column = || (0..self.units.len()).rev().find(open).map(of_column);
+        let line = self.nanometres().or_else(|| self.counted_force());
+        Finding::warning(Found::NoForce {
+            columns: describe::columns(self.table),
+            line: line.or_else(column).unwrap_or(ForceLine::OtherFile),
+        })
     }
 
     /// What to write where newton metres of a torque were written as nanometres.
-    fn nanometres(&self) -> Option<String> {
+    fn nanometres(&self) -> Option<ForceLine> {
         let written = |c: &usize| self.table.columns[*c].unit.as_deref() == Some("nm");
         let column =
             (0..self.units.len()).find(|c| written(c) && self.is_hinted(*c, Role::Force))?;
-        Some(format!(
-            "{} has the name of a force, but nm are nanometres, a length; newton metres are Nm or N m: write that in the \
-             log, or in axis.toml under [columns]: {}",
-            describe::column(self.table, column),
-            describe::line_with(self.table, column, Role::Force, "unit = \"N m\"")
-        ))
+        Some(ForceLine::Nanometres {
+            column: describe::column(self.table, column),
+            line: describe::line_with(self.table, column, Role::Force, "unit = \"N m\""),
+        })
     }
 
     /// What to write where a force is in counts, which measure nothing until their size is given.
-    fn counted_force(&self) -> Option<String> {
+    fn counted_force(&self) -> Option<ForceLine> {
         let in_counts =
             |c: &usize| self.is_hinted(*c, Role::Force) && counted::is_counted(self.table, *c);
         let column = (0..self.units.len()).find(in_counts)?;
-        Some(format!(
-            "{} has the name of a force, and the size of its counts is not given: give it in axis.toml under [columns], as in: {}",
-            describe::column(self.table, column),
-            offered::line(self.table, column, Role::Force, self.kind())
-        ))
+        Some(ForceLine::Counts {
+            column: describe::column(self.table, column),
+            line: offered::line(self.table, column, Role::Force, self.kind()),
+        })
     }
 
     fn is_hinted(&self, column: usize, role: Role) -> bool {

@@ -7,11 +7,11 @@ use super::{
     Detected, Mapping, choose, counted, describe, enable, endings, motion, names, offered, rate,
     understood,
 };
-use crate::findings::{Finding, Severity};
+use crate::findings::Finding;
 use crate::{Column, Dimension, Error, Kind, Table, Unit};
-use stiction_codes::Code;
 use stiction_number::full;
 use stiction_policy::clock;
+use stiction_say::Found;
 
 /// One role with its column found and, where anything tells it, its unit.
 pub(super) struct Part {
@@ -205,10 +205,11 @@ fn written_unit(
             };
             !Unit::parse(text).is_ok_and(same)
         }) {
-            let message = format!(
-                "{role}: the recording gives {other}, the axis file {unit}; the axis file takes precedence"
-            );
-            findings.push(Finding::new(Code::UnitOverride, Severity::Note, message));
+            findings.push(Finding::note(Found::UnitOverride {
+                channel: role.name(),
+                recording: other,
+                axis_file: unit.to_string(),
+            }));
         }
         return Ok(Some(unit.clone()));
     }
@@ -398,11 +399,7 @@ fn assume_units(
         part.assumed = true;
     }
     if !told.is_empty() {
-        let message = format!(
-            "no unit is given for some columns; assumed: {}",
-            told.join(", ")
-        );
-        findings.push(Finding::new(Code::UnitAssumed, Severity::Note, message));
+        findings.push(Finding::note(Found::UnitsAssumed(told)));
     }
     Ok(())
 }
@@ -512,9 +509,12 @@ fn judge(
     source: &Source,
     kind: Motion,
 ) {
-    if let Some(note) = unit.note() {
-        let message = format!("{}: {unit} is {note}", part.role);
-        findings.push(Finding::new(Code::UnitConvention, Severity::Note, message));
+    if let Some(meaning) = unit.note() {
+        findings.push(Finding::note(Found::UnitConvention {
+            channel: part.role.name(),
+            unit: unit.to_string(),
+            meaning,
+        }));
     }
     if part.role != Role::Force
         || driven
@@ -523,38 +523,23 @@ fn judge(
     {
         return;
     }
-    let is = source.dimension.si_text();
+    let dimension = source.dimension.si_text();
     let wanted = kind.force().si_text();
-    let mixed = [Dimension::FORCE, Dimension::TORQUE].contains(&source.dimension);
-    findings.push(if mixed {
-        let message = format!(
-            "the force is in {is}, but on a {kind} axis it has to be in {wanted}; a scale \
-             for the lead or radius is missing, or the kind is wrong"
-        );
-        Finding::new(Code::ForceUnit, Severity::Warning, message)
-    } else if source.dimension == Dimension::VOLTAGE {
-        let message = format!(
-            "the force is a voltage. As the command of a drive in torque mode it needs a scale in {wanted}/{}; at the terminals of a \
-             motor it is no force: back-EMF and resistance would pass for viscous friction, and the motor belongs under [drive] of the \
-             axis file, with force_constant, resistance and the speed: docs/axis.md#drive",
-            unit.text()
-        );
-        Finding::new(Code::ForceNotCalibrated, Severity::Warning, message)
-    } else {
-        let message = format!(
-            "the force is in {is}; parameters come out in {is} too, unless a scale in {} is given{}",
-            match source.dimension {
-                Dimension::ONE => wanted.clone(),
-                _ => format!("{wanted}/{}", unit.text()),
-            },
-            match source.dimension {
-                Dimension::ONE => format!(
-                    ": of a part of a rated value the scale is that value, scale = \"RATED {wanted}\" (of CiA 402 object 6076h, or the \
-                     nameplate); of a duty it is the motor under [drive]: docs/axis.md#drive"
-                ),
-                _ => String::new(),
-            }
-        );
-        Finding::new(Code::ForceNotCalibrated, Severity::Note, message)
+    let typed = || unit.text().to_string();
+    findings.push(match source.dimension {
+        Dimension::FORCE | Dimension::TORQUE => Finding::warning(Found::ForceUnit {
+            unit: dimension,
+            motion: kind.to_string(),
+            wanted,
+        }),
+        Dimension::VOLTAGE => Finding::warning(Found::ForceIsVoltage {
+            wanted,
+            unit: typed(),
+        }),
+        own => Finding::note(Found::Uncalibrated {
+            dimension,
+            wanted,
+            per: (own != Dimension::ONE).then(typed),
+        }),
     });
 }

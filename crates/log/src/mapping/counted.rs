@@ -80,7 +80,7 @@ pub(super) fn lines(table: &Table, column: usize, role: Role, motion: Option<Mot
     match overflow::counts(&table.columns[column].values) {
         Some(counts) => format!(
             "{size}; it jumps as {} that begins again does: then also wrap = \"{counts} counts\" under [log]",
-            overflow::counter(counts)
+            stiction_say::counter(counts)
         ),
         None => size,
     }

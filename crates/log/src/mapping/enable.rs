@@ -4,9 +4,9 @@ use super::channel::Selector;
 use super::flags::{has_zeros, is_flag};
 use super::select::select;
 use super::{Mapping, describe, names};
-use crate::findings::{Finding, Severity, full};
+use crate::findings::{Finding, full};
 use crate::{Error, Table};
-use stiction_codes::Code;
+use stiction_say::Found;
 
 /// The key of the axis file.
 pub(crate) const KEY: &str = "columns.enable";
@@ -103,6 +103,16 @@ enum Unused {
     Status(usize),
 }
 
+impl Unused {
+    /// The line of the axis file that leaves out its other rows.
+    fn line(&self, table: &Table) -> String {
+        match *self {
+            Self::Flag(column) => Enable::whole_line(table, column),
+            Self::Status(column) => Enable::status_line(table, column),
+        }
+    }
+}
+
 /// The column that says that the axis was not enabled in some rows, where a mapping keeps them all.
 fn unused(given: &Mapping, table: &Table) -> Option<Unused> {
     if given.enable.is_some() {
@@ -140,35 +150,22 @@ impl Mapping {
     /// The line of the axis file that leaves out the rows in which a column, by its name, says that the axis was not enabled, where
     /// this mapping keeps them all.
     pub fn enable_line(&self, table: &Table) -> Option<String> {
-        Some(match unused(self, table)? {
-            Unused::Flag(column) => Enable::whole_line(table, column),
-            Unused::Status(column) => Enable::status_line(table, column),
-        })
+        Some(unused(self, table)?.line(table))
     }
 }
 
 /// Warns of such a column.
 pub(super) fn ignored(given: &Mapping, table: &Table) -> Option<Finding> {
-    let message = match unused(given, table)? {
-        Unused::Flag(column) => format!(
-            "column {} is 0 in some rows, and all rows are used: where the axis is not enabled, the force is not what moves it; if it \
-             is enabled where the column is 1, leave out the others: {} under [columns] of the axis file",
-            place(table, column),
-            Enable::whole_line(table, column)
-        ),
-        Unused::Status(column) => format!(
-            "column {} is a status word in which operation is not enabled in some rows (its bits are not xxxx xxxx x01x 0111), and \
-             all rows are used: where the axis is not enabled, the force is not what moves it; leave them out: {} under [columns] of \
-             the axis file",
-            place(table, column),
-            Enable::status_line(table, column)
-        ),
+    let unused = unused(given, table)?;
+    let (column, status_word) = match unused {
+        Unused::Flag(column) => (column, false),
+        Unused::Status(column) => (column, true),
     };
-    Some(Finding::new(
-        Code::EnableIgnored,
-        Severity::Warning,
-        message,
-    ))
+    Some(Finding::warning(Found::EnableIgnored {
+        column: place(table, column),
+        status_word,
+        line: unused.line(table),
+    }))
 }
 
 /// The column in words: `7 "Enabled"`.

@@ -2,12 +2,12 @@
 
 use super::channel::Role;
 use super::describe;
-use crate::findings::{Finding, Severity, median, short};
+use crate::findings::{Finding, median, short};
 use crate::log::coarse::Coarse;
 use crate::{Error, Kind, Table, Unit};
 use std::ops::Range;
-use stiction_codes::Code;
 use stiction_policy::clock;
+use stiction_say::Found;
 
 /// Units that time stamps without one may be in, the likeliest first.
 const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
@@ -87,14 +87,11 @@ pub(super) fn missing_rows(
     if fewer < clock::MIN_LOST_ROW * jumps.len() as f64 {
         return None;
     }
-    let message = format!(
-        "rows are missing between the stamps of {}, first at {} s, which rate = \"{} Hz\" of axis.toml does not count: the stamps are read, \
-         and not the rate",
-        describe::column(table, column),
-        short(unit.factor() * (stamps[first] - stamps[0])),
-        short(rate),
-    );
-    Some(Finding::new(Code::RateOverride, Severity::Warning, message))
+    Some(Finding::warning(Found::RateSkipsRows {
+        column: describe::column(table, column),
+        seconds: unit.factor() * (stamps[first] - stamps[0]),
+        rate,
+    }))
 }
 
 /// The line of the axis file that makes a column the time, where its numbers run on as time stamps do in some unit.
@@ -194,16 +191,12 @@ impl Rounded {
     /// What there is to say of rows that are missing, which a rate does not count.
     fn missing(&self, table: &Table, column: usize, rate: f64) -> Option<Finding> {
         let rows = self.stretch.as_ref()?;
-        let at = |row: usize| short((self.first + row) as f64 / rate);
-        let message = format!(
-            "the rows are counted at rate = \"{} Hz\" of axis.toml, which is that of the longest stretches of {}; rows are missing \
-             between them, which it does not count; take rate out, or keep rows without a gap, under [log]: crop = [\"{} s\", \"{} s\"]",
-            short(rate),
-            describe::column(table, column),
-            at(rows.start),
-            at(rows.end - 1)
-        );
-        Some(Finding::new(Code::RateOverride, Severity::Warning, message))
+        let at = |row: usize| (self.first + row) as f64 / rate;
+        Some(Finding::warning(Found::RateSkipsGaps {
+            column: describe::column(table, column),
+            rate,
+            crop: [at(rows.start), at(rows.end - 1)],
+        }))
     }
 }
 
@@ -230,15 +223,13 @@ fn without_unit(table: &Table, column: usize, rate: f64) -> Option<Finding> {
     let seconds = |unit: &Unit| unit.factor() * steps.usual;
     let unit = units().find(|unit| clock::PLAUSIBLE_SPACING.contains(&seconds(unit)))?;
     let named = format!("unit = \"{unit}\"");
-    let message = format!(
-        "the rows are counted at rate = \"{} Hz\" of axis.toml, and {} is not read: in {unit} it runs at {} Hz; if that is right, \
-         delete the line rate and write under [columns]: {}",
-        short(rate),
-        describe::column(table, column),
-        short(1.0 / seconds(&unit)),
-        describe::line_with(table, column, Role::Time, &named)
-    );
-    Some(Finding::new(Code::RateOverride, Severity::Warning, message))
+    Some(Finding::warning(Found::StampsUnread {
+        column: describe::column(table, column),
+        rate,
+        unit: unit.to_string(),
+        stamped: 1.0 / seconds(&unit),
+        line: describe::line_with(table, column, Role::Time, &named),
+    }))
 }
 
 /// A file without time stamps may state its sample time.
@@ -247,12 +238,5 @@ fn stated(table: &Table, rate: f64) -> Option<Finding> {
     if (rate * step - 1.0).abs() <= clock::MAX_RATE_ERROR {
         return None;
     }
-    let message = format!(
-        "the rows are counted at rate = \"{} Hz\" of axis.toml, and the file states a sample time of {} s, {} Hz; if the file is \
-         right, delete the line rate",
-        short(rate),
-        short(step),
-        short(1.0 / step)
-    );
-    Some(Finding::new(Code::RateOverride, Severity::Warning, message))
+    Some(Finding::warning(Found::RateDiffers { rate, step }))
 }

@@ -2,7 +2,9 @@
 
 use crate::mapping_common::{column, message, noise, table};
 use proptest::prelude::*;
-use stiction_log::{Channel, Elsewhere, Error, Joined, Kind, Log, Mapping, Offset, Role, Table};
+use stiction_log::{
+    Channel, Elsewhere, Error, Found, Joined, Kind, Log, Mapping, Offset, Role, Table,
+};
 use stiction_testkit::worlds::{Machine, Motion, Recording, World, record};
 
 /// The clock of the other file is behind by this, s.
@@ -62,10 +64,16 @@ fn estimated(log: &Table, other: &Table, role: Role) -> Result<Log, Error> {
 
 /// The offset that was found, and how far it may be off by what is said, s.
 fn said(log: &Log) -> (f64, f64) {
-    let message = message(log, "offset-estimated");
-    let within = message.split("go together, to ").nth(1).unwrap();
-    let number = |text: &str| text.split(' ').next().unwrap().parse::<f64>().unwrap();
-    (number(message), number(within))
+    let mut found = log.findings.iter().map(|finding| &finding.kind);
+    let offset = found.find_map(|found| match found {
+        Found::Offset {
+            seconds,
+            half_width,
+            ..
+        } => Some((seconds.parse().unwrap(), *half_width)),
+        _ => None,
+    });
+    offset.unwrap()
 }
 
 #[test]

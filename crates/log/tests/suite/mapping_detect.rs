@@ -30,7 +30,7 @@ fn picked(headers: &[&str]) -> String {
             let notes = detected
                 .findings
                 .iter()
-                .map(|f| format!("{}: {}", f.code, f.message));
+                .map(|f| format!("{}: {}", f.code(), f));
             detected
                 .phrases
                 .into_iter()
@@ -630,7 +630,7 @@ fn forces_that_are_none_are_said() {
     let mixed = message(&log, "force-unit").to_string();
     let current = headed(&["t [s]", "x [mm]", "current [mA]"]);
     let log = Log::from_table(&current, &Mapping::default()).unwrap();
-    insta::assert_snapshot!([&mixed, message(&log, "force-not-calibrated")].join("\n"));
+    insta::assert_snapshot!([mixed, message(&log, "force-not-calibrated")].join("\n"));
     assert_eq!(log.force_unit, "A");
     assert_eq!(log.force.unwrap()[3], current.columns[2].values[3] / 1000.0);
 }

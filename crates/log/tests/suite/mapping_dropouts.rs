@@ -92,7 +92,7 @@ fn what_is_said_of_them() {
             .findings
             .iter()
             .filter(|f| f.severity == Severity::Warning);
-        let said: Vec<_> = said.map(|f| format!("{}: {}", f.code, f.message)).collect();
+        let said: Vec<_> = said.map(|f| format!("{}: {}", f.code(), f)).collect();
         let columns = log
             .columns
             .iter()

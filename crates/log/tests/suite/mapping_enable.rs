@@ -231,7 +231,7 @@ fn rows_that_are_left_out_leave_the_rate() {
     assert_eq!(log.rate_hz, whole.rate_hz);
     assert_eq!(log.segments.len(), 40);
     assert!(
-        !log.findings.iter().any(|f| f.code.as_str() == "jitter"),
+        !log.findings.iter().any(|f| f.code().as_str() == "jitter"),
         "{}",
         told(&log)
     );

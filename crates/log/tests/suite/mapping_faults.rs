@@ -164,7 +164,7 @@ proptest! {
             prop_assert_eq!(log.time.len(), clean.samples - gone);
         }
         for finding in &log.findings {
-            prop_assert!(Code::ALL.contains(&finding.code));
+            prop_assert!(Code::ALL.contains(&finding.code()));
             prop_assert!(finding.at.is_none_or(|at| at < clean.samples));
         }
         check(&log)?;
@@ -202,7 +202,7 @@ fn warnings_of(findings: &[stiction_log::Finding]) -> Vec<&'static str> {
     let warned = findings
         .iter()
         .filter(|f| f.severity == stiction_log::Severity::Warning);
-    warned.map(|f| f.code.as_str()).collect()
+    warned.map(|f| f.code().as_str()).collect()
 }
 
 /// What holds of every log.

@@ -46,8 +46,8 @@ fn what_is_said_of_them() {
     let said: Vec<_> = log
         .findings
         .iter()
-        .filter(|f| ["zero-filled", "missing-cells"].contains(&f.code.as_str()))
-        .map(|f| format!("{:?} {}: {}", f.severity, f.code, f.message))
+        .filter(|f| ["zero-filled", "missing-cells"].contains(&f.code().as_str()))
+        .map(|f| format!("{:?} {}: {}", f.severity, f.code(), f))
         .collect();
     insta::assert_snapshot!(said.join("\n"));
 }

@@ -312,7 +312,7 @@ fn a_wrapping_position_is_put_together() {
         .filter(|w| (w[1] - w[0]).abs() > 0.03)
         .count();
     assert_eq!(log.segments.len(), jumps + 1);
-    insta::assert_snapshot!([&stated, message(&log, "position-jump")].join("\n"));
+    insta::assert_snapshot!([stated, message(&log, "position-jump")].join("\n"));
     // A jump is no motion: no work is done in it.
     assert!(!codes(&log).contains(&"force-sign"), "{}", told(&log));
     // A wrap that is never reached is said, too.
@@ -324,7 +324,7 @@ fn a_wrapping_position_is_put_together() {
     let log = Log::from_table(&table, &mapping).unwrap();
     assert_eq!(
         message(&log, "position-wrap"),
-        "position never wraps: no step is longer than half the wrap of 40 m; nothing was unwrapped"
+        "position never wraps (no step is longer than half the wrap of 40 m): nothing was unwrapped"
     );
 }
 
@@ -804,8 +804,8 @@ fn infinite_numbers_are_named() {
     let said = message(&log, "missing-cells");
     assert!(
         said.starts_with(
-            "force: 2 cells of 300 missing, first in data row 10 of the part that is kept, 1 of them beyond any \
-             measurement, as inf N in data row 10; "
+            "force: 2 cells of 300 missing, first in data row 10 of the part that is kept, 1 of them implausibly \
+             large, such as inf N in data row 10: "
         ),
         "{said}"
     );
@@ -877,10 +877,8 @@ fn what_no_machine_does_is_named() {
             .for_each(|x| *x *= size);
         let log = Log::from_table(&table, &Mapping::default()).unwrap();
         let named = log.findings.into_iter();
-        let named = named.filter(|f| f.code == stiction_codes::Code::UnlikelySize);
-        named
-            .map(|f| format!("{}\n", f.message))
-            .collect::<String>()
+        let named = named.filter(|f| f.code() == stiction_codes::Code::UnlikelySize);
+        named.map(|f| format!("{}\n", f)).collect::<String>()
     };
     let all = [(0, 1e3), (0, 1e-3), (1, 1e3), (1, 1e9), (1, 1e-8), (3, 1e9)];
     let all: String = all.into_iter().map(|(k, size)| said(k, size)).collect();
@@ -901,7 +899,7 @@ fn a_force_of_few_values_is_coarse() {
         Log::from_table(&table, &Mapping::default()).unwrap()
     };
     let coarse = |log: &Log| {
-        let mut codes = log.findings.iter().map(|f| f.code);
+        let mut codes = log.findings.iter().map(|f| f.code());
         codes.any(|code| code == stiction_codes::Code::CoarseForce)
     };
     for levels in [2.0, 5.0, 7.0] {
@@ -922,7 +920,7 @@ fn a_step_of_one_level_is_not_coarse() {
         let values = table.columns[3].values.iter_mut().enumerate();
         values.for_each(|(k, x)| *x = force(k));
         let log = Log::from_table(&table, &Mapping::default()).unwrap();
-        let mut codes = log.findings.iter().map(|f| f.code);
+        let mut codes = log.findings.iter().map(|f| f.code());
         codes.any(|code| code == stiction_codes::Code::CoarseForce)
     };
     assert!(!with(&|k| if k < 1000 { 0.0 } else { 3.0 }));
@@ -991,7 +989,7 @@ fn counts_without_their_sign_are_read_with_it() {
     assert_eq!(log.force, read(&signed).force);
     assert_eq!(
         message(&log, "unsigned-counts"),
-        "force: whole numbers near 0 and near 65535 alone, as a counter of 16 bits without its sign; 65535 is read as -1"
+        "force has whole numbers near 0 and near 65535 only, as a counter of 16 bits without its sign: 65535 is read as -1"
     );
     assert!(!codes(&read(&signed)).contains(&"unsigned-counts"));
 }

@@ -163,7 +163,7 @@ fn the_axis_file_has_the_last_word() {
     };
     let log = made.log(&keep(Some(Rests::Keep), None));
     assert!(near(fitted(&log), whole) && log.excluded.is_empty());
-    assert!(message(&log, "rest-at-end").contains("kept"));
+    assert!(message(&log, "rest-at-end").contains("Kept"));
     let log = made.log(&keep(None, Some((0.0, 20.0))));
     assert!(near(fitted(&log), whole) && log.excluded.is_empty());
     let log = made.log(&keep(Some(Rests::Cut), Some((0.0, 20.0))));
@@ -198,7 +198,7 @@ fn rests_in_between_are_said_and_fitted() {
     );
     assert!(!log.has_warnings());
     let log = made(7.0).log(&Mapping::default());
-    let found = log.findings.iter().find(|f| f.code == Code::RestBetween);
+    let found = log.findings.iter().find(|f| f.code() == Code::RestBetween);
     assert_eq!(found.unwrap().severity, Severity::Warning);
     let log = made(0.5).log(&Mapping::default());
     assert!(log.rests.is_empty());

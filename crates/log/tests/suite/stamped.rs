@@ -49,7 +49,7 @@ fn stamps_leave_the_other_units_to_be_assumed_and_said() {
         let log = Log::from_table(&table, &Mapping::default());
         let log = log.unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(log.position.unwrap(), table.columns[1].values, "{name}");
-        let says = |finding: &stiction_log::Finding| finding.code.as_str() == "unit-assumed";
+        let says = |finding: &stiction_log::Finding| finding.code().as_str() == "unit-assumed";
         assert!(log.findings.iter().any(says), "{name}");
     }
 }

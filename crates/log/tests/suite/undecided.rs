@@ -189,7 +189,7 @@ fn rows_of_one_rate_whose_stamps_are_rounded_are_told_their_rate() {
             ..Mapping::default()
         };
         let log = Log::from_table(&table, &counted).unwrap();
-        let found = |code: Code| log.findings.iter().any(|f| f.code == code);
+        let found = |code: Code| log.findings.iter().any(|f| f.code() == code);
         assert!(!found(Code::Jitter) && !found(Code::Gap));
     }
     let fine = rounded(1000.0);

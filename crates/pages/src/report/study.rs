@@ -20,7 +20,7 @@ use stiction_report::{
     Text, number,
 };
 use stiction_workflows::study::StudyOutcome;
-use stiction_workflows::study::doubt::CODES;
+use stiction_workflows::study::doubt::is_misleading;
 use stiction_workflows::study::{Course, Trace};
 
 /// Most sections with figures: the rows of the others are in their tables only.
@@ -190,7 +190,7 @@ fn verdict(file: &StudyFile) -> Callout {
             );
         }
         (Severity::Warning, text + " Marked in the tables.")
-    } else if file.warnings.iter().any(|w| CODES.contains(&w.code)) {
+    } else if file.warnings.iter().any(is_misleading) {
         let text = format!(
             "{} runs. No compensator made the error that counts larger, but some figures are misleading: \
              see the warnings.",

@@ -331,7 +331,7 @@ fn friction_that_changes_is_exported_at_its_reference() {
         assert!(
             words
                 .join(" ")
-                .contains("friction changes with what the code does not see")
+                .contains("friction depends on inputs that the code does not see")
         );
     }
 }
@@ -810,8 +810,8 @@ fn what_is_taken_for_friction_has_a_remedy() {
         .find(|w| w.code.as_str() == "export-adaptation");
     assert_eq!(
         warned.unwrap().message,
-        "levels that follow the force of the drive take for friction: cogging. Export with --feedforward friction,cogging, and the \
-         block takes it off by itself; or subtract it from drive_force; or let them learn only where it is small"
+        "levels that follow the force of the drive mistake these for friction: cogging. To prevent this: export with --feedforward \
+         friction,cogging, and the block subtracts it, or subtract it from drive_force; or let them learn only where it is small"
     );
 }
 

@@ -76,7 +76,13 @@ fn damiao_reports_its_gaps() {
         .map(|g| g.seconds)
         .fold(0.0, f64::max);
     assert!((4.5..5.5).contains(&longest), "longest gap {longest} s");
-    assert!(source.log.findings.iter().any(|f| f.code.as_str() == "gap"));
+    assert!(
+        source
+            .log
+            .findings
+            .iter()
+            .any(|f| f.code().as_str() == "gap")
+    );
 }
 
 /// A wrist that swings through half a turn, whose weight looks like friction that is another in each direction.

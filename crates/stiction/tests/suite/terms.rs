@@ -252,7 +252,7 @@ fn dropouts_of_a_temperature_are_bridged() {
         "data row 1001",
         "Temperature [degC]",
         "-273.15 degC",
-        "above 0 K",
+        "below 0 K",
     ] {
         assert!(said[0].message.contains(part), "{}", said[0].message);
     }

@@ -3,10 +3,9 @@
 use crate::error::Error;
 use crate::source;
 use std::path::Path;
-use stiction_codes::Code;
 use stiction_files::Axis;
 use stiction_files::axis::{Addition, Found, extend, template};
-use stiction_log::{Channel, Log, Mapping, Role, Table};
+use stiction_log::{Channel, Finding, Found as Kind, Log, Mapping, Role, Table};
 
 /// An axis file to write, and what is in it that was not given.
 #[derive(Clone, Debug)]
@@ -61,9 +60,9 @@ pub fn init(path: &Path, axis: Option<&Path>) -> Result<Started, Error> {
             found.own_stamps = own_stamps;
             found.coarse = coarse;
             found.enable = detected.mapping.enable_line(&table);
-            let lacks = |f: &&stiction_log::Finding| f.code == Code::NoForce;
+            let lacks = |f: &&Finding| matches!(f.kind, Kind::NoForce { .. });
             let lacking = detected.findings.iter().find(lacks);
-            let lacking = lacking.map(|finding| finding.message.clone());
+            let lacking = lacking.map(ToString::to_string);
             // Columns with time stamps of their own are refused until the file that is written names these.
             let refused = log.as_ref().err().filter(|_| found.own_stamps.is_empty());
             if let Some(undecided) = lacking.or(refused.map(ToString::to_string)) {
@@ -126,14 +125,12 @@ fn found(log: &Log) -> Found {
 
 /// Whether the force brakes so clearly that its sign is the other one.
 fn brakes(log: &Log) -> bool {
-    let mut findings = log.findings.iter();
-    findings.any(|found| found.code == Code::ForceSign)
+    log.finds(|found| matches!(found, Kind::ForceBrakes { .. }))
 }
 
 /// The encoder step that was found; none where it is in a unit that is probably wrong: it would stay when that is corrected.
 fn step(log: &Log) -> Option<f64> {
-    let mut findings = log.findings.iter();
-    let is_doubtful = findings.any(|found| found.code == Code::UnlikelySize);
+    let is_doubtful = log.finds(Kind::is_unlikely_size);
     log.quantum.filter(|_| !is_doubtful)
 }
 
@@ -159,7 +156,9 @@ fn assumed(log: &Log) -> impl Iterator<Item = (Role, &str)> {
 /// The travel after which the position starts again, where all its jumps are of one size.
 fn wrap(log: &Log) -> Option<f64> {
     let x = log.position.as_ref()?;
-    log.findings.iter().find(|f| f.code == Code::PositionJump)?;
+    if !log.finds(|found| matches!(found, Kind::Jumps { .. })) {
+        return None;
+    }
     let jump = |i: usize| (x[i] - x[i - 1]).abs();
     let low = x.iter().copied().fold(f64::INFINITY, f64::min);
     let high = x.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -2,11 +2,11 @@
 
 use super::terms::Beside;
 use std::f64::consts::TAU;
-use stiction_codes::Code;
 use stiction_files::{ModelFile, Warning};
 use stiction_friction::compensator::Wave;
 use stiction_parameters::{Name, Quantity};
 use stiction_policy::export;
+use stiction_say::Notice;
 
 /// What cannot be told from a position that wraps as that of the log did, if anything.
 pub(super) fn doubt(file: &ModelFile, beside: &Beside) -> Option<Warning> {
@@ -34,17 +34,13 @@ pub(super) fn doubt(file: &ModelFile, beside: &Beside) -> Option<Warning> {
         "rotary" => "rad",
         _ => "m",
     };
-    let number = stiction_number::four_digits;
-    let [low, high] = place.range.map(number);
-    Some(Warning::new(
-        Code::ExportWrap,
-        format!(
-            "the position of the log wraps after {} {unit}, and {} depend on it without that period: feed position unwrapped, {low} to {high} {unit} \
-             as identified, not the signal that wraps; beyond that range it counts as its end",
-            number(wrap),
-            lost.join(", ")
-        ),
-    ))
+    let notice = Notice::WrappedPosition {
+        travel: wrap,
+        unit,
+        names: lost,
+        range: place.range,
+    };
+    Some(notice.into())
 }
 
 /// Whether a travel is a whole number of periods.

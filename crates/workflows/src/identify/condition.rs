@@ -8,11 +8,10 @@ use crate::error::Error;
 use crate::source::{Source, load_all};
 use crate::wording::{Setting, Wording};
 use std::path::PathBuf;
-use stiction_codes::Code;
 use stiction_files::{Axis, symbols};
 use stiction_identify as engine;
 use stiction_identify::{Conditioning, Law, LawKind, Observer, Record, Settings, Terms};
-use stiction_log::Motion;
+use stiction_log::{Found, Motion};
 use stiction_number::counted;
 
 /// What is fitted, and what it is validated on.
@@ -224,7 +223,7 @@ fn refuse_rest(record: &Record, sources: &[Source], motion: Motion) -> Result<()
     let top = record.top_speed();
     let still = sources
         .iter()
-        .all(|s| s.log.findings.iter().any(|f| f.code == Code::NoMotion));
+        .all(|s| s.log.finds(|f| matches!(f, Found::NoMotion { .. })));
     if top > 0.0 && !still {
         return Ok(());
     }

@@ -10,9 +10,10 @@ use stiction_files::result::{Action, CauseEntry};
 use stiction_files::{Warning, shell, symbols};
 use stiction_identify::{Disagreement, FittedLaw};
 use stiction_log::Motion;
-use stiction_number::{Percent, four_digits};
+use stiction_number::Percent;
 use stiction_parameters::Quantity;
 use stiction_policy::verdict;
+use stiction_say::Notice;
 
 /// The options of a run that is to be repeated for each log, as they are typed.
 pub(super) fn options(asked: Asked) -> String {
@@ -60,49 +61,32 @@ fn warning(
     motion: Motion,
     (options, one_level): (Option<&str>, bool),
 ) -> Warning {
-    let paths = found.logs.map(|log| path_of(sources, log));
-    let values = found.values.map(four_digits);
-    let unit = symbols::unit(
-        found.name.dimension(),
-        motion,
-        force_unit(sources, motion),
-        "",
-    );
-    let of = match found.name.quantity {
-        Quantity::Offset => " of the Coulomb level",
-        _ => "",
-    };
-    let part = |x: f64| Percent::error(100.0 * x).digits(2);
-    let size = (found.values[1] - found.values[0]) / found.part;
-    let verdict = "The interval of another day counts how the logs scatter";
-    let own_level = own_level(found).filter(|_| !one_level);
-    let together = own_level.map_or(String::new(), |key| {
-        format!(
-            ". Give each log its own in one fit with {key} = true under [terms] in the axis file ({} is then that of the first log)",
-            found.name
-        )
-    });
-    let apart = options.map_or(String::new(), |options| {
-        let command = |i: usize| {
-            let log = shell::quoted(&paths[i]);
+    let logs = found.logs.map(|log| path_of(sources, log));
+    let commands = options.map(|options| {
+        [0, 1].map(|i| {
+            let log = shell::quoted(&logs[i]);
             format!("stiction identify {log}{options} --out another-{}", i + 1)
-        };
-        format!(". Each by itself: {}; {}", command(0), command(1))
+        })
     });
-    Warning::new(
-        Code::LogsDisagree,
-        format!(
-            "the logs differ in {} ({}): {} {unit} in {}, {} {unit} in {}, {}{of} apart, where {} is chance. {verdict}{together}{apart}",
-            found.name,
-            symbols::meaning_of(found.name, motion),
-            values[0],
-            paths[0],
-            values[1],
-            paths[1],
-            part(found.part),
-            part(found.deviation / size)
+    let size = (found.values[1] - found.values[0]) / found.part;
+    let notice = Notice::LogsDiffer {
+        name: found.name.to_string(),
+        meaning: symbols::meaning_of(found.name, motion),
+        values: found.values,
+        unit: symbols::unit(
+            found.name.dimension(),
+            motion,
+            force_unit(sources, motion),
+            "",
         ),
-    )
+        logs,
+        apart: found.part,
+        of_coulomb: found.name.quantity == Quantity::Offset,
+        chance: found.deviation / size,
+        key: own_level(found).filter(|_| !one_level),
+        commands,
+    };
+    notice.into()
 }
 
 /// Whether a law has one level for all logs, whatever the axis file says: Maxwell-slip elements have levels of their own.

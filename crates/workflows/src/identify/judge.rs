@@ -6,14 +6,14 @@ use super::disagree;
 use super::fit::Fitted;
 use super::late;
 use super::load::{Asked, Loaded};
-use super::logs::{log_warnings, path_of, validation_warnings};
+use super::logs::{log_warnings_but, path_of, validation_warnings};
 use super::machine;
 use super::mixed;
 use super::stated;
 use super::trust::{self, Judged};
 use stiction_identify as engine;
 use stiction_identify::{Delay, Mass, Record, Series, Source as Signal, Status};
-use stiction_say::Notice;
+use stiction_say::{Found, Notice};
 
 /// Says what happened on the way, then judges the law.
 pub(super) fn judge(
@@ -24,7 +24,9 @@ pub(super) fn judge(
     validation: &[(String, Series)],
 ) -> Judged {
     let law = &fitted.choice.estimate;
-    let mut warnings = log_warnings(&loaded.sources);
+    // Of one cause one warning: a record that has timing noise states it by itself.
+    let is_stated = |found: &Found| found.is_jitter() && conditioned.record.timing_noise != 0.0;
+    let mut warnings = log_warnings_but(&loaded.sources, is_stated);
     warnings.extend(validation_warnings(&loaded.held_out, &loaded.sources));
     // A search by itself looks for no delay and compares no laws.
     let finishes = !asked.options.searching.no_finish;

@@ -6,16 +6,15 @@ use super::load::{Asked, Loaded};
 use super::logs::paths;
 use crate::error::Error;
 use crate::source::Source;
-use stiction_codes::Code;
 use stiction_files::{Axis, Warning, shell};
 use stiction_identify::{
     Alignment, Delay, FittedLaw, ForceFilter, Observer, Smoothing, alignment, force_filter,
     lateness,
 };
-use stiction_log::{Offset, Role};
-use stiction_number::{four_digits, full};
+use stiction_log::{Found, Offset, Role};
 use stiction_parameters::Quantity;
 use stiction_policy::delay;
+use stiction_say::{Notice, Whole};
 
 /// Lays force and motion beside each other, where no delay is given and whole records are fitted.
 pub(super) fn aligned(asked: Asked, mut loaded: Loaded) -> Result<Loaded, Error> {
@@ -95,11 +94,12 @@ pub(super) fn unfiltered(
         return Ok((loaded, conditioned));
     };
     // What a position that is held hides of the motion looks like a force that is smoothed.
-    let is_held = |source: &Source| {
-        let mut findings = source.log.findings.iter();
-        findings.any(|finding| finding.code == Code::HeldPosition)
-    };
-    if loaded.sources.iter().any(is_held) {
+    let is_held = |found: &Found| matches!(found, Found::HeldPosition { .. });
+    if loaded
+        .sources
+        .iter()
+        .any(|source| source.log.finds(is_held))
+    {
         return Ok((loaded, conditioned));
     }
     let samples: Result<Vec<_>, Error> = loaded.sources.iter().map(Source::fitted).collect();
@@ -137,10 +137,7 @@ pub(super) fn unfiltered(
 /// Whether a delay is looked for.
 fn is_sought(asked: Asked, loaded: &Loaded) -> bool {
     // A force of the wrong sign looks late, by half of a period.
-    let is_inverted = |source: &Source| {
-        let mut findings = source.log.findings.iter();
-        findings.any(|finding| finding.code == Code::ForceSign)
-    };
+    let is_inverted = super::logs::has_wrong_sign;
     asked.axis.terms.delay == Delay::Fitted
         && asked.options.procedures.method.fits_force()
         && loaded.contradicted.is_none()
@@ -164,54 +161,53 @@ impl Loaded {
 
 /// Adds to the warning of a force that is late or early the line that states the whole delay, and the command that then takes it.
 pub(super) fn stated(asked: Asked, loaded: &Loaded, law: &FittedLaw, warnings: &mut [Warning]) {
-    let late = warnings
-        .iter_mut()
-        .rev()
-        .find(|w| [Code::ForceLate, Code::MotionLate].contains(&w.code));
-    let Some(warning) = late else { return };
-    let (further, row) = match (law.value(Quantity::Delay), law.terms.delay) {
-        (Some(delay), _) => (delay, "The delay in the table is the whole one. "),
-        (None, Delay::Given(delay)) => (delay, ""),
-        (None, Delay::Fitted) => (0.0, ""),
+    let late = warnings.iter_mut().rev().find_map(|warning| {
+        let kind = warning.kind()?.clone();
+        let is_late = matches!(kind.found(), Some(Found::ForceLate { .. }));
+        is_late.then_some((warning, kind))
+    });
+    let Some((warning, kind)) = late else { return };
+    let (further, in_table) = match (law.value(Quantity::Delay), law.terms.delay) {
+        (Some(delay), _) => (delay, true),
+        (None, Delay::Given(delay)) => (delay, false),
+        (None, Delay::Fitted) => (0.0, false),
     };
-    if loaded.filter.is_some() {
-        // A delay that is given turns the search for the low-pass off.
-        warning.message.push_str(
-            ". The delay in the table is that of the force before its low-pass. Where the drive can log the force that its \
-             controller asks for, record that one",
-        );
-        return;
-    }
     let late = loaded.late + further;
-    let line = format!("delay = \"{} ms\"", four_digits(1e3 * late));
     let logs = paths(&loaded.sources);
     let typed: Vec<String> = logs.iter().map(|log| shell::quoted(log)).collect();
     let options = disagree::options(asked);
-    let (place, axis) = match asked.axis.file() {
+    let (file, axis) = match asked.axis.file() {
         Some(file) => (format!("in {}", file.display()), String::new()),
         None => {
             let file = shell::axis_file(&logs[0]);
             (format!("in a new file {file}"), format!(" --axis {file}"))
         }
     };
-    if let Some(added) = of_another_clock(asked.axis) {
-        warning.message.push_str(&format!(
-            ". {row}The force comes from another file, whose clock may be another: to say so, write offset = \"{} s\" beside its file \
-             under [columns] {place}{}, then: stiction identify {}{options} --out another",
-            full((1e6 * (added - late)).round() / 1e6),
-            match added == 0.0 {
-                true => "",
-                false => " in place of the offset there",
-            },
+    let command = |axis: &str| {
+        format!(
+            "stiction identify {}{axis}{options} --out another",
             typed.join(" ")
-        ));
-        return;
-    }
-    warning.message.push_str(&format!(
-        ". {row}Find out where it comes from; to state it, write {line} under [terms] {place}, \
-         then: stiction identify {}{axis}{options} --out another",
-        typed.join(" ")
-    ));
+        )
+    };
+    let whole = match of_another_clock(asked.axis) {
+        // A delay that is given turns the search for the low-pass off.
+        _ if loaded.filter.is_some() => Whole::Unfiltered,
+        Some(added) => Whole::Offset {
+            in_table,
+            offset: (1e6 * (added - late)).round() / 1e6,
+            replaces: added != 0.0,
+            file,
+            command: command(""),
+        },
+        None => Whole::Delay {
+            in_table,
+            delay: late,
+            file,
+            command: command(&axis),
+        },
+    };
+    let found = Box::new(kind);
+    *warning = Notice::Late { found, whole }.into();
 }
 
 /// What is added to the time stamps of a force that comes from another file, s; `None` where it comes from the log.

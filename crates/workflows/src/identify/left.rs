@@ -7,14 +7,13 @@ use stiction_files::result::{Action, CauseEntry, EffectEntry, LawEntry, SizeEntr
 use stiction_files::{Warning, symbols};
 use stiction_identify::{Dependence, Effect, FittedLaw, Found, LawKind};
 use stiction_log::Motion;
-use stiction_number::{Percent, four_digits};
 use stiction_policy::{choice, effect, motion};
+use stiction_say::{Effect as Named, Explained, Extent, Notice, Remedy, What};
 
 /// Deviations of a 95 % interval.
 const QUANTILE: f64 = 1.96;
 
-/// What counts say of a curve that they are likelier with another exponent of, and the line that has it fitted.
-const ANOTHER_CURVE: &str = "friction falls off over the speed in another way than in this law: the counts of the encoder are likelier with an exponent of";
+/// The line that has the exponent of the curve fitted.
 const FIT_EXPONENT: &str = "stribeck_exponent = \"fit\"";
 
 /// What goes into the result.
@@ -29,32 +28,13 @@ pub(super) fn entries(
         let sizes = sizes(&found.effect, motion, force_unit);
         let known = deviation.is_finite() && !sizes.is_empty();
         EffectEntry {
-            code: code(&found.effect),
+            code: what(&found.effect).code(),
             explains_percent: 100.0 * found.explains,
             std_percent: known.then_some(deviation),
             sizes,
         }
     };
     shown(law, laws).map(entry).collect()
-}
-
-fn code(effect: &Effect) -> Code {
-    match effect {
-        Effect::Drift(_) => Code::FrictionDrift,
-        Effect::Position(..) | Effect::LevelWave(_) => Code::PositionDependence,
-        Effect::Load(_) => Code::LoadDependence,
-        Effect::Temperature(_) => Code::TemperatureDependence,
-        Effect::Ripple(_) => Code::PositionRipple,
-        Effect::SpringForce(_) => Code::SpringForce,
-        Effect::Resonance { .. } => Code::Resonance,
-        Effect::Backlash { .. } => Code::Backlash,
-        Effect::Dynamics(_) => Code::UnmodelledDynamics,
-        Effect::Clocks(_) => Code::ClocksApart,
-        Effect::Limit(..) => Code::ForceNotGiven,
-        Effect::Mass(_) => Code::MassDisagrees,
-        Effect::Delay(_) => Code::DelayDisagrees,
-        Effect::Bristles | Effect::Curve => Code::LawShape,
-    }
 }
 
 /// How large an effect is, the size that has a deviation first.
@@ -117,60 +97,54 @@ fn time(square: f64) -> f64 {
 }
 
 /// What an effect is.
-fn words(effect: &Effect) -> &'static str {
-    match effect {
-        Effect::Drift(_) => "friction changes during the log",
-        Effect::Position(..) => "friction changes along the stroke",
-        Effect::LevelWave(_) => "the level of friction repeats with the position",
-        Effect::Load(_) => "friction changes with the load",
-        Effect::Temperature(_) => "friction changes with the temperature",
-        Effect::Ripple(wave) if wave.replaces.is_some() => {
-            "what repeats with the position has another pitch than in the fit"
-        }
-        Effect::Ripple(_) => "a force repeats with the position",
-        Effect::SpringForce(_) => {
-            "a force changes with the position, as that of a spring, a cable chain or a weight does"
-        }
-        Effect::Resonance { read_at_load, .. } => match read_at_load {
-            true => "motor and load vibrate against each other, the encoder on the load",
-            false => "motor and load vibrate against each other, the encoder on the motor",
+fn what(effect: &Effect) -> What {
+    match *effect {
+        Effect::Drift(_) => What::Drift,
+        Effect::Position(..) => What::Position,
+        Effect::LevelWave(_) => What::LevelWave,
+        Effect::Load(_) => What::Load,
+        Effect::Temperature(_) => What::Temperature,
+        Effect::Ripple(wave) => What::Ripple {
+            another_pitch: wave.replaces.is_some(),
         },
-        Effect::Backlash { .. } => "a gap lies between motor and load",
-        Effect::Dynamics(square) if *square < 0.0 => {
-            "between force and motion are dynamics that a rigid mass does not have, as of a filter of the logged force, a spring or a gap"
-        }
-        Effect::Dynamics(_) => {
-            "the axis feels the force later and smoother than it was logged, as behind a slow current loop"
-        }
-        Effect::Clocks(_) => "force and motion were stamped by two clocks that run apart",
-        Effect::Limit(..) => "the drive gave less than the force that was logged",
-        Effect::Mass(_) => "the mass is another one than the axis file states",
-        Effect::Delay(_) => "the delay is another one than the axis file states",
-        Effect::Bristles => "friction after a reversal has another shape than this law",
-        Effect::Curve => "friction over the speed has another shape than this law",
+        Effect::SpringForce(_) => What::SpringForce,
+        Effect::Resonance {
+            frequency,
+            read_at_load,
+            ..
+        } => What::Resonance {
+            at_load: read_at_load,
+            rigid: effect::RIGID_CUTOFF * frequency,
+        },
+        Effect::Backlash { .. } => What::Backlash,
+        Effect::Dynamics(square) => What::Dynamics {
+            logged: square < 0.0,
+        },
+        Effect::Clocks(_) => What::Clocks,
+        Effect::Limit(..) => What::Limit,
+        Effect::Mass(_) => What::Mass,
+        Effect::Delay(_) => What::Delay,
+        Effect::Bristles => What::Bristles,
+        Effect::Curve => What::Curve,
     }
 }
 
-/// Its sizes, for a person.
-fn sized(found: &Found, motion: Motion, force_unit: &str) -> String {
-    let percent = |value: f64| format!("{} %", stiction_number::short(value));
-    let all = sizes(&found.effect, motion, force_unit);
-    let each = all.iter().enumerate().map(|(i, size)| {
-        let value = match size.unit.as_str() {
-            "%" => percent(size.value),
-            "" => four_digits(size.value),
-            unit => format!("{} {unit}", four_digits(size.value)),
-        };
-        let about = QUANTILE * found.deviation;
-        let is_level = size.name.ends_with("level");
-        let known = i == 0 && !is_level && about.is_finite() && about < 1.0;
-        let about = match known {
-            true => format!(" ± {}", Percent::error(100.0 * about).digits(2)),
-            false => String::new(),
-        };
-        format!("{} {value}{about}", size.name.replace('_', " "))
-    });
-    each.collect::<Vec<_>>().join(", ")
+/// Its sizes, the first with its interval where that is known.
+fn extents(found: &Found, motion: Motion, force_unit: &str) -> Vec<Extent> {
+    let about = QUANTILE * found.deviation;
+    let all = sizes(&found.effect, motion, force_unit)
+        .into_iter()
+        .enumerate();
+    all.map(|(i, size)| {
+        let is_known = i == 0 && !size.name.ends_with("level") && about < 1.0;
+        Extent {
+            about: (is_known && about.is_finite()).then_some(about),
+            name: size.name,
+            value: size.value,
+            unit: size.unit,
+        }
+    })
+    .collect()
 }
 
 /// The warnings of what a residual shows, and of a curve that counts make likelier.
@@ -181,29 +155,23 @@ pub(super) fn named(
     warnings: &mut Vec<Warning>,
 ) {
     if let Some(exponent) = law.likelier_exponent {
-        let message = format!(
-            "{ANOTHER_CURVE} {exponent} than of 2. {}",
-            to_do(&fit_exponent())
-        );
-        warnings.push(Warning::new(Code::LawShape, message));
+        let effect = Named {
+            what: What::Exponent(exponent),
+            extents: Vec::new(),
+            explained: None,
+            remedy: remedy(fit_exponent()),
+        };
+        warnings.push(Notice::Effect(Box::new(effect)).into());
     }
     for found in shown(law, laws) {
         let log = &sources[0].log;
-        let sizes = sized(found, log.motion, &log.force_unit);
-        let sizes = match sizes.is_empty() {
-            true => String::new(),
-            false => format!(" ({sizes})"),
+        let effect = Named {
+            what: what(&found.effect),
+            extents: extents(found, log.motion, &log.force_unit),
+            explained: Some(explained(found, law)),
+            remedy: cure(found, law, sources).and_then(remedy),
         };
-        let then = match cure(found, law, sources) {
-            Some(cure) => to_do(&cure),
-            None => by_hand(&found.effect),
-        };
-        let message = format!(
-            "{}{sizes}: {}. {then}",
-            words(&found.effect),
-            explained(found, law)
-        );
-        warnings.push(Warning::new(code(&found.effect), message));
+        warnings.push(Notice::Effect(Box::new(effect)).into());
     }
 }
 
@@ -212,16 +180,16 @@ pub(super) fn cause(law: &FittedLaw, sources: &[Source], laws: &[LawEntry]) -> O
     if let Some(exponent) = law.likelier_exponent {
         return Some(CauseEntry {
             code: Code::LawShape,
-            text: format!("{ANOTHER_CURVE} {exponent}"),
-            size: "than of 2".into(),
+            text: What::Exponent(exponent).to_string(),
+            size: "not 2".into(),
             cure: Some(fit_exponent()),
         });
     }
     let found = shown(law, laws).next()?;
     Some(CauseEntry {
-        code: code(&found.effect),
-        text: words(&found.effect).into(),
-        size: explained(found, law),
+        code: what(&found.effect).code(),
+        text: what(&found.effect).to_string(),
+        size: explained(found, law).to_string(),
         cure: cure(found, law, sources),
     })
 }
@@ -247,14 +215,12 @@ fn elements_hold_better(law: &FittedLaw, laws: &[LawEntry]) -> bool {
         })
 }
 
-/// What an effect explains, in parts of what is left and of the force.
-fn explained(found: &Found, law: &FittedLaw) -> String {
-    let of_force = found.explains.sqrt() * law.fit.relative_error_percent;
-    format!(
-        "explains {} of what the law leaves, {} of the force",
-        Percent::error(100.0 * found.explains).digits(2),
-        Percent::error(of_force).digits(2)
-    )
+/// What an effect explains.
+fn explained(found: &Found, law: &FittedLaw) -> Explained {
+    Explained {
+        of_residual: found.explains,
+        of_force: 0.01 * found.explains.sqrt() * law.fit.relative_error_percent,
+    }
 }
 
 fn fit_exponent() -> Action {
@@ -324,47 +290,15 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Action> {
 }
 
 /// What a cure asks for.
-fn to_do(cure: &Action) -> String {
+fn remedy(cure: Action) -> Option<Remedy> {
     match cure {
-        Action::Line { table, line, .. } => {
-            let lines = line.replace('\n', " and ");
-            format!("Set {lines} under [{table}] in the axis file")
-        }
-        Action::Law { law, .. } => format!("Try the law {law}"),
-        _ => String::new(),
+        Action::Line { table, line, .. } => Some(Remedy::Set {
+            lines: line.replace('\n', " and "),
+            table,
+        }),
+        Action::Law { law, .. } => Some(Remedy::Law(law)),
+        _ => None,
     }
-}
-
-/// What to do where nothing takes an effect into the fit.
-fn by_hand(effect: &Effect) -> String {
-    match effect {
-        Effect::Resonance { frequency, .. } => {
-            let rigid = four_digits(effect::RIGID_CUTOFF * frequency);
-            return format!(
-                "Record with less acceleration, or set common_cutoff = \"{rigid} Hz\" under [conditioning] in the axis file: below that \
-                 the axis is rigid, and levels and mass are right"
-            );
-        }
-        Effect::Drift(_) => "Record the axis warmed up, or its temperature beside the rest",
-        Effect::Position(..) | Effect::LevelWave(_) => {
-            "Record within the range that the axis works in"
-        }
-        Effect::Load(_) | Effect::Temperature(_) => {
-            "Record under the conditions that the axis works in"
-        }
-        Effect::Backlash { .. } => {
-            "To be sure hold the motor and push the load to and fro. Preload the drive train, or record motion that does not cross the gap"
-        }
-        Effect::Dynamics(_) => "Log the force that acts, unfiltered, such as the measured current",
-        Effect::Clocks(_) => "Record both with one clock",
-        Effect::Limit(..) => "Log the measured current, or record with less acceleration",
-        Effect::Mass(_) => "Write mass = \"fit\" in its place in the axis file",
-        Effect::Delay(_) => "Write delay = \"fit\" in its place under [terms] in the axis file",
-        Effect::Ripple(_) | Effect::SpringForce(_) | Effect::Bristles | Effect::Curve => {
-            "The friction by speed of the result holds whatever the law"
-        }
-    }
-    .into()
 }
 
 /// The line that takes a level along the stroke into the fit: a straight line where that describes it, else a map.

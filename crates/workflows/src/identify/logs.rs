@@ -8,7 +8,8 @@ use stiction_files::{Axis, Warning};
 use stiction_identify as engine;
 use stiction_identify::Samples;
 use stiction_identify::procedure::Run;
-use stiction_log::{Finding, Severity};
+use stiction_log::{Finding, Found, Severity};
+use stiction_say::{Notice, Turn, Whose};
 
 /// Samples of every source, for runs to borrow.
 pub(super) fn samples(sources: &[Source]) -> Result<Vec<Samples>, Error> {
@@ -57,28 +58,31 @@ const MOST_NAMED: usize = 3;
 
 /// What the reader warned of, with the log it is about; what was found in many logs is said once.
 pub(super) fn log_warnings(sources: &[Source]) -> Vec<Warning> {
+    log_warnings_but(sources, |_| false)
+}
+
+/// The same but for some kinds.
+pub(super) fn log_warnings_but(
+    sources: &[Source],
+    passed_over: impl Fn(&Found) -> bool,
+) -> Vec<Warning> {
     let mut out = Vec::new();
     let mut said: Vec<Code> = Vec::new();
     for source in sources {
         for finding in warnings_of(source) {
-            if said.contains(&finding.code) {
+            if said.contains(&finding.code()) || passed_over(&finding.kind) {
                 continue;
             }
-            let same = |s: &&Source| warnings_of(s).any(|f| f.code == finding.code);
+            let same = |s: &&Source| warnings_of(s).any(|f| f.code() == finding.code());
             let alike = sources.iter().filter(same).count();
-            let path = source.path.display();
-            if alike <= MOST_NAMED {
-                let message = format!("{path}: {}", finding.message);
-                out.push(Warning::new(finding.code, message));
-                continue;
-            }
-            said.push(finding.code);
-            let message = format!(
-                "in {alike} of {} logs, the first {path}: {}",
-                sources.len(),
-                finding.message
-            );
-            out.push(Warning::new(finding.code, message));
+            let whose = match alike <= MOST_NAMED {
+                true => Whose::Fitted,
+                false => {
+                    said.push(finding.code());
+                    Whose::Many(alike, sources.len())
+                }
+            };
+            out.push(warning(source, finding, whose));
         }
     }
     out
@@ -86,36 +90,38 @@ pub(super) fn log_warnings(sources: &[Source]) -> Vec<Warning> {
 
 /// Whether the force of a log does the work of one that brakes.
 pub(super) fn has_wrong_sign(source: &Source) -> bool {
-    wrong_sign(source).is_some()
+    source.log.finds(brakes)
 }
 
-fn wrong_sign(source: &Source) -> Option<&Finding> {
-    let mut findings = source.log.findings.iter();
-    findings.find(|finding| finding.code == Code::ForceSign)
+fn brakes(found: &Found) -> bool {
+    matches!(found, Found::ForceBrakes { .. })
+}
+
+/// What is said of a finding.
+fn warning(source: &Source, finding: &Finding, whose: Whose) -> Warning {
+    let notice = Notice::InLog {
+        log: source.path.display().to_string(),
+        whose,
+        found: Box::new(finding.kind.clone()),
+        axis_file: finding.axis_file().to_string(),
+    };
+    notice.into()
 }
 
 /// What makes a validation on other logs than the fitted ones worth nothing: a force of the wrong sign. All else that the reader
 /// warns of matters to what is fitted alone.
 pub(super) fn validation_warnings(held_out: &[Source], fitted: &[Source]) -> Vec<Warning> {
     let alike = fitted.iter().any(has_wrong_sign);
-    let wrong = held_out
-        .iter()
-        .filter_map(|log| Some((log, wrong_sign(log)?)));
-    let one = |(log, finding): (&Source, &Finding)| {
-        let message = match finding.message.split_once("; ").filter(|_| !alike) {
+    let one = |log: &Source| {
+        let finding = log.log.findings.iter().find(|own| brakes(&own.kind))?;
+        let mut finding = finding.clone();
+        if let (Found::ForceBrakes { turn, .. }, false) = (&mut finding.kind, alike) {
             // The axis file is that of the fitted logs too.
-            Some((found, _)) => format!(
-                "{found}, and that of the fitted logs does not: turn the sign in this file, or validate on another"
-            ),
-            None => finding.message.clone(),
-        };
-        let path = log.path.display();
-        Warning::new(
-            Code::ForceSign,
-            format!("{path}, which is not fitted: {message}"),
-        )
+            *turn = Turn::Validation;
+        }
+        Some(warning(log, &finding, Whose::Validated))
     };
-    wrong.map(one).collect()
+    held_out.iter().filter_map(one).collect()
 }
 
 fn warnings_of(source: &Source) -> impl Iterator<Item = &Finding> {

@@ -4,13 +4,12 @@
 //! one is named whose next larger or smaller unit brings all sizes back to those of machines, or nearest to them.
 
 use super::load::{Asked, Loaded};
-use stiction_codes::Code;
 use stiction_files::axis::entry;
 use stiction_files::{Warning, symbols};
 use stiction_identify::FittedLaw;
 use stiction_log::{Log, Motion, Role};
-use stiction_number::short;
 use stiction_parameters::Quantity;
+use stiction_say::Notice;
 
 /// A size of an axis.
 struct Size {
@@ -127,28 +126,18 @@ pub(super) fn unlikely(asked: Asked, loaded: &Loaded, law: &FittedLaw) -> Option
     };
     let (_, role, too_small) = others.min_by(|a, b| left(a).total_cmp(&left(b)))?;
     let column = log.columns.iter().find(|c| c.role == Some(role));
-    let name = column.map_or(String::new(), |c| {
-        format!(", column {} ({}),", c.column, c.unit)
-    });
     let joined = asked.axis.joined.iter().any(|c| c.from.role == role);
     let line = log.in_another_unit(role, too_small).filter(|_| !joined);
-    let line = line.map_or(String::new(), |channel| {
-        format!(
-            "; write under [columns] in axis.toml: {role} = {}",
-            entry(&channel)
-        )
-    });
-    let [low, high] = size.limits[own].map(short);
-    Some(Warning::new(
-        Code::UnlikelySize,
-        format!(
-            "the identified axis has a {} of {} {unit}, and machines have {low} to {high} {unit}: the unit of the {role}{name} is probably \
-             wrong{line}. An axis that is so is taken with its mass under [limits]",
-            size.name,
-            short((*value)?),
-            unit = size.units[own],
-        ),
-    ))
+    let notice = Notice::NoMachine {
+        size: size.name,
+        value: (*value)?,
+        usual: size.limits[own],
+        unit: size.units[own],
+        role: role.name(),
+        column: column.map(|c| (c.column.clone(), c.unit.clone())),
+        line: line.map(|channel| entry(&channel)),
+    };
+    Some(notice.into())
 }
 
 /// The sizes of an axis, SI; `None` where the log does not determine them.

@@ -4,12 +4,12 @@ use super::load::Asked;
 use stiction_codes::Code;
 use stiction_files::axis::entry;
 use stiction_files::result::{Action, CauseEntry};
-use stiction_log::{Log, Motion, Offset, Role};
+use stiction_log::{Found, Log, Motion, Offset, Role};
 use stiction_number::full;
 
 /// What the column of the force lacks, as a part of the verdict; `None` where its unit fits the axis.
 pub(super) fn cause(asked: Asked, log: &Log) -> Option<CauseEntry> {
-    let mixed = log.findings.iter().any(|f| f.code == Code::ForceUnit);
+    let mixed = log.finds(|f| matches!(f, Found::ForceUnit { .. }));
     let mut channel = log.mapping.force.clone().filter(|_| mixed)?;
     let mut joined = asked.axis.joined.iter();
     let joined = joined.find(|column| column.from.role == Role::Force);

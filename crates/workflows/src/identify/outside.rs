@@ -1,12 +1,11 @@
 //! Parameters outside the ranges that the axis file gives a search: least squares are not kept within them.
 
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::symbols;
 use stiction_identify::FittedLaw;
 use stiction_log::Log;
-use stiction_number::four_digits as short;
 use stiction_parameters::{ParameterSet, Quantity, Side};
+use stiction_say::{Notice, Outside, Value};
 
 /// Parameters of a law outside the ranges of `[search.box]`, which are for sigma0, sigma1, sigma2, Fc, Fs - Fc and vs, SI.
 pub(super) fn named(ranges: &[Option<[f64; 2]>; 6], law: &FittedLaw, log: &Log) -> Option<Warning> {
@@ -31,18 +30,14 @@ pub(super) fn named(ranges: &[Option<[f64; 2]>; 6], law: &FittedLaw, log: &Log) 
             };
             let unit = symbols::unit(quantity.dimension(), log.motion, &log.force_unit, "");
             let end = if same { "" } else { end };
-            let range = format!("{} to {}", short(*low), short(*high));
-            said.push(format!("{key}{end} = {} {unit}, not {range}", short(value)));
+            said.push(Outside {
+                name: format!("{key}{end}"),
+                value: Value::new(value, unit),
+                range: [*low, *high],
+            });
         }
     }
-    (!said.is_empty()).then(|| {
-        let text = format!(
-            "outside [search.box] of the axis file: {}. Least squares are not kept in that box, which is for searches: correct the \
-             range, or look for what the log shows beside the law",
-            said.join("; ")
-        );
-        Warning::new(Code::OutsideBox, text)
-    })
+    (!said.is_empty()).then(|| Notice::OutsideBox { each: said }.into())
 }
 
 /// The value of a key of the box.

@@ -4,13 +4,12 @@ use super::outcome::Outcome;
 use crate::error::Error;
 use crate::source::Source;
 use std::path::Path;
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::plan::ReadPlan;
 use stiction_files::result::{PieceEntry, PlannedEntry, PlannedParameter, ResultFile};
-use stiction_number::{Percent, counted, four_digits};
 use stiction_plan::{How, Recognised, recognise};
 use stiction_policy::plan;
+use stiction_say::{Notice, OffPlan};
 
 /// Reads a plan, and refuses one of another kind of axis.
 pub(super) fn read(file: &Path, sources: &[Source]) -> Result<ReadPlan, Error> {
@@ -54,26 +53,18 @@ pub(super) fn into_outcome(plan: &ReadPlan, outcome: &mut Outcome) {
     };
     let size = best.and_then(|(_, found)| found.size);
     let size = size.filter(|times| (times - 1.0).abs() > plan::MAX_SIZE_DIFFERENCE);
-    result.warnings.extend(differs(&entry));
-    result
-        .warnings
-        .extend(size.map(|times| of_another_size(&entry, times)));
+    let notice = |how| {
+        let plan = entry.path.clone();
+        Warning::from(Notice::OffPlan { plan, how })
+    };
+    let all = differs(&entry).into_iter().chain(size.map(OffPlan::Scale));
+    result.warnings.extend(all.map(notice));
     result.planned = Some(entry);
 }
 
 fn whole(found: &Recognised) -> usize {
     let pieces = found.pieces.iter();
     pieces.filter(|piece| piece.how == How::Whole).count()
-}
-
-fn of_another_size(entry: &PlannedEntry, times: f64) -> Warning {
-    let said = format!(
-        "the position of the log goes {} times as far as the motion of {}: its unit or scale in the axis file is another than that of the \
-         set points, or something else was run; masses, stiffnesses and speeds are wrong by as much",
-        four_digits(times),
-        entry.path
-    );
-    Warning::new(Code::PlanDiffers, said)
 }
 
 /// The pieces that logs show together, a motion that was stopped having been run on in another one, and the names of those that show any.
@@ -173,25 +164,16 @@ fn value(result: &ResultFile, name: &str) -> Option<f64> {
 }
 
 /// What was run otherwise than planned.
-fn differs(entry: &PlannedEntry) -> Option<Warning> {
-    let said = match entry.pace {
-        None => format!(
-            "no log shows the motion of {}: what was expected does not hold for it. Run its setpoints.csv, at its pace, and record \
-             the position",
-            entry.path
-        ),
-        Some(pace) if entry.pieces.is_empty() => format!(
-            "the motion of {} ran at {} of its pace: what was expected holds for its full pace alone. Run it again without an override",
-            entry.path,
-            Percent::error(100.0 * pace).short()
-        ),
-        Some(_) => lacking(entry)?,
-    };
-    Some(Warning::new(Code::PlanDiffers, said))
+fn differs(entry: &PlannedEntry) -> Option<OffPlan> {
+    match entry.pace {
+        None => Some(OffPlan::Absent),
+        Some(pace) if entry.pieces.is_empty() => Some(OffPlan::Pace(pace)),
+        Some(_) => lacking(entry),
+    }
 }
 
 /// Pieces that are not whole, and from where to run again.
-fn lacking(entry: &PlannedEntry) -> Option<String> {
+fn lacking(entry: &PlannedEntry) -> Option<OffPlan> {
     let named = |status: &str| {
         let numbers = (1..).zip(&entry.pieces);
         let own = numbers.filter(|(_, piece)| piece.status == status);
@@ -199,39 +181,10 @@ fn lacking(entry: &PlannedEntry) -> Option<String> {
     };
     let (missing, cut) = (named("missing"), named("cut-short"));
     let first = *missing.iter().chain(&cut).min()?;
-    let say = |pieces: &[usize], what: &str| {
-        let list: Vec<String> = pieces.iter().map(ToString::to_string).collect();
-        match pieces {
-            [] => None,
-            [one] => Some(format!("piece {one} {what}")),
-            many => Some(format!("pieces {} {what}", listed(&list, many.len()))),
-        }
-    };
-    let said: Vec<String> = [say(&missing, "missing"), say(&cut, "cut short")]
-        .into_iter()
-        .flatten()
-        .collect();
-    let from = entry.pieces[first - 1].planned_start;
-    Some(format!(
-        "of {} in {}, {}: what was expected counts on them. Run setpoints.csv again, from t = {} s on, where the axis is at rest \
-         at its start, and identify that log together with this one",
-        counted(entry.pieces.len(), "piece"),
-        entry.path,
-        said.join(", "),
-        four_digits(from)
-    ))
-}
-
-/// Most pieces that are named.
-const MOST_NAMED: usize = 12;
-
-fn listed(numbers: &[String], count: usize) -> String {
-    match count > MOST_NAMED {
-        true => format!(
-            "{} and {} more",
-            numbers[..MOST_NAMED].join(", "),
-            count - MOST_NAMED
-        ),
-        false => numbers.join(", "),
-    }
+    Some(OffPlan::Pieces {
+        of: entry.pieces.len(),
+        missing,
+        cut,
+        from: entry.pieces[first - 1].planned_start,
+    })
 }

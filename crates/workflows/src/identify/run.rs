@@ -23,7 +23,6 @@ use crate::source::{Source, Used, load_held_out, refuse_several, usage_at};
 use crate::wording::{Setting, TOGETHER_WITH};
 use std::path::PathBuf;
 use std::time::Instant;
-use stiction_codes::Code;
 use stiction_files::{Axis, Warning};
 use stiction_identify as engine;
 use stiction_identify::{Observer, Record, Series};
@@ -246,10 +245,6 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     let estimate = fitted.choice.estimate;
     let outside = outside::named(&ranges, &estimate, &loaded.sources[0].log);
     judged.warnings.extend(outside);
-    // Of one cause one warning.
-    judged
-        .warnings
-        .retain(|w| w.code != Code::Jitter || conditioned.record.timing_noise == 0.0);
     judged.warnings.extend(beside_stamps(&conditioned.record));
     let notes = conditioned.record.notes.iter().cloned();
     let mut result = assemble::result(Parts {

@@ -5,15 +5,14 @@
 
 use super::condition::Conditioned;
 use super::load::{Asked, Loaded};
-use stiction_codes::Code;
 use stiction_files::{Warning, symbols};
 use stiction_identify as engine;
 use stiction_identify::{
     Delay, Effect, Law, LawKind, Mass, Observer, Parameter, Settings, Status, Terms,
 };
-use stiction_number::{Percent, four_digits, full};
 use stiction_parameters::{Name, Quantity};
 use stiction_policy::agreement;
+use stiction_say::{Notice, Stated as Kind};
 
 /// Says what is stated, what the log shows, and what to do; `None` where it is what is stated, nothing is stated, or the log does not tell.
 pub(super) fn named(
@@ -58,7 +57,7 @@ pub(super) fn named(
             if log.force_unit == symbols::force_unit(log.motion) =>
         {
             Stated {
-                code: Code::MassDisagrees,
+                stated: Kind::Mass,
                 law,
                 open: Terms {
                     mass: Mass::Fitted,
@@ -66,13 +65,12 @@ pub(super) fn named(
                 },
                 quantity: Quantity::Mass,
                 scale: 1.0,
-                what: format!("a mass of {} {unit}", four_digits(mass)),
-                unit: format!(" {unit}"),
-                to_do: "Write mass = \"fit\" in its place in the axis file; a mass that is known surely is a force in another scale or unit",
+                value: mass,
+                unit,
             }
         }
         (Effect::Delay(_), _, Delay::Given(delay), _) => Stated {
-            code: Code::DelayDisagrees,
+            stated: Kind::Delay,
             law,
             open: Terms {
                 delay: Delay::Fitted,
@@ -80,20 +78,18 @@ pub(super) fn named(
             },
             quantity: Quantity::Delay,
             scale: 1e3,
-            what: format!("a delay of {} ms", four_digits(1e3 * delay)),
-            unit: " ms".into(),
-            to_do: "Write delay = \"fit\" in its place under [terms] in the axis file",
+            value: 1e3 * delay,
+            unit: "ms".into(),
         },
         (Effect::Curve, _, _, Some(exponent)) if asked.options.law.is_none_or(has_curve) => {
             Stated {
-                code: Code::ExponentDisagrees,
+                stated: Kind::Exponent,
                 law: law.with_fitted_exponent(),
                 open,
                 quantity: Quantity::StribeckExponent,
                 scale: 1.0,
-                what: format!("a Stribeck exponent of {}", full(exponent)),
+                value: exponent,
                 unit: String::new(),
-                to_do: "Write stribeck_exponent = \"fit\" in its place under [terms] in the axis file",
             }
         }
         _ => return None,
@@ -101,23 +97,19 @@ pub(super) fn named(
     let (free, _) = fit(stated.law, &stated.open)?;
     let found = free.parameter(stated.quantity)?;
     let (low, high) = found.ci95?;
-    let [value, low, high] = [found.value, low, high].map(|x| four_digits(stated.scale * x));
-    let left = Percent::error(100.0 * (free.fit.rmse / held.fit.rmse).powi(2)).digits(2);
-    let Stated {
-        what, unit, to_do, ..
-    } = stated;
-    Some(Warning::new(
-        stated.code,
-        format!(
-            "the axis file states {what}, and the log shows {value}{unit} ({low} to {high}): with that {left} of what the law leaves beside the \
-             stated one is left. {to_do}"
-        ),
-    ))
+    let notice = Notice::Contradicted {
+        stated: stated.stated,
+        value: stated.value,
+        shown: [found.value, low, high].map(|x| stated.scale * x),
+        unit: stated.unit,
+        left: (free.fit.rmse / held.fit.rmse).powi(2),
+    };
+    Some(notice.into())
 }
 
 /// What an axis file states and a log contradicts.
 struct Stated {
-    code: Code,
+    stated: Kind,
     /// The law and the terms with which it is fitted instead.
     law: Law,
     open: Terms,
@@ -125,8 +117,8 @@ struct Stated {
     /// From SI to the unit of the message, and that.
     scale: f64,
     unit: String,
-    what: String,
-    to_do: &'static str,
+    /// In that unit.
+    value: f64,
 }
 
 /// Says that the mass that was found is not the one of `[limits]`, which is meant within a factor of two; `None` where it is, none is
@@ -144,15 +136,12 @@ pub(super) fn against_limits(
     (low > agreement::MAX_LIMIT_RATIO * mass || high < mass / agreement::MAX_LIMIT_RATIO)
         .then_some(())?;
     let unit = symbols::unit(found.name.dimension(), log.motion, &log.force_unit, "");
-    let [limit, value, low, high] = [mass, found.value, low, high].map(four_digits);
-    Some(Warning::new(
-        Code::MassDisagrees,
-        format!(
-            "limits.mass of the axis file is {limit} {unit}, within a factor of two, and the log shows {value} {unit} ({low} to {high}): the \
-             position, the time or the force of the log has another unit or scale than the axis file says, and every number with it, or \
-             limits.mass is not what moves. Correct the one that is wrong"
-        ),
-    ))
+    let notice = Notice::LimitsMass {
+        limit: mass,
+        shown: [found.value, low, high],
+        unit,
+    };
+    Some(notice.into())
 }
 
 fn of(parameters: &[Parameter], name: Quantity) -> Option<Parameter> {

@@ -187,8 +187,8 @@ fn has_finding(sources: &[Source], code: Code) -> bool {
 fn finding(sources: &[Source], code: Code) -> Option<String> {
     let mut findings = sources.iter().flat_map(|source| &source.log.findings);
     findings
-        .find(|finding| finding.code == code)
-        .map(|finding| finding.message.clone())
+        .find(|finding| finding.code() == code)
+        .map(ToString::to_string)
 }
 
 /// What a fit is judged by.

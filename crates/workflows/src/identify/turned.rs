@@ -1,8 +1,7 @@
 //! Logs of one axis of which some have the sign of the force turned round.
 
-use super::logs::path_of;
+use super::logs::{has_wrong_sign, path_of};
 use crate::source::Source;
-use stiction_codes::Code;
 use stiction_identify::Disagreement;
 use stiction_parameters::Quantity;
 use stiction_policy::agreement;
@@ -20,12 +19,8 @@ pub(super) fn named(sources: &[Source], found: &[Disagreement]) -> Option<(Strin
 
 /// The logs whose force brakes, where that of others does not.
 fn braking(sources: &[Source]) -> Option<Vec<usize>> {
-    let brakes = |source: &Source| {
-        let mut findings = source.log.findings.iter();
-        findings.any(|finding| finding.code == Code::ForceSign)
-    };
     let all = 0..sources.len();
-    let braking: Vec<usize> = all.filter(|i| brakes(&sources[*i])).collect();
+    let braking: Vec<usize> = all.filter(|i| has_wrong_sign(&sources[*i])).collect();
     (!braking.is_empty() && braking.len() < sources.len()).then_some(braking)
 }
 

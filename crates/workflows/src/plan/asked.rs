@@ -1,11 +1,11 @@
 //! What the axis file asks of a motion beside LuGre: the terms that are planned for, and those that are not, by name.
 
 use crate::error::Error;
-use stiction_codes::Code;
 use stiction_files::{Axis, Warning};
 use stiction_identify::{Delay, Dependence, Mass, Terms};
 use stiction_log::Motion;
 use stiction_plan::{Elements, Limits, Subject};
+use stiction_say::{Notice, Unplanned};
 
 /// What is planned for.
 pub(super) struct Asked {
@@ -82,12 +82,6 @@ pub(super) fn asked(
     })
 }
 
-fn warning(what: &str, instead: &str, motion: &str) -> Warning {
-    Warning::new(Code::NotPlanned, format!("{what}: {instead}. {motion}"))
-}
-
-const ABSENT: &str = "planned as if absent, and no interval is expected of it";
-
 /// Each key that is not planned for, and the motion that it needs.
 fn not_planned<'a>(
     axis: &'a Axis,
@@ -95,83 +89,39 @@ fn not_planned<'a>(
     law: &'a Law,
 ) -> impl Iterator<Item = Warning> + 'a {
     let dependences = terms.dependences.iter().filter_map(|dependence| {
-        let motion = match dependence {
-            Dependence::CoulombLoad(_) => {
-                "The load has to vary between runs: record this motion under at least three loads, the least, a middle one and the \
-                 largest, and identify the logs together"
-            }
+        let key = dependence.name();
+        match dependence {
+            Dependence::CoulombLoad(_) => Some(Unplanned::Load(key)),
             Dependence::CoulombTemperature(_) | Dependence::ViscousTemperature(_) => {
-                "The temperature has to vary between runs: record this motion cold and warm, at least 10 K apart, best also half-way, \
-                 and identify the logs together"
+                Some(Unplanned::Temperature(key))
             }
             Dependence::CoulombTransmitted(_) | Dependence::CoulombDriven(_) => {
-                "What the gear transmits has to vary: record this motion with and without a payload, or on both sides of the vertical and \
-                 near it (two runs at least), and identify the logs together"
+                Some(Unplanned::Transmitted(key))
             }
-            Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => {
-                "It differs from log to log: record this motion in each of the states that are to be told apart, twice at least in all"
+            Dependence::CoulombLog(_) | Dependence::ViscousLog(_) => Some(Unplanned::Logs(key)),
+            Dependence::CoulombMap(_) => Some(Unplanned::Map),
+            Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => {
+                let elements = law.elements.is_some();
+                elements.then_some(Unplanned::ElementsByPosition(key))
             }
-            Dependence::CoulombMap(_) => {
-                return Some(warning(
-                    "terms.coulomb_position = \"map\"",
-                    "planned as a straight line, and no interval is expected of the rest",
-                    "Constant speeds over the whole stroke, there and back, show it",
-                ));
-            }
-            Dependence::CoulombPosition(_) | Dependence::CoulombPitch(_) => match law.elements {
-                Some(_) => "Maxwell-slip elements have no level that depends on the position: plan and identify with --law lugre for it",
-                None => return None,
-            },
-        };
-        Some(warning(&format!("terms.{}", dependence.name()), ABSENT, motion))
+        }
     });
-    let gaussian = "planned with the Gaussian curve, an exponent of 2";
-    let curve = "Add constant speeds on either side of the Stribeck velocity, such as moves there and back at six speeds in equal ratios";
-    let fitted = axis.exponent_fitted.then(|| {
-        let instead = format!("{gaussian}, and no interval is expected of it");
-        warning("terms.stribeck_exponent = \"fit\"", &instead, curve)
-    });
+    let fitted = axis.exponent_fitted.then_some(Unplanned::FittedExponent);
     let given = axis.stribeck_exponent.filter(|exponent| *exponent != 2.0);
-    let given = given.map(|exponent| {
-        let what = format!(
-            "terms.stribeck_exponent = {}",
-            stiction_number::full(exponent)
-        );
-        warning(&what, gaussian, curve)
-    });
+    let given = given.map(Unplanned::Exponent);
     let elements = axis.gms_elements.filter(|_| law.elements.is_none());
-    let elements = elements.map(|_| {
-        let then = format!(
-            "Limits say neither how many elements there are nor where they yield; a first log does: {}",
-            law.steps
-        );
-        warning(
-            "terms.gms_elements",
-            "planned for LuGre, and no interval is expected of the elements",
-            &then,
-        )
-    });
-    let mass = (terms.mass == Mass::Absent).then(|| {
-        warning(
-            "mass = \"none\"",
-            "planned as if the mass were fitted, so intervals may come out narrower",
-            "Nothing has to be added",
-        )
-    });
+    let elements = elements.map(|_| Unplanned::Elements(law.steps.clone()));
+    let mass = (terms.mass == Mass::Absent).then_some(Unplanned::NoMass);
     dependences
         .chain(fitted)
         .chain(given)
         .chain(elements)
         .chain(mass)
+        .map(|what| Notice::Unplanned(what).into())
 }
 
 /// What a first model has and the axis file does not ask for.
 pub(super) fn of_model(beyond: &[String]) -> Option<Warning> {
-    (!beyond.is_empty()).then(|| {
-        warning(
-            &format!("the first identification has {}", beyond.join(", ")),
-            ABSENT,
-            "Ask for it under [terms] of the axis file, where it is fitted again",
-        )
-    })
+    let what = || Unplanned::FirstModel(beyond.to_vec());
+    (!beyond.is_empty()).then(|| Notice::Unplanned(what()).into())
 }

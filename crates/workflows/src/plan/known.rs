@@ -4,7 +4,6 @@ use super::law;
 use crate::error::Error;
 use crate::identify::{Files, Options, identify};
 use std::path::{Path, PathBuf};
-use stiction_codes::Code;
 use stiction_files::model::{ModelParameter, ReadModel};
 use stiction_files::result::{Action, Trust};
 use stiction_files::{ModelFile, Warning};
@@ -12,6 +11,7 @@ use stiction_identify::{LawKind, Observer};
 use stiction_parameters::{Name, Quantity};
 use stiction_plan::{Belief, Candidate, Elements, Nameplate, Subject};
 use stiction_policy::plan;
+use stiction_say::{Doubt, Notice};
 use stiction_signal::noise_deviation;
 
 /// What is known of an axis beside its nameplate.
@@ -68,10 +68,7 @@ pub(super) fn told(
                 return Err(refuse(file, &found, law::BOTH_WAYS));
             }
             Ok(Told {
-                doubt: (!model.model.trustworthy).then(|| {
-                    let why = "the identification flagged it as not trustworthy: see its report";
-                    doubt(file, &format!("{why}. {FIRST}"))
-                }),
+                doubt: (!model.model.trustworthy).then(|| planned_from(file, Doubt::Untrusted)),
                 model: model.model,
                 file: file.clone(),
                 sha256: model.sha256,
@@ -101,7 +98,7 @@ pub(super) fn told(
             let model = ModelFile::from_result(&outcome.result);
             fits(&model, file, kind)?;
             Ok(Told {
-                doubt: misread(&outcome.result.trust).map(|text| doubt(file, &text)),
+                doubt: misread(&outcome.result.trust).map(|doubt| planned_from(file, doubt)),
                 model,
                 file: file.clone(),
                 sha256: sha256.unwrap_or_default(),
@@ -115,31 +112,27 @@ pub(super) fn told(
 
 /// What has to be set right in how a first log is read before anything is planned from it, or what no motion takes out. What its motion
 /// leaves open is no reason: a plan is for that.
-fn misread(trust: &Trust) -> Option<String> {
+fn misread(trust: &Trust) -> Option<Doubt> {
     let of_cause = trust.cause.as_ref().and_then(|cause| {
-        let found = format!("{} ({})", cause.text, cause.size);
-        match cause.cure.as_ref() {
-            Some(Action::Line { table, line, .. }) => {
-                let line = format!("{found}; write {line} under [{table}] of the axis file");
-                Some(format!("{line}. {FIRST}"))
-            }
-            Some(_) => None,
-            None => Some(format!(
-                "{found}, which no motion takes out: intervals will be wider than is expected here"
-            )),
-        }
+        let cure = match cause.cure.as_ref() {
+            Some(Action::Line { table, line, .. }) => Some((line.clone(), table.clone())),
+            Some(_) => return None,
+            None => None,
+        };
+        Some(Doubt::Cause {
+            text: cause.text.clone(),
+            size: cause.size.clone(),
+            cure,
+        })
     });
     let reasons = trust.reasons.iter();
     let mut reasons = reasons.filter(|_| trust.next == Action::AxisFile);
-    of_cause.or_else(|| Some(format!("{}. {FIRST}", reasons.next()?)))
+    of_cause.or_else(|| Some(Doubt::Reason(reasons.next()?.clone())))
 }
 
-/// What is done all the same.
-const FIRST: &str =
-    "The motion is planned for what it says all the same: set that right first, then plan again";
-
-fn doubt(file: &Path, why: &str) -> Warning {
-    Warning::new(Code::ModelInDoubt, format!("{}: {why}", file.display()))
+fn planned_from(file: &Path, doubt: Doubt) -> Warning {
+    let file = file.display().to_string();
+    Notice::PlannedFrom { file, doubt }.into()
 }
 
 fn refuse(file: &Path, found: &str, allowed: &str) -> Error {

@@ -3,6 +3,7 @@
 use stiction_friction::ParamError;
 use stiction_number::four_digits as short;
 use stiction_policy::simulation;
+use stiction_say::NoRun;
 use stiction_servo::axis::Sample;
 use stiction_servo::controller::Controller;
 
@@ -13,6 +14,20 @@ pub(super) enum Fault {
     Refused(ParamError),
     /// It left the path at this time, s.
     Diverged(f64),
+}
+
+impl Fault {
+    /// The same for a notice.
+    pub fn no_run(&self) -> NoRun {
+        match self {
+            Self::Refused(e) => NoRun::Refused {
+                name: e.name.to_string(),
+                value: e.value,
+                allowed: e.allowed.to_string(),
+            },
+            Self::Diverged(seconds) => NoRun::Diverged { seconds: *seconds },
+        }
+    }
 }
 
 impl From<ParamError> for Fault {

@@ -1,21 +1,20 @@
 //! What a run shows that its figures do not: a force at its limit, a command that shakes, a load that nothing was learnt of.
 
 use super::machine::largest_force;
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::study::Study;
 use stiction_files::study::result::ResultRow;
-use stiction_number::Percent;
-use stiction_number::quantity;
 use stiction_policy::simulation;
+use stiction_say::{Notice, Value};
 use stiction_servo::load::LoadSettings;
 
-/// Codes of the warnings that are made here.
-pub const CODES: [Code; 3] = [
-    Code::AtForceLimit,
-    Code::UnsteadyCommand,
-    Code::LoadNotLearnt,
-];
+/// Whether a warning is one of those that are made here: some figures are misleading.
+pub fn is_misleading(warning: &Warning) -> bool {
+    matches!(
+        warning.kind(),
+        Some(Notice::AtForceLimit { .. } | Notice::Shaking { .. } | Notice::LoadNotLearnt { .. })
+    )
+}
 
 /// What is to be said of the rows of a path or contour under a controller.
 pub(super) fn warnings(study: &Study, rows: &[ResultRow]) -> Vec<Warning> {
@@ -48,22 +47,17 @@ fn at_limit(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
     let same = |a: &ResultRow, b: &ResultRow| a.scheme() == b.scheme();
     let schemes = rows.chunk_by(same).filter_map(|rows| {
         let (row, share) = worst(rows, "saturation", &|_| 1.0)?;
-        let percent = Percent::error(100.0 * share).decimals(0);
-        (share > simulation::MAX_SHARE_AT_LIMIT).then(|| format!("{} ({percent})", row.scheme()))
+        (share > simulation::MAX_SHARE_AT_LIMIT).then(|| (row.scheme().to_string(), share))
     });
-    let schemes: Vec<String> = schemes.collect();
-    (!schemes.is_empty()).then(|| {
-        Warning::new(
-            Code::AtForceLimit,
-            format!(
-                "{}, {}: the command is at its limit of {} in part of the samples with {}: the result then shows the \
-                 limit, not the controller or the compensation",
-                row.path,
-                row.controller,
-                limits(study, &row.controller),
-                schemes.join(", ")
-            ),
-        )
+    let each: Vec<(String, f64)> = schemes.collect();
+    (!each.is_empty()).then(|| {
+        let notice = Notice::AtForceLimit {
+            path: row.path.clone(),
+            controller: row.controller.clone(),
+            limits: limits(study, &row.controller),
+            each,
+        };
+        notice.into()
     })
 }
 
@@ -71,18 +65,13 @@ fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
     let limits = force_limits(study, &rows.first()?.controller)?;
     let (row, share) = worst(rows, "command_change", &|axis| limits[axis])?;
     (share > simulation::MAX_COMMAND_CHANGE).then(|| {
-        Warning::new(
-            Code::UnsteadyCommand,
-            format!(
-                "{}, {}: with {} the command changes by {} of the largest force from sample to sample (rms): the \
-                 loop is not stable, or its gains are too high for the encoder and the noise. Halve its bandwidth under \
-                 [[controller]] in the study file until this is gone, or put in a finer encoder",
-                row.path,
-                row.controller,
-                row.scheme(),
-                Percent::error(100.0 * share).decimals(0)
-            ),
-        )
+        let notice = Notice::Shaking {
+            path: row.path.clone(),
+            controller: row.controller.clone(),
+            scheme: row.scheme().to_string(),
+            part: share,
+        };
+        notice.into()
     })
 }
 
@@ -93,22 +82,15 @@ fn not_learnt(rows: &[ResultRow]) -> Option<Warning> {
     let row = rows
         .iter()
         .find(|row| learning(row).is_some_and(|time| time < settings.memory))?;
-    let time = match learning(row)? {
-        0.0 => "no time".into(),
-        time => quantity(time, "s"),
+    let notice = Notice::LoadNotLearnt {
+        path: row.path.clone(),
+        controller: row.controller.clone(),
+        compensator: row.compensator.clone(),
+        seconds: learning(row)?,
+        needed: settings.memory,
+        acceleration: settings.least_acceleration,
     };
-    Some(Warning::new(
-        Code::LoadNotLearnt,
-        format!(
-            "{}, {}: the load estimate of {} had {time} to learn in, of {} that it takes: it learns while the \
-             acceleration is above {}; what it found by then is fed forward all the same, and tells nothing of the load",
-            row.path,
-            row.controller,
-            row.compensator,
-            quantity(settings.memory, "s"),
-            quantity(settings.least_acceleration, "m/s^2 (rad/s^2)"),
-        ),
-    ))
+    Some(notice.into())
 }
 
 /// The largest force of each axis under a controller, N (N m); with one axis its force twice.
@@ -125,14 +107,11 @@ fn force_limits(study: &Study, controller: &str) -> Option<[f64; 2]> {
     Some([first, second.unwrap_or(first)])
 }
 
-/// The same in words.
-fn limits(study: &Study, controller: &str) -> String {
+/// The same, once where both are alike.
+fn limits(study: &Study, controller: &str) -> Vec<Value> {
     let unit = stiction_files::symbols::force_unit(study.machine.motion);
-    match force_limits(study, controller) {
-        Some([x, y]) if x != y => {
-            format!("{} (x) and {} (y)", quantity(x, unit), quantity(y, unit))
-        }
-        Some([x, _]) => quantity(x, unit),
-        None => "the largest force".into(),
-    }
+    let limits = force_limits(study, controller).into_iter().flatten();
+    let mut limits: Vec<Value> = limits.map(|limit| Value::new(limit, unit)).collect();
+    limits.dedup();
+    limits
 }

@@ -8,12 +8,11 @@ use super::outcome::StudyOutcome;
 use super::rows::{promises, rows};
 use super::{contour, course, doubt, kept, machine, not_promised, path, sweeps};
 use rayon::prelude::*;
-use stiction_codes::Code;
 use stiction_files::study::result::{SCHEMA, StudyFile};
 use stiction_files::study::{Job, Study};
 use stiction_files::{Runs, Warning};
 use stiction_friction::{ElastoPlastic, LuGre, MaxwellSlip, ParamError};
-use stiction_number::{four_digits as short, quantity};
+use stiction_say::{Notice, Value};
 use stiction_search::{Observer, Shared};
 use stiction_servo::integrator::{Integrator, Mid, Quick};
 use stiction_servo::law::{AxisLaw, OfAxis};
@@ -264,32 +263,25 @@ fn not_run(study: &Study, grids: &[Grid], runs: &[Failed]) -> Warning {
     let point = points
         .into_iter()
         .find(|(_, p)| std::ptr::eq(&p.study, grid));
-    let with = point.map_or(String::new(), |(sweep, point)| {
-        let value = quantity(point.value, &sweep.unit);
-        format!(" with {} = {value}", sweep.key)
+    let point = point.map(|(sweep, point)| {
+        let value = Value::new(point.value, &sweep.unit);
+        (sweep.key.to_string(), value)
     });
-    let text = match fault {
-        Fault::Refused(e) => format!(
-            "{path}, {controller}, {compensator}{with} was not run: {} = {}; allowed: {}",
-            e.name,
-            short(e.value),
-            e.allowed
-        ),
-        Fault::Diverged(time) => {
-            let mut schemes: Vec<_> = runs
-                .iter()
-                .map(|(_, job, _)| study.names(*job)[2])
-                .collect();
-            schemes.dedup();
-            format!(
-                "{path}, {controller} ({}){with} diverged: the axis left its path at {} s and did not come back, with {}; such a \
-                 run has no figures. Allowed: smaller gains, or a bandwidth instead of them; a force limit that the drive \
-                 can give",
-                schemes.join(", "),
-                short(time),
-                gains(&grid.controllers[job.controller].value)
-            )
+    let mut schemes = match fault {
+        Fault::Refused(_) => vec![compensator.to_string()],
+        Fault::Diverged(_) => {
+            let schemes = runs.iter().map(|(_, job, _)| study.names(*job)[2]);
+            schemes.map(String::from).collect()
         }
     };
-    Warning::new(Code::NotRun, text)
+    schemes.dedup();
+    let notice = Notice::NotRun {
+        path: path.to_string(),
+        controller: controller.to_string(),
+        schemes,
+        point,
+        why: fault.no_run(),
+        gains: Some(gains(&grid.controllers[job.controller].value)),
+    };
+    notice.into()
 }

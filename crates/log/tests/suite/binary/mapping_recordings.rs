@@ -204,9 +204,9 @@ fn damiao_wraps_and_one_motor_misses_five_seconds() {
         let wraps = log
             .findings
             .iter()
-            .find(|f| f.code.as_str() == "position-wrap")
+            .find(|f| f.code().as_str() == "position-wrap")
             .unwrap();
-        assert!(wraps.message.contains("6 times"), "{}", wraps.message);
+        assert!(wraps.to_string().contains("6 times"), "{wraps}");
         let longest = log.gaps.iter().map(|g| g.seconds).fold(0.0, f64::max);
         if motor == 2 {
             assert!((longest - 4.978).abs() < 1e-3);

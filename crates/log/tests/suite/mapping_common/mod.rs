@@ -75,21 +75,21 @@ impl Axis {
 }
 
 pub fn codes(log: &Log) -> Vec<&'static str> {
-    log.findings.iter().map(|f| f.code.as_str()).collect()
+    log.findings.iter().map(|f| f.code().as_str()).collect()
 }
 
 pub fn warnings(log: &Log) -> Vec<&'static str> {
     log.findings
         .iter()
         .filter(|f| f.severity == Severity::Warning)
-        .map(|f| f.code.as_str())
+        .map(|f| f.code().as_str())
         .collect()
 }
 
-pub fn message<'a>(log: &'a Log, code: &str) -> &'a str {
-    let hit = log.findings.iter().find(|f| f.code.as_str() == code);
-    &hit.unwrap_or_else(|| panic!("no {code} in {:#?}", log.findings))
-        .message
+pub fn message(log: &Log, code: &str) -> String {
+    let hit = log.findings.iter().find(|f| f.code().as_str() == code);
+    hit.unwrap_or_else(|| panic!("no {code} in {:#?}", log.findings))
+        .to_string()
 }
 
 /// Findings and detections, one a line, for snapshots.
@@ -97,7 +97,7 @@ pub fn told(log: &Log) -> String {
     let findings = log
         .findings
         .iter()
-        .map(|f| format!("{:?} {}: {}", f.severity, f.code, f.message));
+        .map(|f| format!("{:?} {}: {}", f.severity, f.code(), f));
     log.detected
         .iter()
         .cloned()

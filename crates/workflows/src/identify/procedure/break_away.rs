@@ -5,13 +5,13 @@ use crate::error::Error;
 use crate::identify::beside::Beside;
 use crate::identify::logs::{refused, samples};
 use std::collections::VecDeque;
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::{BreakAwayEntry, ResultFile};
 use stiction_identify::FittedLaw;
 use stiction_identify::procedure::{Run, break_away as find, predict_break_away};
 use stiction_parameters::{Name, ParameterSet, Quantity, Side};
 use stiction_policy::procedure;
+use stiction_say::Notice;
 
 /// Break-aways, and what is to be said of runs that show none.
 #[derive(Default)]
@@ -93,8 +93,8 @@ pub(in crate::identify) fn break_away(
         return Err(first);
     }
     for refusal in refusals {
-        let text = format!("{refusal}; this run is left out");
-        out.warnings.push(Warning::new(Code::NoBreakAway, text));
+        let why = refusal.to_string();
+        out.warnings.push(Notice::NoBreakAway { why }.into());
     }
     Ok(out)
 }

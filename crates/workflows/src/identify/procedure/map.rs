@@ -18,6 +18,7 @@ use stiction_identify::procedure::{
 use stiction_identify::{Dependence, LawKind, Observer, Terms};
 use stiction_log::Motion;
 use stiction_policy::{choice, procedure};
+use stiction_say::{Notice, Sought, Unsteady, Value};
 use stiction_search::Counts;
 
 /// A map with what goes into the result.
@@ -82,11 +83,8 @@ pub(super) fn map(
         warnings.extend(searched.as_ref().and_then(|step| step.warning()));
     }
     if elsewhere {
-        warnings.push(Warning::new(
-            Code::NotConverged,
-            "the search for the steady curve ended at another one than least squares find over all Stribeck velocities, which \
-             is given: its box, [search.box] of the axis file, or its budget keeps it away",
-        ));
+        let sought = Sought::Curve;
+        warnings.push(Notice::SearchMissed { sought }.into());
     }
     warnings.extend(disagree::named(
         map.disagreement.as_slice(),
@@ -135,13 +133,9 @@ fn refuse_uncounted(options: &Options, axis: &Axis, terms: &Terms) -> Result<(),
     })
 }
 
-/// A value with its unit of speed, for messages.
-fn speed(value: f64, motion: Motion) -> String {
-    format!(
-        "{} {}",
-        stiction_number::four_digits(value),
-        symbols::speed_unit(motion)
-    )
+/// A speed with its unit.
+fn speed(value: f64, motion: Motion) -> Value {
+    Value::new(value, symbols::speed_unit(motion))
 }
 
 fn warnings(
@@ -164,64 +158,32 @@ fn warnings(
     };
     let (pos, neg) = (distinct(1.0), distinct(-1.0));
     if pos.min(neg) < procedure::MIN_SPEEDS {
-        out.push(Warning::new(
-            Code::FewSpeeds,
-            format!(
-                "{pos} different speeds in the positive direction and {neg} in the negative one; a \
-                 static map should have {} each way, evenly spaced in their logarithm, from \
-                 well below the Stribeck velocity to the top speed",
-                procedure::MIN_SPEEDS
-            ),
-        ));
+        let few = Notice::FewSpeeds {
+            positive: pos,
+            negative: neg,
+            advised: procedure::MIN_SPEEDS,
+        };
+        out.push(few.into());
     }
     if !found.rejected.is_empty() {
-        let list: Vec<String> = found
-            .rejected
-            .iter()
-            .take(3)
-            .map(|r| {
-                format!(
-                    "{} at {:.3} to {:.3} s, {}: {}",
-                    path_of(sources, r.log),
-                    r.time.0,
-                    r.time.1,
-                    speed(r.velocity, motion),
-                    r.reason.name()
-                )
-            })
-            .collect();
-        let more = found.rejected.len().saturating_sub(list.len());
-        let more = if more > 0 {
-            format!("; and {more} more")
-        } else {
-            String::new()
+        let first = found.rejected.iter().take(3).map(|r| Unsteady {
+            log: path_of(sources, r.log),
+            seconds: [r.time.0, r.time.1],
+            speed: speed(r.velocity, motion),
+            reason: r.reason.name(),
+        });
+        let unsteady = Notice::UnsteadyStretches {
+            first: first.collect(),
+            all: found.rejected.len(),
         };
-        out.push(Warning::new(
-            Code::UnsteadyStretches,
-            format!(
-                "{} left out: {}{more}",
-                plural(found.rejected.len(), "stretch", "stretches"),
-                list.join("; ")
-            ),
-        ));
+        out.push(unsteady.into());
     }
     let outlying = map.outlying().map(|p| speed(p.velocity, motion));
-    let outlying: Vec<String> = outlying.collect();
-    if !outlying.is_empty() {
-        out.push(Warning::new(
-            Code::OutlyingPoints,
-            format!(
-                "{} far off the curve of the others and hardly counted: {}",
-                plural(outlying.len(), "point lies", "points lie"),
-                outlying.join(", ")
-            ),
-        ));
+    let speeds: Vec<Value> = outlying.collect();
+    if !speeds.is_empty() {
+        out.push(Notice::OutlyingPoints { speeds }.into());
     }
     out
-}
-
-fn plural(n: usize, one: &str, many: &str) -> String {
-    format!("{n} {}", if n == 1 { one } else { many })
 }
 
 fn entry(map: &StaticMap, found: &Stretches, sources: &[Source], motion: Motion) -> StaticMapEntry {

@@ -5,13 +5,13 @@ use super::map::{Mapped, map};
 use crate::error::Error;
 use crate::identify::assemble::{self, Parts};
 use crate::identify::load::{Asked, Loaded};
-use crate::identify::logs::log_warnings;
+use crate::identify::logs::log_warnings_but;
 use crate::identify::outcome::{Found, Outcome};
 use crate::identify::trust;
 use crate::source::Source;
-use stiction_codes::Code;
 use stiction_files::{Axis, Warning};
 use stiction_identify::{LawKind, Observer, Status};
+use stiction_say::{Found as Kind, Notice};
 
 /// The whole workflow.
 pub(in crate::identify) fn run(
@@ -31,10 +31,11 @@ pub(in crate::identify) fn run(
     if found.interrupted {
         law.status = Status::Interrupted;
     }
-    let mut warnings = log_warnings(sources);
     // A log of constant velocities moves at few speeds on purpose, perhaps in one direction: what counts is whether all
     // points together do.
-    warnings.retain(|w| ![Code::ConstantVelocity, Code::OneDirection].contains(&w.code));
+    let is_on_purpose =
+        |found: &Kind| matches!(found, Kind::OneSpeed { .. } | Kind::OneDirection { .. });
+    let mut warnings = log_warnings_but(sources, is_on_purpose);
     warnings.extend(one_direction(&found));
     warnings.append(&mut found.warnings);
     let judged = trust::of_static_map(&law, outlying, sources, loaded.motion(), warnings);
@@ -65,12 +66,8 @@ fn one_direction(found: &Mapped) -> Option<Warning> {
     if forward > 0 && forward < points.len() {
         return None;
     }
-    let text = format!(
-        "all {} points are of one direction: friction cannot be separated from a constant force; record the same speeds \
-         the other way too",
-        points.len()
-    );
-    Some(Warning::new(Code::OneDirection, text))
+    let points = points.len();
+    Some(Notice::PointsOneWay { points }.into())
 }
 
 fn notes(found: &Mapped, sources: &[Source], axis: &Axis) -> Vec<String> {

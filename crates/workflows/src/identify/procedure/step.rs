@@ -7,12 +7,11 @@ use crate::error::Error;
 use crate::identify::assemble::{self, Parts};
 use crate::identify::beside::Beside;
 use crate::identify::load::{Asked, Loaded};
-use crate::identify::logs::{log_warnings, path_of, refused, run_of, samples};
+use crate::identify::logs::{log_warnings_but, path_of, refused, run_of, samples};
 use crate::identify::outcome::{Found, Outcome};
 use crate::identify::trust;
 use crate::source::Source;
 use crate::wording::{Setting, TOGETHER_WITH};
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::{InversionEntry, PreslidingStepEntry, StaticMapEntry};
 use stiction_files::symbols;
@@ -21,15 +20,19 @@ use stiction_identify::procedure::{Run, Statics, StepFit, StepResponse, StepSett
 use stiction_identify::{LawKind, Mass, Observer};
 use stiction_number::four_digits;
 use stiction_parameters::{Name, Quantity, Side};
+use stiction_say::{Found as Kind, Notice};
 
 /// Findings about a log that hardly moves, which a step below break-away does on purpose.
-const ON_PURPOSE: [Code; 5] = [
-    Code::NoMotion,
-    Code::NoiseOnly,
-    Code::CoarsePosition,
-    Code::OneDirection,
-    Code::ConstantVelocity,
-];
+fn is_on_purpose(found: &Kind) -> bool {
+    matches!(
+        found,
+        Kind::NoMotion { .. }
+            | Kind::Noise { .. }
+            | Kind::FewSteps { .. }
+            | Kind::OneDirection { .. }
+            | Kind::OneSpeed { .. }
+    )
+}
 
 /// The whole workflow.
 pub(in crate::identify) fn run(
@@ -47,8 +50,7 @@ pub(in crate::identify) fn run(
         let step = StepResponse::read(&run, k).map_err(|e| refused(sources, e))?;
         runs.push((run, step));
     }
-    let mut warnings = log_warnings(sources);
-    warnings.retain(|w| !ON_PURPOSE.contains(&w.code));
+    let mut warnings = log_warnings_but(sources, is_on_purpose);
     let (settings, map, undetermined) = settings(
         asked,
         sources,
@@ -143,12 +145,7 @@ fn settings(
         given: [[0.0; 7]; 7],
     };
     if beside.model.is_none() && beside.statics.is_empty() {
-        warnings.push(Warning::new(
-            Code::StaticsAssumed,
-            "neither a model nor logs of constant velocities give the steady curve: its level is taken as constant and \
-             fitted, sigma2 and the constant force F₀ as zero: the bristles are taken to carry all that is held before the step. sigma1 then stands for sigma1 + sigma2, and where the axis gets \
-             near the Stribeck velocity all parameters are off by more than their intervals",
-        ));
+        warnings.push(Notice::AssumedCurve.into());
         return Ok((settings, None, Vec::new()));
     }
     let known = curve::known(asked, sources, beside, observer)?;
@@ -244,14 +241,8 @@ fn entry(
         .map(|(k, (_, step))| {
             let inverted = step.invert(mass, viscous);
             if inverted.sigma1.is_none() {
-                warnings.push(Warning::new(
-                    Code::NoOvershoot,
-                    format!(
-                        "{}: the published inversion gives no sigma1, since the axis does not overshoot; \
-                         the fit by simulation needs no overshoot",
-                        path_of(sources, k)
-                    ),
-                ));
+                let log = path_of(sources, k);
+                warnings.push(Notice::NoOvershoot { log }.into());
             }
             InversionEntry {
                 path: path_of(sources, k),

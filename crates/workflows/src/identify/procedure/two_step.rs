@@ -8,7 +8,6 @@ use crate::identify::load::Asked;
 use crate::identify::logs::refused;
 use crate::identify::searched;
 use crate::source::Source;
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::{
     ResultFile, SearchedEntry, StaticMapEntry, TwoStepEntry, TwoStepParameter,
@@ -20,9 +19,9 @@ use stiction_identify::{
     Accelerometer, Delay, Estimate, FittedLaw, Law, LawKind, Observer, Record, Settings, Terms,
 };
 use stiction_log::Motion;
-use stiction_number::Percent;
 use stiction_parameters::{Name, Quantity};
 use stiction_policy::{agreement, choice, interval};
+use stiction_say::{Differs, Notice, Sought};
 
 /// Standard deviations beyond which their number says nothing more.
 const MOST_DEVIATIONS_WRITTEN: f64 = 100.0;
@@ -129,11 +128,8 @@ pub(in crate::identify) fn two_step(
             && everywhere.fit.rmse < estimate.fit.rmse * (1.0 - choice::MAX_EQUAL_RESIDUAL)
         {
             estimate = everywhere;
-            warnings.push(Warning::new(
-                Code::NotConverged,
-                "the search for sigma0 and sigma1 ended at other values than least squares find over the whole range of sigma0, \
-                 which are given: its box, [search.box] of the axis file, or its budget keeps it away",
-            ));
+            let sought = Sought::Bristles;
+            warnings.push(Notice::SearchMissed { sought }.into());
         }
     }
     if let Some(step) = &step {
@@ -204,25 +200,16 @@ fn changed(estimate: &mut Estimate, joint: &Estimate) -> Vec<Changed> {
 
 fn disagree(changed: &[Changed], sources: &[Source]) -> Option<Warning> {
     let log = &sources.first()?.log;
-    let each: Vec<String> = changed
+    let each: Vec<Differs> = changed
         .iter()
-        .map(|(name, values)| {
-            let unit = symbols::unit(name.dimension(), log.motion, &log.force_unit, "");
-            let [held, here] = values.map(stiction_number::four_digits);
-            let apart = Percent::error(100.0 * (values[1] / values[0] - 1.0)).signed(0);
-            format!("{name} is {here} {unit} here and {held} {unit} there, {apart}")
+        .map(|(name, [there, here])| Differs {
+            name: name.to_string(),
+            here: *here,
+            there: *there,
+            unit: symbols::unit(name.dimension(), log.motion, &log.force_unit, ""),
         })
         .collect();
-    (!each.is_empty()).then(|| {
-        Warning::new(
-            Code::LogsDisagree,
-            format!(
-                "this motion has another friction than the static parameters: {}. None of them is a constant of the machine, nor what was found \
-                 with them held. Record the static map and the motion one after the other, as warm and as loaded as the axis works",
-                each.join("; ")
-            ),
-        )
-    })
+    (!each.is_empty()).then(|| Notice::StaticsDiffer { each }.into())
 }
 
 /// What became of a measured acceleration, in words.

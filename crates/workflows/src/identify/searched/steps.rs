@@ -9,7 +9,6 @@ use crate::identify::load::Asked;
 use crate::identify::logs::refused;
 use crate::source::Source;
 use libm::exp;
-use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::result::SearchedEntry;
 use stiction_identify::candidates::{
@@ -17,6 +16,7 @@ use stiction_identify::candidates::{
 };
 use stiction_identify::procedure::{Exponent, StaticPoint, StaticSettings, Statics};
 use stiction_identify::{Law, LawKind, Name, Observer, Record, Terms};
+use stiction_say::Notice;
 use stiction_search::Counts;
 
 /// What a search of one step found.
@@ -35,14 +35,8 @@ pub(in crate::identify) struct Step {
 impl Step {
     /// Says which unknowns the box of the search keeps from going on.
     pub fn warning(&self) -> Option<Warning> {
-        let all = self.at_ends.join(", ");
-        (!all.is_empty()).then(|| {
-            let text = format!(
-                "the search ended with {all} of its range (SI): it may have gone on beyond; widen the range in [search.box] of \
-                 the axis file"
-            );
-            Warning::new(Code::NotConverged, text)
-        })
+        let each = self.at_ends.clone();
+        (!each.is_empty()).then(|| Notice::AtBounds { each }.into())
     }
 }
 

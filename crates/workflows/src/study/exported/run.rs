@@ -14,14 +14,14 @@ use crate::study::metrics::{metrics, of_path};
 use crate::study::outcome::StudyOutcome;
 use crate::study::path::along;
 use crate::study::trace::Trace;
-use stiction_codes::Code;
 use stiction_files::study::result::ExportedEntry;
 use stiction_files::study::{Belief, Job, Scheme, Study};
 use stiction_files::{Runs, Warning};
 use stiction_friction::compensator::{Compensator, Input, Watch};
 use stiction_friction::{ElastoPlastic, LuGre, MaxwellSlip, ParamError};
-use stiction_number::{four_digits, quantity};
+use stiction_number::four_digits;
 use stiction_policy::export;
+use stiction_say::{Notice, Origin};
 use stiction_servo::axis::{Axis, Correction, Sample};
 use stiction_servo::controller::Controller;
 use stiction_servo::integrator::{Integrator, Mid, Quick};
@@ -69,15 +69,14 @@ pub fn compare_exported(
                 ));
             }
             // The study itself says of the run without compensation why it cannot be made.
-            Err(Failed::Run(fault)) => outcome.file.warnings.push(Warning::new(
-                Code::NotRun,
-                format!(
-                    "{}, {} was not run with the exported C: {}",
-                    study.path_name(job),
-                    study.controllers[job.controller].name,
-                    reason(&fault)
-                ),
-            )),
+            Err(Failed::Run(fault)) => {
+                let notice = Notice::ExportedNotRun {
+                    path: study.path_name(job).to_string(),
+                    controller: study.controllers[job.controller].name.clone(),
+                    why: fault.no_run(),
+                };
+                outcome.file.warnings.push(notice.into());
+            }
         }
     }
     let entry = ExportedEntry {
@@ -92,42 +91,28 @@ pub fn compare_exported(
     Ok(())
 }
 
-fn reason(fault: &Fault) -> String {
-    match fault {
-        Fault::Refused(e) => format!("{} = {}; allowed: {}", e.name, e.value, e.allowed),
-        Fault::Diverged(time) => format!("it left its path at {} s", four_digits(*time)),
-    }
-}
-
 /// What is said of C that gives another force.
 fn differing(entry: &ExportedEntry, exported: &ExportedC) -> Option<Warning> {
     let beyond = entry.runs.iter().filter(|row| row.differs);
     let worst = beyond.max_by(|a, b| a.force_difference.total_cmp(&b.force_difference))?;
     let model = exported.rust.friction();
-    let why = match (
-        exported.same_model,
-        exported.settled.key == f64::from(exported.rust.key()),
-    ) {
-        (_, false) => "it has another law than this version exports of the model of the study",
-        (false, true) => "it was written from another model file, whose law is the same",
-        (true, true) => {
-            "it was written from the model of the study and has its law: the code was changed, or the compiler does \
-                         not keep to IEEE 754"
-        }
+    let same_law = exported.settled.key == f64::from(exported.rust.key());
+    let notice = Notice::ExportedDiffers {
+        folder: entry.folder.clone(),
+        difference: worst.force_difference,
+        unit: worst.force_unit.clone(),
+        seconds: worst.at_s,
+        path: worst.path.clone(),
+        controller: worst.controller.clone(),
+        part: worst.force_difference / model.scale(),
+        origin: match (exported.same_model, same_law) {
+            (_, false) => Origin::AnotherLaw,
+            (false, true) => Origin::SameLaw,
+            (true, true) => Origin::Model,
+        },
+        again: exported.again.clone(),
     };
-    Some(Warning::new(
-        Code::ExportedDiffers,
-        format!(
-            "the C in {} gives another force than the compensator of the model: by up to {} on the same inputs, at {} s of {}, {} \
-             ({} % of static friction); {why}",
-            entry.folder,
-            quantity(worst.force_difference, &worst.force_unit),
-            four_digits(worst.at_s),
-            worst.path,
-            worst.controller,
-            four_digits(100.0 * worst.force_difference / model.scale()),
-        ) + &format!(". Export again, into a new folder: {}", exported.again),
-    ))
+    Some(notice.into())
 }
 
 /// Why a run gives nothing.
