@@ -281,6 +281,16 @@ try {
   await tried.getByRole("slider", { name: "y coulomb", exact: true }).press("End");
   await (await moved).finished();
   await page.waitForFunction((before) => document.querySelector(".try tbody").innerText !== before, still);
+  // The pictures stay beside the slider that moves them, however far down that stands.
+  const drawings = [tried.locator(".plane"), tried.locator(".lines canvas").first()];
+  for (const slider of [tried.getByRole("slider").first(), tried.getByRole("slider").last()]) {
+    await slider.scrollIntoViewIfNeeded();
+    for (const own of drawings) {
+      const seen = await own.evaluate((element) => { const { top, bottom } = element.getBoundingClientRect(); return top >= 0 && bottom <= innerHeight; });
+      equal(seen, true, "the picture beside a slider");
+    }
+    equal(await tried.locator("table").evaluate((table) => table.getBoundingClientRect().right <= table.closest(".try").getBoundingClientRect().right), true, "the table stays within its sheet");
+  }
   await page.waitForFunction(() => document.querySelector(".command code")?.textContent?.startsWith("stiction simulate circle-study.toml"));
   const circle = await shown();
   await page.getByRole("button", { name: "Simulate", exact: true }).click();

@@ -46,10 +46,7 @@ export class Try {
       h("div", { class: "head" }, h("h3", {}, "What if the machine is not quite what the model says?"), h("span", { class: "gap" }), back),
       h("p", { class: "muted small" }, "Move a parameter of the simulated axis; the compensation keeps the values of the model."),
       this.choices,
-      this.knobs,
-      h("div", { class: "maps" }, this.whole.element, this.reversal.element, this.plane.element),
-      this.table,
-      this.said,
+      h("div", { class: "tuning" }, this.knobs, h("div", { class: "pictures" }, h("div", { class: "maps" }, this.whole.element, this.reversal.element, this.plane.element), this.table, this.said)),
     );
   }
 
