@@ -5,7 +5,9 @@ const KEY = "stiction-key";
 /** A log that a result, a model or a study comes from: its name, or its path where it is not in the folder, and its SHA-256 then. */
 export interface Source { name: string; sha256: string }
 export interface Entry { name: string; kind: string; bytes: number; modified: number; of: Source[] }
-export interface Workspace { folder: string; version: string; files: Entry[] }
+/** A unit that is shown in place of that of SI, and the number of it in one of SI. */
+export interface Shown { si: string; unit: string; by: number }
+export interface Workspace { folder: string; version: string; files: Entry[]; units: Shown[] }
 export interface Column { number: number; name: string; role: string | null; unit: string; reason: string; assumed: boolean; range: Stretch | null }
 export interface Channel { name: string; unit: string; derived: boolean }
 export interface Found { code: string; severity: string; message: string; at_s: number | null }

@@ -1,5 +1,26 @@
 // Numbers as people read them. Nothing is computed here but digits.
 
+import type { Shown } from "./api";
+
+let units: Shown[] = [];
+
+/** Tells which units are shown in place of those of SI. */
+export function showIn(all: Shown[]): void {
+  units = all;
+}
+
+/** The unit that is shown in place of one of SI, and by what numbers are multiplied for it. */
+export function shownUnit(of: string): [unit: string, by: number] {
+  const found = units.find((own) => own.si === of);
+  return found ? [found.unit, found.by] : [unit(of), 1];
+}
+
+/** A number of SI in the unit that is shown. */
+export function quantity(value: number, of: string): string {
+  const [own, by] = shownUnit(of);
+  return `${short(value * by)} ${own}`.trim();
+}
+
 /** Four significant digits. */
 export function short(value: number | null | undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
@@ -14,17 +35,17 @@ export function short(value: number | null | undefined): string {
 
 /** A unit as it is printed. */
 export function unit(text: string): string {
-  return text === "1" ? "" : text.replaceAll("*", "·").replaceAll("^2", "²");
+  return text === "1" ? "" : text.replaceAll("*", "·").replaceAll("^2", "²").replace("degC", "°C");
 }
 
-/** The unit that suits a length of this size, and by what it is multiplied for it; anything else as it is. */
+/** The unit that suits a length or an angle of this size, and by what it is multiplied for it; anything else as it is. */
 export function lengthScale(of: string, size: number): [unit: string, by: number] {
   if (of === "m" && size > 0 && size < 1e-3) return ["µm", 1e6];
-  if (of === "m" && size > 0 && size < 1) return ["mm", 1e3];
-  return [unit(of), 1];
+  const [own, by] = shownUnit(of);
+  return of === "rad" && size > 0 && size < 1e-3 ? ["mdeg", 1e3 * by] : [own, by];
 }
 
-/** A length in the unit that suits its size. */
+/** A length or an angle in the unit that suits its size. */
 export function length(value: number, of: string): string {
   const [own, by] = lengthScale(of, Math.abs(value));
   return `${short(value * by)} ${own}`.trim();

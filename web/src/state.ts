@@ -2,6 +2,7 @@
 
 import { get, type About, type Entry, type Job, type Which, type Workspace } from "./api";
 import { attempt, say } from "./dom";
+import { showIn } from "./numbers";
 
 export type View = "log" | "identify" | "study" | "plan" | "export";
 export const VIEWS: [View, string][] = [["log", "Log"], ["identify", "Identify"], ["study", "Study"], ["plan", "Plan"], ["export", "Export"]];
@@ -9,7 +10,7 @@ export const VIEWS: [View, string][] = [["log", "Log"], ["identify", "Identify"]
 export interface Chosen { view: View; log: string | null; axis: string | null; result: string | null }
 
 export const state = {
-  workspace: { folder: "", version: "", files: [] } as Workspace,
+  workspace: { folder: "", version: "", files: [], units: [] } as Workspace,
   jobs: new Map<number, Job>(),
   chosen: { view: "log", log: null, axis: null, result: null } as Chosen,
 };
@@ -179,6 +180,7 @@ export function changedAt(name: string): number {
 export async function refresh(): Promise<void> {
   const had = !state.workspace.version || exists(AXIS);
   state.workspace = await get<Workspace>("/api/workspace");
+  showIn(state.workspace.units);
   // The axis file of the usual name is used once it is there.
   if (!had && exists(AXIS)) state.chosen.axis ??= AXIS;
   settle();

@@ -128,6 +128,10 @@ try {
   passed(`from the drop of 36 001 rows to the maps ${Date.now() - dropped} ms`);
   equal(readFileSync(join(space, "run.csv"), "utf8"), readFileSync(join(folder, "run.csv"), "utf8"), "the log in the folder");
 
+  // Lengths are in mm and angles in degrees, whatever the file or SI has.
+  await page.getByRole("img", { name: "position [mm] over time" }).waitFor();
+  await page.getByRole("img", { name: /Friction over velocity: force \[N\] over velocity \[mm\/s\]/ }).waitFor();
+
   // Its unit is corrected.
   await page.getByRole("button", { name: "Position" }).click();
   await page.getByLabel("in the unit").fill("mm");
@@ -173,6 +177,7 @@ try {
   await page.reload();
   await page.getByText(/May be used for compensation|Not to be used/).waitFor({ timeout: 120_000 });
   await page.locator(".residual canvas").first().waitFor();
+  equal(/mm\/s/.test(await page.getByRole("row", { name: /stribeck velocity/ }).innerText()), true, "the unit of a speed");
   await look("identify");
   // What is left in a stretch of it, and the loops of force over position, follow a brush.
   const fit = page.locator(".residual");

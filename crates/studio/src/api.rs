@@ -17,6 +17,7 @@ use crate::jobs::View;
 use crate::logs::{self, Correction};
 use crate::refused::Refused;
 use crate::server::Shared;
+use crate::units::SHOWN;
 use axum::Router;
 use axum::extract::{DefaultBodyLimit, Path, State};
 use axum::http::header::{CONTENT_TYPE, SET_COOKIE};
@@ -89,6 +90,7 @@ async fn workspace(State(shared): App) -> Answer {
             "folder": shared.workspace.folder().to_string_lossy(),
             "version": env!("CARGO_PKG_VERSION"),
             "files": shared.workspace.list(),
+            "units": SHOWN,
         }))
     })
     .await

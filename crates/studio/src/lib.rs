@@ -21,6 +21,7 @@ mod refused;
 mod secret;
 mod server;
 mod tickets;
+mod units;
 mod workspace;
 
 pub use server::Studio;

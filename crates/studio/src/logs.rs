@@ -77,6 +77,7 @@ pub struct About {
 #[derive(Clone, Debug, Serialize)]
 pub struct Drawable {
     pub name: String,
+    /// The unit in which it is drawn.
     pub unit: String,
     /// Whether it follows from another one.
     pub derived: bool,

@@ -5,7 +5,7 @@ import { commandLine } from "../command";
 import { attempt, choice, field, h, put } from "../dom";
 import { begin, isRunning, latest, printed, progress } from "../jobs";
 import { PointMap, type Points } from "../map";
-import { short, unit } from "../numbers";
+import { length, quantity, short, shownUnit, unit } from "../numbers";
 import { readResult, whence, type Origin } from "../origin";
 import { choose, entry, files, labelled, nameOf, onChange, state, stem } from "../state";
 import { Trace } from "../trace";
@@ -247,8 +247,9 @@ export class IdentifyView {
     const steady = own.static_map;
     if (steady && own.method === "static") {
       // Means over stretches, which no trace goes through.
-      const map = new PointMap("Friction over velocity", [`velocity [${unit(steady.velocity_unit)}]`, `friction [${unit(steady.force_unit)}]`], 220);
-      const over = (name: "force" | "model"): Points => ({ x: Float64Array.from(steady.points, (one) => one.velocity), y: Float64Array.from(steady.points, (one) => one[name]) });
+      const [speed, by] = shownUnit(steady.velocity_unit);
+      const map = new PointMap("Friction over velocity", [`velocity [${speed}]`, `friction [${unit(steady.force_unit)}]`], 220);
+      const over = (name: "force" | "model"): Points => ({ x: Float64Array.from(steady.points, (one) => by * one.velocity), y: Float64Array.from(steady.points, (one) => one[name]) });
       this.drawn.push(map);
       put(place, title("Measured and model"), map.element);
       map.draw(over("force"), undefined, over("model"));
@@ -276,7 +277,7 @@ export class IdentifyView {
       const left = await get<Left>("/api/left", { result, from, to });
       if (mine !== asked) return;
       const where = stretch ? `In the brushed ${short(to - from)} s` : "In all";
-      put(said, `${where}: ${short(left.rms)} ${unit(own.fit.unit)} rms are left, ${short(left.percent)} % of what was measured, over ${left.samples} samples. Drag over the traces to look at a stretch; without one the map of positions shows the slowest reversal.`);
+      put(said, `${where}: ${length(left.rms, own.fit.unit)} rms are left, ${short(left.percent)} % of what was measured, over ${left.samples} samples. Drag over the traces to look at a stretch; without one the map of positions shows the slowest reversal.`);
       for (const [map, pairs] of maps) {
         const [start, end] = stretch ?? (pairs === fit.loop ? fit.turn : null) ?? [from, to];
         const names = [...pairs.measured, ...pairs.model];
@@ -345,9 +346,10 @@ function next(own: Result, result: string): HTMLElement[] {
 function interval(p: Parameter): string {
   if (p.origin === "given") return "given";
   if (!p.ci95) return "not bounded";
-  const [low, high] = p.ci95;
-  if (low === null) return `at most ${short(high)}`;
-  if (high === null) return `at least ${short(low)}`;
+  const [, by] = shownUnit(p.unit);
+  const [low, high] = p.ci95.map((end) => (end === null ? null : by * end));
+  if (low == null) return `at most ${short(high)}`;
+  if (high == null) return `at least ${short(low)}`;
   return `${short(low)} … ${short(high)}`;
 }
 
@@ -355,15 +357,16 @@ function parameters(own: Result, other: Result | undefined, beside: string): HTM
   const row = (p: Parameter) => {
     const q = other?.parameters.find((one) => one.name === p.name);
     const open = !p.identifiable;
+    const [shown, by] = shownUnit(p.unit);
     return h(
       "tr",
       { class: open ? "open" : "" },
       h("th", { scope: "row" }, p.name.replaceAll("_", " "), " ", h("span", { class: "symbol" }, p.symbol)),
-      h("td", { class: "number" }, short(p.value)),
-      h("td", {}, unit(p.unit)),
+      h("td", { class: "number" }, short(by * p.value)),
+      h("td", {}, shown),
       h("td", { class: "number" }, interval(p)),
       h("td", {}, open ? h("span", { class: "tag warn", title: `${p.reason} ${p.advice}`.trim() }, "open") : p.origin === "given" ? "" : own.trust.constants.includes(p.name) ? h("span", { class: "tag good" }, "constant") : ""),
-      other ? h("td", { class: "number" }, q ? `${short(q.value)}${q.unit === p.unit ? "" : ` ${unit(q.unit)}`}` : "–") : null,
+      other ? h("td", { class: "number" }, q ? (q.unit === p.unit ? short(by * q.value) : quantity(q.value, q.unit)) : "–") : null,
       other ? h("td", { class: "number" }, q ? interval(q) : "–") : null,
     );
   };
@@ -377,7 +380,7 @@ function parameters(own: Result, other: Result | undefined, beside: string): HTM
 }
 
 function quality(own: Result, other: Result | undefined): HTMLElement {
-  const fit = (label: string, f: Fit, g?: Fit) => h("tr", {}, h("th", { scope: "row" }, label), h("td", { class: "number" }, `${short(f.relative_error_percent)} %`), h("td", { class: "number" }, `${short(f.rmse)} ${unit(f.unit)} rms`), other ? h("td", { class: "number" }, g ? `${short(g.relative_error_percent)} %` : "–") : null);
+  const fit = (label: string, f: Fit, g?: Fit) => h("tr", {}, h("th", { scope: "row" }, label), h("td", { class: "number" }, `${short(f.relative_error_percent)} %`), h("td", { class: "number" }, `${length(f.rmse, f.unit)} rms`), other ? h("td", { class: "number" }, g ? `${short(g.relative_error_percent)} %` : "–") : null);
   return h("table", {}, h("caption", {}, "How well it fits"), h("tbody", {}, fit("fitted", own.fit, other?.fit), ...own.validation.map((one, k) => fit(`held out: ${one.path}`, one, other?.validation[k]))));
 }
 

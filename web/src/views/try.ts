@@ -4,7 +4,7 @@
 import { post } from "../api";
 import { choice, field, h, put } from "../dom";
 import { Lines } from "../lines";
-import { length, short, unit } from "../numbers";
+import { length, quantity, short, shownUnit } from "../numbers";
 import { Plane, type PlaneData } from "../plane";
 import { state } from "../state";
 
@@ -139,7 +139,8 @@ export class Try {
 
   private knob(knob: Knob, axis: 0 | 1, of = ""): HTMLElement {
     const label = knob.name.replaceAll("_", " ");
-    const text = (value: number) => `${short(value)} ${unit(knob.unit)}`.trim();
+    const text = (value: number) => quantity(value, knob.unit);
+    const [, by] = shownUnit(knob.unit);
     const now = this.values[axis][knob.name] ?? knob.value;
     const output = h("output", {}, text(now));
     const slider = h("input", {
@@ -152,7 +153,7 @@ export class Try {
     });
     slider.value = String(Math.round((STEPS * (now - knob.low)) / (knob.high - knob.low)));
     const together = knob.elements > 1 ? h("span", { class: "muted", title: "It moves all elements of the law together; each keeps its share." }, ` of ${knob.elements} elements`) : null;
-    const item = h("div", { class: knob.name in this.values[axis] ? "knob moved" : "knob" }, h("span", {}, label, " ", h("span", { class: "symbol" }, knob.symbol), together, " ", RANGES[knob.range] ? h("span", { class: "tag warn", title: WHY[knob.range] }, RANGES[knob.range]) : null), output, slider, h("span", { class: "end" }, short(knob.low)), h("span", { class: "end" }, short(knob.high)));
+    const item = h("div", { class: knob.name in this.values[axis] ? "knob moved" : "knob" }, h("span", {}, label, " ", h("span", { class: "symbol" }, knob.symbol), together, " ", RANGES[knob.range] ? h("span", { class: "tag warn", title: WHY[knob.range] }, RANGES[knob.range]) : null), output, slider, h("span", { class: "end" }, short(by * knob.low)), h("span", { class: "end" }, short(by * knob.high)));
     slider.addEventListener("input", () => {
       const value = knob.low + ((knob.high - knob.low) * slider.valueAsNumber) / STEPS;
       this.values[axis][knob.name] = value;

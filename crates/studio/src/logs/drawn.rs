@@ -1,8 +1,9 @@
-//! What is sent to be drawn: numbers as they are in memory, little-endian, nothing to parse.
+//! What is sent to be drawn: numbers as they are in memory, in the units that are shown, little-endian, nothing to parse.
 
 use super::{Channel, Series};
 use crate::pyramid::Tiles;
 use crate::refused::Refused;
+use crate::units::Shown;
 
 /// Most pixels that are asked for at once.
 const MOST_PIXELS: usize = 8192;
@@ -37,11 +38,13 @@ pub fn tiles(
         .ranges()
         .for_each(|range| put(series.time[range.start]));
     for channel in channels {
+        let shown = Shown::of(&channel.unit);
+        let mut put = |value: f64| put(shown.number(value));
         if single {
             channel.values[tiles.start..tiles.end]
                 .iter()
                 .copied()
-                .for_each(&mut put);
+                .for_each(put);
             continue;
         }
         let span = |range| channel.pyramid.span(&channel.values, range);
@@ -78,8 +81,11 @@ pub fn map(series: &Series, names: &[&str], (from, to): (f64, f64)) -> Vec<u8> {
         let channel = series.channel(name);
         for point in &points {
             let at = point.map(|point| start + point);
-            let value = channel.and_then(|own| own.values.get(at?));
-            out.extend(value.copied().unwrap_or(f64::NAN).to_le_bytes());
+            let value = channel.and_then(|own| {
+                let value = own.values.get(at?)?;
+                Some(Shown::of(&own.unit).number(*value))
+            });
+            out.extend(value.unwrap_or(f64::NAN).to_le_bytes());
         }
     }
     out

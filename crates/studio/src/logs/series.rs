@@ -2,6 +2,7 @@
 
 use super::Drawable;
 use crate::pyramid::Pyramid;
+use crate::units::Shown;
 use stiction::commands::check::speeds;
 use stiction::commands::{log_table, recording};
 
@@ -19,9 +20,11 @@ pub struct Series {
 pub struct Channel {
     /// `position`, `force`.
     pub name: String,
+    /// SI.
     pub unit: String,
     /// Whether it follows from another one.
     pub derived: bool,
+    /// In that unit.
     pub values: Vec<f64>,
     pub pyramid: Pyramid,
 }
@@ -133,7 +136,7 @@ impl Series {
     pub fn about(&self) -> Vec<Drawable> {
         let one = |channel: &Channel| Drawable {
             name: channel.name.clone(),
-            unit: channel.unit.clone(),
+            unit: Shown::of(&channel.unit).unit.into(),
             derived: channel.derived,
         };
         self.channels.iter().map(one).collect()
