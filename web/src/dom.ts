@@ -61,6 +61,11 @@ export function choice(options: [value: string, label: string][], value: string,
   return select;
 }
 
+/** Warnings, or what was found, with their codes. */
+export function warned(all: { code: string; message: string; severity?: string }[]): HTMLElement {
+  return h("ul", { class: "findings" }, ...all.map((one) => h("li", { class: one.severity ?? "warning" }, h("code", {}, one.code), h("span", {}, one.message))));
+}
+
 /** How long a note stays, ms; an error stays until it is closed. */
 const NOTE_STAYS = 10_000;
 

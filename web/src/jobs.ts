@@ -86,9 +86,13 @@ export function progress(job: Job): HTMLElement {
   return shown.root;
 }
 
-/** What the command line prints, or why the work failed. */
+/** Why work failed. */
+export function failed(job: Job): HTMLElement {
+  return h("div", { class: "banner bad", role: "alert" }, h("strong", {}, "Not done"), h("p", {}, job.text));
+}
+
+/** What the command line prints, folded. */
 export function printed(job: Job): HTMLElement {
-  if (job.state === "failed") return h("div", { class: "banner bad", role: "alert" }, h("strong", {}, "Not done"), h("p", {}, job.text));
   return h("details", {}, h("summary", {}, "As the command line prints it"), h("pre", { tabindex: "0" }, job.text.trimEnd()));
 }
 

@@ -157,6 +157,16 @@ try {
   }
   await page.locator(".map canvas").nth(1).waitFor();
   await look("log");
+  // What it determines stands in a table of the page.
+  await page.getByRole("button", { name: "What can it determine?" }).click();
+  const can = page.getByRole("region", { name: "What the log can determine" });
+  equal(/determined\s+20\.\d+ N/.test(await can.getByRole("row", { name: /coulomb/ }).innerText({ timeout: 120_000 })), true, "the Coulomb level");
+  await can.getByText("A law fits this log and may be used").waitFor();
+  equal(await can.getByText(/found before/).count(), 0, "a check that is old at once");
+  equal(await can.locator("pre").last().innerText(), "stiction identify run.csv --axis axis.toml --out result", "what to do next");
+  await can.evaluate((element) => element.scrollIntoView({ block: "end" }));
+  await look("check");
+  await page.evaluate(() => document.querySelector("main").scrollTo(0, 0));
   await page.emulateMedia({ colorScheme: "dark" });
   await look("log-dark");
   await page.emulateMedia({ colorScheme: "light" });

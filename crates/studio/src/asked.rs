@@ -34,7 +34,7 @@ pub struct Done {
     /// The folder that the files are in; another one than was asked for where work was stopped and a complete result was there.
     pub folder: Option<String>,
     pub written: Vec<String>,
-    /// The outcome as `--json` gives it, where no file has it.
+    /// What the page shows of it, where no file has it.
     pub json: Option<serde_json::Value>,
 }
 

@@ -2,8 +2,8 @@
 
 import { get, open } from "../api";
 import { commandLine } from "../command";
-import { attempt, choice, field, h, put } from "../dom";
-import { begin, isRunning, latest, printed, progress } from "../jobs";
+import { attempt, choice, field, h, put, warned } from "../dom";
+import { begin, failed, isRunning, latest, printed, progress } from "../jobs";
 import { older, rateOf, whenceOf } from "../origin";
 import { changedAt, exists, files, fits, follow, labelled, onChange, state } from "../state";
 
@@ -156,7 +156,7 @@ export class ExportView {
       return;
     }
     if (job.state === "failed" || !job.folder) {
-      put(this.found, printed(job));
+      put(this.found, failed(job));
       return;
     }
     const folder = job.folder;
@@ -166,7 +166,7 @@ export class ExportView {
       h("div", { class: "row spread" }, h("h3", {}, folder), h("button", { class: "primary", onclick: () => void attempt(() => open(folder, "zip")) }, "Download as zip")),
       changedAt(job.about) > changedAt(`${folder}/${exported.written[0]}`) ? older("Older than its model", `${job.about} changed after these files were written. Export again.`) : null,
       exported.trustworthy ? h("div", { class: `banner ${exported.warnings.length ? "warn" : "good"}` }, h("strong", {}, exported.warnings.length ? "May be used within what the warnings say" : "Every number may be relied on")) : h("div", { class: "banner warn" }, h("strong", {}, "The identification does not trust every number of this law")),
-      exported.warnings.length ? h("ul", { class: "findings" }, ...exported.warnings.map((one) => h("li", { class: "warning" }, h("code", {}, one.code), h("span", {}, one.message)))) : h("p", { class: "muted" }, "No warnings."),
+      exported.warnings.length ? warned(exported.warnings) : h("p", { class: "muted" }, "No warnings."),
       h("ul", { class: "files" }, ...exported.written.map((name) => h("li", {}, h("button", { title: `Save ${name}`, onclick: () => void attempt(() => open(`${folder}/${name}`, "save")) }, h("span", { class: "name" }, name))))),
       printed(job),
     );

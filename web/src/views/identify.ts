@@ -2,8 +2,8 @@
 
 import { binary, get, open, type Channel, type Stretch } from "../api";
 import { commandLine } from "../command";
-import { attempt, choice, field, h, put } from "../dom";
-import { begin, isRunning, latest, printed, progress } from "../jobs";
+import { attempt, choice, field, h, put, warned } from "../dom";
+import { begin, failed, isRunning, latest, progress } from "../jobs";
 import { PointMap, type Points } from "../map";
 import { length, quantity, short, shownUnit, unit } from "../numbers";
 import { readResult, whence, type Origin } from "../origin";
@@ -179,7 +179,7 @@ export class IdentifyView {
       put(this.work, progress(job));
       return;
     }
-    put(this.work, job.state === "failed" ? printed(job) : null);
+    put(this.work, job.state === "failed" ? failed(job) : null);
     if (job.state === "done" && ran.delete(job.id) && job.folder) {
       const folder = job.folder;
       // The list of files may not have it yet.
@@ -386,5 +386,5 @@ function quality(own: Result, other: Result | undefined): HTMLElement {
 
 function warnings(own: Result): HTMLElement | null {
   if (!own.warnings.length) return null;
-  return h("div", {}, h("h3", {}, "Warnings"), h("ul", { class: "findings" }, ...own.warnings.map((one) => h("li", { class: "warning" }, h("code", {}, one.code), h("span", {}, one.message)))));
+  return h("div", {}, h("h3", {}, "Warnings"), warned(own.warnings));
 }

@@ -2,8 +2,9 @@
 
 import { binary, post, type About, type Column, type Marks, type Stretch } from "../api";
 import { commandLine } from "../command";
+import { checked } from "../checked";
 import { attempt, choice, field, h, put, say } from "../dom";
-import { begin, isRunning, latest, printed, progress } from "../jobs";
+import { begin, failed, isRunning, latest, progress } from "../jobs";
 import { PointMap } from "../map";
 import { short, unit } from "../numbers";
 import { editor } from "../editor";
@@ -304,15 +305,17 @@ export class LogView {
   }
 
   private drawChecked(): void {
-    const { log, axis } = state.chosen;
+    const { log } = state.chosen;
     const job = latest("check", (own) => own.about === log);
-    const now = JSON.stringify([axis, changedAt(axis ?? ""), changedAt(log ?? "")]);
+    // Asked when it is needed: marks change the axis file and nothing is drawn anew.
+    const now = () => JSON.stringify([state.chosen.axis, changedAt(state.chosen.axis ?? ""), changedAt(log ?? "")]);
     const check = async () => {
-      const id = await begin({ kind: "check", log, axis });
-      if (id !== undefined) checkedAs.set(id, now);
+      const as = now();
+      const id = await begin({ kind: "check", log, axis: state.chosen.axis });
+      if (id !== undefined) checkedAs.set(id, as);
     };
     const ask = h("button", { disabled: isRunning(job) || !log, onclick: () => void check() }, "What can it determine?");
-    const stale = job && !isRunning(job) && checkedAs.get(job.id) !== now;
-    put(this.checked, this.heading, isRunning(job) ? progress(job!) : ask, stale ? h("p", { class: "muted" }, "What follows was found before the log or its axis file changed; ask again.") : null, job && !isRunning(job) ? h("div", {}, job.state === "failed" ? printed(job) : h("pre", { tabindex: "0", class: "small" }, job.text.trimEnd())) : null);
+    const stale = job && !isRunning(job) && checkedAs.get(job.id) !== now();
+    put(this.checked, this.heading, isRunning(job) ? progress(job!) : ask, stale ? h("p", { class: "muted" }, "What follows was found before the log or its axis file changed; ask again.") : null, job && !isRunning(job) ? (job.state === "failed" ? failed(job) : checked(job, this.about?.findings ?? [])) : null);
   }
 }

@@ -2,9 +2,9 @@
 
 import { get, open, type Channel } from "../api";
 import { commandLine } from "../command";
-import { attempt, choice, field, h, put } from "../dom";
+import { attempt, choice, field, h, put, warned } from "../dom";
 import { editor } from "../editor";
-import { begin, isRunning, latest, printed, progress, verdict } from "../jobs";
+import { begin, failed, isRunning, latest, printed, progress, verdict } from "../jobs";
 import { short } from "../numbers";
 import { older } from "../origin";
 import { AXIS, changedAt, choose, exists, files, labelled, nameOf, onChange, state, stem } from "../state";
@@ -80,7 +80,7 @@ export class PlanView {
   private drawWork(): void {
     const job = latest("plan");
     if (!job || isRunning(job)) put(this.work, job ? progress(job) : null);
-    else if (job.state === "failed") put(this.work, printed(job));
+    else if (job.state === "failed") put(this.work, failed(job));
     else if (!job.written.length) put(this.work, older("Stopped before anything was found", "Nothing was written."));
     else put(this.work, job.folder === this.out ? verdict(job) : null);
   }
@@ -102,13 +102,14 @@ export class PlanView {
     if (this.shown !== now) return;
     const of = about(text?.text ?? "");
     const job = latest("plan", (own) => own.folder === this.out && own.state === "done");
-    const planned = job?.json as { parameter?: Expected[] } | undefined;
+    const planned = job?.json as { parameter?: Expected[]; warning?: { code: string; message: string }[] } | undefined;
     put(
       this.found,
       h("p", { class: "muted" }, `${this.out}: for ${of.axis}, ${short(of.seconds)} s.`),
       of.axis !== this.axis ? older(`Not for ${this.axis}`, `This motion keeps the limits of ${of.axis}. Plan again before the machine of ${this.axis} runs it.`) : changedAt(this.axis) > file.modified ? older("Older than its axis file", `${this.axis} changed after this was planned. Plan again before the machine runs it.`) : null,
       h("div", { class: "row" }, h("button", { onclick: () => void attempt(() => open(`${this.out}/report.html`, "show")) }, "Full report"), h("button", { onclick: () => void attempt(() => open(name, "save")) }, "Set points as CSV"), h("button", { class: "quiet", onclick: () => void attempt(() => open(this.out, "zip")) }, "Download as zip")),
       h("div", { class: "runs" }),
+      planned?.warning?.length ? warned(planned.warning) : null,
       planned?.parameter ? expected(planned.parameter) : null,
       job ? printed(job) : null,
     );

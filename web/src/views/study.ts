@@ -2,9 +2,9 @@
 
 import { get, open, post, type Channel } from "../api";
 import { commandLine } from "../command";
-import { attempt, choice, field, h, put, say } from "../dom";
+import { attempt, choice, field, h, put, say, warned } from "../dom";
 import { editor } from "../editor";
-import { begin, isRunning, latest, printed, progress } from "../jobs";
+import { begin, failed, isRunning, latest, printed, progress } from "../jobs";
 import { length, short } from "../numbers";
 import { older, whenceOf } from "../origin";
 import { changedAt, entry, exists, files, fits, follow, labelled, nameOf, onChange, refresh, state } from "../state";
@@ -180,7 +180,7 @@ export class StudyView {
 
   private drawWork(): void {
     const job = latest("simulate", (own) => own.about === this.study);
-    put(this.work, job && isRunning(job) ? progress(job) : job && job.state === "failed" ? printed(job) : null);
+    put(this.work, job && isRunning(job) ? progress(job) : job && job.state === "failed" ? failed(job) : null);
   }
 
   private async drawStudied(): Promise<void> {
@@ -287,7 +287,7 @@ function results(file: StudyFile): HTMLElement {
       h("thead", {}, h("tr", {}, ...["path", "compensation", "parameters", "rms", "largest", ...heads, "less by"].map((text) => h("th", { scope: "col" }, text)))),
       h("tbody", {}, ...rows.map((row) => tableRow(row, metrics))),
     ) : null),
-    file.warnings.length ? h("ul", { class: "findings" }, ...file.warnings.map((one) => h("li", { class: "warning" }, h("code", {}, one.code), h("span", {}, one.message)))) : null,
+    file.warnings.length ? warned(file.warnings) : null,
   );
 }
 

@@ -1,6 +1,7 @@
 //! The outcome of a check, and what an axis file was begun with.
 
 mod brief;
+mod told;
 
 use super::table::table;
 use crate::next::{ANOTHER_LOG, Line};
@@ -11,6 +12,7 @@ use stiction_files::result::Action;
 use stiction_files::shell::{new_axis_file, quoted, quoted_path, shown};
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
+pub use told::{Row, Told, told};
 use stiction_workflows::check::{Check, LogCheck, Started, TrackingChange};
 
 /// The outcome of a check.

@@ -4,6 +4,9 @@ use super::{Done, Run, What, Words, Work};
 use crate::named::read_axis;
 use crate::refused::Refused;
 use serde::Deserialize;
+use serde_json::{Value, json};
+use std::path::Path;
+use stiction::commands::check::LogCheck;
 use stiction::commands::text;
 
 #[derive(Clone, Debug, Deserialize)]
@@ -37,9 +40,35 @@ impl Work for Check {
         let found = stiction::commands::check::check(&logs, axis.as_deref(), run.observer)?;
         Ok(Done {
             verdict: Some(found.verdict()),
-            text: text::check(&found),
-            json: serde_json::to_value(&found).ok(),
+            json: Some(json!({ "logs": logs_of(&found.logs, axis.as_deref()) })),
             ..Done::default()
         })
     }
+}
+
+fn logs_of(logs: &[LogCheck], axis: Option<&Path>) -> Value {
+    logs.iter().map(|log| one(log, axis)).collect()
+}
+
+/// What the page shows of a log.
+fn one(log: &LogCheck, axis: Option<&Path>) -> Value {
+    let told = text::told(log, axis);
+    let row = |row: &text::Row| {
+        json!({
+            "name": row.name,
+            "symbol": row.symbol,
+            "verdict": row.verdict,
+            "value": row.value,
+            "unit": row.unit,
+            "remark": row.remark,
+        })
+    };
+    json!({
+        "refused": log.refused,
+        "rows": told.rows.iter().map(row).collect::<Value>(),
+        "findings": log.findings,
+        "conditioning": log.conditioning,
+        "next": told.next,
+        "command": told.command,
+    })
 }

@@ -269,6 +269,46 @@ fn units_that_a_file_lacks_are_said_one_after_the_other() {
     assert_eq!(about["force_unit"], "A");
 }
 
+/// Begins work, and gives what became of it.
+fn done(served: &Served, asked: &serde_json::Value) -> serde_json::Value {
+    let id = served.ask("POST", "/api/jobs", &asked.to_string()).json();
+    let job = ended(served, id.as_u64().unwrap());
+    assert_eq!(job["state"], "done", "{job}");
+    job
+}
+
+#[test]
+fn a_check_is_rows_and_lines() {
+    let served = open();
+    log(&served, "run.csv");
+    // In one direction, too short for a fit.
+    let rows: String = (0..200)
+        .map(|k| format!("{},{},5\n", 1e-3 * f64::from(k), 0.1 * f64::from(k)))
+        .collect();
+    let text = format!("time [s],x [mm],F [N]\n{rows}");
+    std::fs::write(served.path().join("short.csv"), text).unwrap();
+    let check = |log: &str| {
+        let asked = serde_json::json!({"kind": "check", "log": log, "axis": null});
+        done(&served, &asked)["json"]["logs"][0].clone()
+    };
+    let row = |log: &serde_json::Value, name: &str| {
+        let rows = log["rows"].as_array().unwrap();
+        rows.iter().find(|row| row["name"] == name).unwrap().clone()
+    };
+    let fitted = check("run.csv");
+    let coulomb = row(&fitted, "coulomb");
+    assert_eq!(coulomb["verdict"], "determined");
+    assert!((coulomb["value"].as_f64().unwrap() - 20.0).abs() < 0.2);
+    let command = fitted["command"].as_str().unwrap();
+    assert!(command.starts_with("stiction identify "), "{command}");
+    let short = check("short.csv");
+    assert!(short["refused"].is_string(), "{short}");
+    let level = row(&short, "Coulomb level");
+    assert_ne!(level["verdict"], "possible", "{level}");
+    let remark = level["remark"].as_str().unwrap();
+    assert!(remark.starts_with("record motion that slides"), "{remark}");
+}
+
 #[test]
 fn of_changes_at_once_none_is_lost() {
     let served = open();
