@@ -16,7 +16,7 @@ export type Stretch = [from: number, to: number];
 export interface Marks { crop: Stretch | null; fit: Stretch[]; validate: Stretch[]; validate_all: boolean }
 export interface About {
   sha256: string; samples: number; rate_hz: number; seconds: number; motion: string; force_unit: string; detected: string[];
-  findings: Found[]; excluded: LeftOut[]; columns: Column[]; channels: Channel[]; marks: Marks; refused: string | null;
+  findings: Found[]; excluded: LeftOut[]; columns: Column[]; channels: Channel[]; span: Stretch; over: string; marks: Marks; refused: string | null;
 }
 /** The axis file that a log is read with, and one that is there and is of another log. */
 export interface Which { axis: string | null; not: string | null }

@@ -20,6 +20,8 @@ interface Options {
   from: number;
   to: number;
   height: number;
+  /** What is along the time axis, where that is no time in seconds. */
+  over?: string;
   /** Called with the brushed stretch, null where it was taken back. */
   brushed?: (stretch: Stretch | null) => void;
   label: string;
@@ -153,7 +155,7 @@ export class Trace {
         padding: [8, 12, 0, 0],
         scales: { x: { time: false, auto: false, range: () => this.view }, y: {} },
         axes: [
-          { ...axis, show: true, size: last ? 40 : 8, ...(last ? { label: "time [s]", labelSize: 18, labelFont: "12px system-ui" } : { values: () => [] }), space: 80 },
+          { ...axis, show: true, size: last ? 40 : 8, ...(last ? { label: this.options.over ?? "time [s]", labelSize: 18, labelFont: "12px system-ui" } : { values: () => [] }), space: 80 },
           { ...axis, label, labelSize: 18, labelFont: "12px system-ui", size: 64, space: 15, values: (_: uPlot, values: number[]) => values.map((value) => axisNumber(value, values)) },
         ],
         series: [
@@ -177,7 +179,7 @@ export class Trace {
       this.stage,
     );
     plot.root.setAttribute("role", "img");
-    plot.root.setAttribute("aria-label", `${label} over time`);
+    plot.root.setAttribute("aria-label", `${label} over ${this.options.over ?? "time"}`);
     if (panel.channels.length > 1) {
       plot.root.append(h("div", { class: "legend" }, ...panel.channels.map((channel, k) => h("span", { class: `key key-${panel.channels.length - k}` }, channel.name))));
     }

@@ -218,6 +218,8 @@ try {
   await page.getByText("Something has to be said of this log").waitFor();
   await page.getByText(/so the log is read as it is found/).waitFor();
   await page.getByText(/it is written to slide.axis.toml/).waitFor();
+  // Its columns are drawn before anything is said of it.
+  for (const name of ["x [mm] over row", "F [N] over row"]) await page.getByRole("img", { name }).locator("canvas").waitFor();
   await page.getByLabel("Sample rate").fill("1 kHz");
   await page.getByLabel("Sample rate").press("Enter");
   await page.locator(".map canvas").nth(1).waitFor();

@@ -20,7 +20,7 @@ use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::time::SystemTime;
 use stiction::commands::axis::Marks;
-use stiction::commands::{Source, load, table};
+use stiction::commands::{Source, load, log_table, table};
 use stiction::{Axis, Severity};
 
 /// Most that are kept.
@@ -68,8 +68,11 @@ pub struct About {
     pub excluded: Vec<LeftOut>,
     pub columns: Vec<Column>,
     pub channels: Vec<Drawable>,
+    /// First and last time, and what it is called: of a log that could not be read rows where no column is the time.
+    pub span: (f64, f64),
+    pub over: String,
     pub marks: Marks,
-    /// Why it could not be read, if so; then only columns are known.
+    /// Why it could not be read, if so; then only columns are known, and drawn by their numbers.
     pub refused: Option<String>,
 }
 
@@ -137,15 +140,14 @@ impl Logs {
             let whole = axis.of_whole(&path);
             Ok(match load(&path, &whole) {
                 Ok(source) => loaded(source, marks),
-                Err(e) => Loaded {
-                    series: Series::default(),
-                    about: About {
-                        columns: columns::unread(&path, &whole)?,
+                Err(e) => {
+                    let about = About {
                         marks,
                         refused: Some(Refused::from(e).message().to_string()),
                         ..About::default()
-                    },
-                },
+                    };
+                    undecided(table(&path, &whole)?, about)
+                }
             })
         })
     }
@@ -207,6 +209,20 @@ impl Key {
     }
 }
 
+/// The columns of a file of which something has to be said before it is a log.
+fn undecided(table: log_table::Table, mut about: About) -> Loaded {
+    about.columns = columns::unread(&table);
+    let (series, over) = Series::of_undecided(table, &about.columns);
+    let time = &series.time;
+    about.over = over;
+    about.span = (
+        time.first().copied().unwrap_or(0.0),
+        time.last().copied().unwrap_or(0.0),
+    );
+    about.channels = series.about();
+    Loaded { series, about }
+}
+
 fn loaded(source: Source, marks: Marks) -> Loaded {
     let log = &source.log;
     let at = |sample: usize| log.time.get(sample).copied();
@@ -238,6 +254,8 @@ fn loaded(source: Source, marks: Marks) -> Loaded {
         excluded: excluded.collect(),
         columns: log.columns.iter().map(columns::understood).collect(),
         channels: Vec::new(),
+        span: (0.0, log.time.last().copied().unwrap_or(0.0)),
+        over: "time [s]".into(),
         marks,
         refused: None,
     };

@@ -100,7 +100,7 @@ export class LogView {
     put(this.right, this.columns(about), this.findings(about));
     this.drawChecked();
     if (about.refused) {
-      put(this.center, h("div", { class: "banner warn", role: "alert" }, h("strong", {}, "Something has to be said of this log before it can be read"), h("p", {}, about.refused), h("p", {}, `On the right: click a column to say what it is and its unit; the kind of axis and, without a column of time, the sample rate stand below. It goes into ${axisToWrite()}.`)));
+      put(this.center, h("div", { class: "banner warn", role: "alert" }, h("strong", {}, "Something has to be said of this log before it can be read"), h("p", {}, about.refused), h("p", {}, `On the right: click a column to say what it is and its unit; the kind of axis and, without a column of time, the sample rate stand below. It goes into ${axisToWrite()}.`)), ...this.undecided(log, about));
       return;
     }
     const channel = (name: string) => about.channels.find((own) => own.name === name);
@@ -137,6 +137,19 @@ export class LogView {
     this.drawn = log;
     if (kept) trace.show(kept.view[0], kept.view[1]);
     trace.select(kept?.brush ?? null);
+  }
+
+  /** The columns of a file over its time or rows, which are seen before it is said what they are. */
+  private undecided(log: string, about: About): HTMLElement[] {
+    const title = (number: string) => {
+      const column = about.columns.find((own) => String(own.number) === number);
+      const name = column?.name || `column ${number}`;
+      return column?.unit && !name.includes(column.unit) ? `${name} [${column.unit}]` : name;
+    };
+    if (!about.channels.length) return [];
+    const panels = about.channels.map((channel): Panel => ({ title: title(channel.name), channels: [channel] }));
+    this.trace = new Trace({ source: { name: log, axis: state.chosen.axis }, panels, from: about.span[0], to: about.span[1], height: 76, over: about.over, label: `Columns of ${log}` });
+    return [this.trace.element];
   }
 
   private brushBar(): HTMLElement {

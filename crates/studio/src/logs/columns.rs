@@ -5,10 +5,9 @@ use crate::named::read_as;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
 use serde::Deserialize;
-use std::path::Path;
 use stiction::Axis;
 use stiction::commands::axis::{Addition, extend};
-use stiction::commands::{check, load, recording, table, visible, write_atomic};
+use stiction::commands::{check, load, log_table, recording, visible, write_atomic};
 
 /// Columns that are told of.
 const MOST: usize = 256;
@@ -50,9 +49,8 @@ pub fn understood(column: &recording::Understood) -> Column {
 }
 
 /// The columns of a file that is not understood, with those that are clear by themselves.
-pub fn unread(path: &Path, axis: &Axis) -> Result<Vec<Column>, Refused> {
-    let table = table(path, axis)?;
-    let clear = recording::Mapping::clear_columns(&table);
+pub fn unread(table: &log_table::Table) -> Vec<Column> {
+    let clear = recording::Mapping::clear_columns(table);
     let columns = table.columns.iter().enumerate().take(MOST);
     let one = |(at, column): (usize, &stiction::Column)| {
         let number = table.number(at);
@@ -75,7 +73,7 @@ pub fn unread(path: &Path, axis: &Axis) -> Result<Vec<Column>, Refused> {
             range: range(&column.values),
         }
     };
-    Ok(columns.map(one).collect())
+    columns.map(one).collect()
 }
 
 /// Refuses a number that makes a force of a current or voltage without saying of which unit.

@@ -1,10 +1,13 @@
 //! Columns over time, each with its pyramid.
 
-use super::Drawable;
+use super::{Column, Drawable};
 use crate::pyramid::Pyramid;
 use crate::units::Shown;
 use stiction::commands::check::speeds;
 use stiction::commands::{log_table, recording};
+
+/// Columns that are drawn of a file before it is clear what they are.
+const MOST_UNDECIDED: usize = 8;
 
 /// Channels over a common time.
 #[derive(Debug, Default)]
@@ -101,6 +104,35 @@ impl Series {
             time: log.time,
             channels,
         }
+    }
+
+    /// Columns of a file that is no log yet, by their numbers, those first of which it is clear what they are; and what they
+    /// are over: the time where that is clear, else the rows.
+    pub fn of_undecided(mut table: log_table::Table, columns: &[Column]) -> (Self, String) {
+        let rows = table.rows();
+        let mut take = |at: usize| std::mem::take(&mut table.columns[at].values);
+        let is_time = |own: &Column| own.role.as_deref() == Some("time");
+        let clock = columns.iter().position(is_time);
+        let time = clock.map(|at| (&columns[at], take(at)));
+        let time = time.filter(|(_, time)| time.len() == rows && time.is_sorted());
+        let (time, over) = match time {
+            Some((own, time)) => (time, format!("time [{}]", own.unit)),
+            None => ((0..rows).map(|k| k as f64).collect(), "row".into()),
+        };
+        let moves = |own: &Column| own.range.is_some_and(|(low, high)| low < high);
+        let all = columns.iter().enumerate();
+        let mut drawn: Vec<(usize, &Column)> = all
+            .filter(|(at, own)| Some(*at) != clock && moves(own))
+            .collect();
+        drawn.sort_by_key(|(_, own)| own.role.is_none());
+        let channels = drawn.into_iter().take(MOST_UNDECIDED).map(|(at, own)| {
+            let mut values = take(at);
+            values.resize(rows, f64::NAN);
+            // As the file has it: its unit may be what has to be said.
+            Channel::new(&own.number.to_string(), "", values)
+        });
+        let channels = channels.collect();
+        (Self { time, channels }, over)
     }
 
     /// The numeric columns of a table over its time, of one run where there are several: a run ends where the time falls.

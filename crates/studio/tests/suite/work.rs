@@ -110,6 +110,23 @@ fn columns_that_are_not_clear_are_decided_by_a_click() {
     let about = served.ask("GET", "/api/log?name=odd.csv", "").json();
     assert!(about["refused"].is_string(), "{about}");
     assert_eq!(about["columns"].as_array().unwrap().len(), 3);
+    // Its columns are drawn before.
+    let numbers = about["channels"].as_array().unwrap().iter();
+    let numbers: Vec<&str> = numbers.map(|own| own["name"].as_str().unwrap()).collect();
+    assert_eq!(numbers, ["1", "2", "3"]);
+    assert_eq!(about["over"], "row");
+    assert_eq!(about["span"], serde_json::json!([0.0, 2999.0]));
+    let drawn = served.ask(
+        "GET",
+        "/api/tiles?name=odd.csv&channels=2&from=10&to=20&pixels=500",
+        "",
+    );
+    let values = drawn.body[16..].chunks(8).skip(13);
+    let values: Vec<f64> = values
+        .map(|bytes| f64::from_le_bytes(bytes.try_into().unwrap()))
+        .collect();
+    let sine = (9..=21).map(|k| (9.0 * (1e-3 * f64::from(k))).sin());
+    assert_eq!(values, sine.collect::<Vec<f64>>());
     for (role, column, unit) in [("time", 1, "s"), ("position", 2, "mm"), ("force", 3, "N")] {
         let asked = format!(
             "{{\"log\":\"odd.csv\",\"axis\":\"axis.toml\",\"role\":\"{role}\",\"column\":{column},\"unit\":\"{unit}\"}}"
