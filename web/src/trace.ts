@@ -149,14 +149,14 @@ export class Trace {
     const plot = new uPlot(
       {
         width: Math.max(this.element.clientWidth, 300),
-        height: height + (last ? 34 : 0),
+        height: height + 10 + (last ? 34 : 0),
         cursor: { drag: { x: true, y: false, setScale: false }, sync: { key: `trace-${this.options.source.name}` }, points: { show: false } },
         legend: { show: false },
-        padding: [8, 12, 0, 0],
+        padding: [18, 12, 0, 0],
         scales: { x: { time: false, auto: false, range: () => this.view }, y: {} },
         axes: [
           { ...axis, show: true, size: last ? 40 : 8, ...(last ? { label: this.options.over ?? "time [s]", labelSize: 18, labelFont: "12px system-ui" } : { values: () => [] }), space: 80 },
-          { ...axis, label, labelSize: 18, labelFont: "12px system-ui", size: 64, space: 15, values: (_: uPlot, values: number[]) => values.map((value) => axisNumber(value, values)) },
+          { ...axis, size: 58, space: 15, values: (_: uPlot, values: number[]) => values.map((value) => axisNumber(value, values)) },
         ],
         series: [
           {},
@@ -180,6 +180,7 @@ export class Trace {
     );
     plot.root.setAttribute("role", "img");
     plot.root.setAttribute("aria-label", `${label} over ${this.options.over ?? "time"}`);
+    plot.root.append(h("div", { class: "title" }, label));
     if (panel.channels.length > 1) {
       plot.root.append(h("div", { class: "legend" }, ...panel.channels.map((channel, k) => h("span", { class: `key key-${panel.channels.length - k}` }, channel.name))));
     }

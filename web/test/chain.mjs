@@ -130,6 +130,7 @@ try {
 
   // Lengths are in mm and angles in degrees, whatever the file or SI has.
   await page.getByRole("img", { name: "position [mm] over time" }).waitFor();
+  await page.getByText("velocity* [mm/s]", { exact: true }).waitFor();
   await page.getByRole("img", { name: /Friction over velocity: force \[N\] over velocity \[mm\/s\]/ }).waitFor();
 
   // Its unit is corrected.
