@@ -2,11 +2,12 @@
 
 import "uplot/dist/uPlot.min.css";
 import "./style.css";
-import { begin, NoSession, upload, watch } from "./api";
+import { begin, NoSession, upload, watch, type Job } from "./api";
 import { attempt, choice, field, h, put, say } from "./dom";
 import { Working } from "./jobs";
 import { bytes } from "./numbers";
 import { changed, choose, chooseLog, exists, files, follow, logsOf, onChange, readAddress, refresh, state, VIEWS, type View } from "./state";
+import { ChangeView } from "./views/change";
 import { ExportView } from "./views/export";
 import { IdentifyView } from "./views/identify";
 import { LogView } from "./views/log";
@@ -21,6 +22,7 @@ const made: Record<View, () => Shown> = {
   study: () => new StudyView(),
   plan: () => new PlanView(),
   export: () => new ExportView(),
+  change: () => new ChangeView(),
 };
 
 const tabs = h("nav", { "aria-label": "Views" });
@@ -74,8 +76,8 @@ function drawSide(): void {
 }
 
 /** The view in which work of a kind is begun. */
-function viewOf(kind: string): View {
-  return ({ check: "log", simulate: "study" } as Record<string, View>)[kind] ?? (kind as View);
+function viewOf({ kind, about }: Job): View {
+  return ({ check: about.includes(", ") ? "change" : "log", simulate: "study" } as Record<string, View>)[kind] ?? (kind as View);
 }
 
 let shown: Shown | null = null;
@@ -137,7 +139,7 @@ async function start(): Promise<void> {
       state.jobs.set(job.id, job);
       if (["done", "failed"].includes(job.state) && before && before.state !== job.state && !ended.has(job.id)) {
         ended.add(job.id);
-        if (state.chosen.view !== viewOf(job.kind)) say(`${job.kind} ${job.about}: ${job.state === "failed" ? `not done. ${job.text}` : "done"}`, job.state === "failed" ? "error" : "note");
+        if (state.chosen.view !== viewOf(job)) say(`${job.kind} ${job.about}: ${job.state === "failed" ? `not done. ${job.text}` : "done"}`, job.state === "failed" ? "error" : "note");
         void attempt(refresh);
       }
       onJobs();

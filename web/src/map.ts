@@ -18,7 +18,8 @@ export class PointMap {
   private readonly resize = new ResizeObserver(() => this.build());
   private readonly noTheme: () => void;
 
-  constructor(private readonly title: string, private labels: [x: string, y: string], private readonly height: number) {
+  /** `names` are those of the points and of what is drawn over them: a line, or as `dots` points too. */
+  constructor(private readonly title: string, private labels: [x: string, y: string], private readonly height: number, private readonly names = ["measured", "model"], private readonly dots = false) {
     this.element = h("figure", { class: "map" }, h("figcaption", {}, title, this.keys), this.stage);
     this.resize.observe(this.element);
     this.noTheme = onTheme(() => this.build());
@@ -43,7 +44,7 @@ export class PointMap {
     const width = this.element.clientWidth;
     if (width < 50) return;
     const axis = { stroke: color("muted"), grid: { stroke: color("grid"), width: 1 }, ticks: { stroke: color("grid"), width: 1 }, font: "12px system-ui", labelSize: 18, labelFont: "12px system-ui" };
-    put(this.keys, ...(this.model ? [h("span", { class: "key key-2" }, "measured"), h("span", { class: "key key-1" }, "model")] : []));
+    put(this.keys, ...(this.model ? [h("span", { class: "key key-2" }, this.names[0]), h("span", { class: "key key-1" }, this.names[1])] : []));
     const [low, high] = extent(this.points.x, this.model?.x);
     const [least, most] = extent(this.points.y, this.model?.y);
     const values = (_: uPlot, all: number[]) => all.map((value) => axisNumber(value, all));
@@ -60,7 +61,7 @@ export class PointMap {
           { ...axis, label: this.labels[1], size: 58, values },
         ],
         series: [{}, { paths: () => null, points: { show: false } }],
-        hooks: { draw: [(own) => this.dots(own)] },
+        hooks: { draw: [(own) => this.draws(own)] },
       },
       [[low, high], [least, most]],
       this.stage,
@@ -69,21 +70,26 @@ export class PointMap {
     this.plot.root.setAttribute("aria-label", `${this.title}: ${this.labels[1]} over ${this.labels[0]}, ${this.points.x.length} points`);
   }
 
-  private dots(plot: uPlot): void {
+  private draws(plot: uPlot): void {
+    this.scatter(plot, this.points, this.model ? "line-2" : "line-1");
+    if (this.model && this.dots) this.scatter(plot, this.model, "line-1");
+    else if (this.model) this.line(plot, this.model);
+  }
+
+  private scatter(plot: uPlot, points: Points, shade: string): void {
     const { ctx } = plot;
     // A few points are means, which a model drawn over them must not hide.
-    const size = Math.max((this.points.x.length < 100 ? 5 : 1.5) * devicePixelRatio, 1);
+    const size = Math.max((points.x.length < 100 ? 5 : 1.5) * devicePixelRatio, 1);
     ctx.save();
-    ctx.globalAlpha = this.points.x.length > 2000 ? 0.45 : 0.8;
-    ctx.fillStyle = color(this.model ? "line-2" : "line-1");
-    for (let k = 0; k < this.points.x.length; k += 1) {
-      const x = this.points.x[k]!;
-      const y = this.points.y[k]!;
+    ctx.globalAlpha = points.x.length > 2000 ? 0.45 : 0.8;
+    ctx.fillStyle = color(shade);
+    for (let k = 0; k < points.x.length; k += 1) {
+      const x = points.x[k]!;
+      const y = points.y[k]!;
       if (Number.isNaN(x) || Number.isNaN(y)) continue;
       ctx.fillRect(plot.valToPos(x, "x", true) - size / 2, plot.valToPos(y, "y", true) - size / 2, size, size);
     }
     ctx.restore();
-    if (this.model) this.line(plot, this.model);
   }
 
   private line(plot: uPlot, { x, y }: Points): void {

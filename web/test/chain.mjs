@@ -395,6 +395,24 @@ try {
   }
   await look("two-steps");
 
+  // A log is compared with one of before: here the same motion with 0.4 of the following error.
+  const [header, ...rows] = readFileSync(join(folder, "demo", "demo.csv"), "utf8").trimEnd().split("\n");
+  writeFileSync(join(folder, "before.csv"), `${[header, ...rows].join("\n")}\n`);
+  writeFileSync(join(folder, "after.csv"), `${[header, ...rows.map((row) => {
+    const [time, reference, position, force] = row.split(",");
+    return [time, reference, (Number(reference) + 0.4 * (Number(position) - Number(reference))).toFixed(6), force].join();
+  })].join("\n")}\n`);
+  await page.locator("input[type=file]").setInputFiles(["before.csv", "after.csv"].map((name) => join(folder, name)));
+  await page.getByRole("heading", { name: "after.csv" }).waitFor();
+  await page.getByRole("button", { name: "Before and after" }).click();
+  await page.getByLabel("Before", { exact: true }).selectOption("before.csv");
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent === "stiction check before.csv after.csv");
+  await page.getByRole("button", { name: "Compare" }).click();
+  await page.getByText(/^Worse at none of \d+ reversals/).waitFor({ timeout: 120_000 });
+  equal(/(59|60)\.\d+ % less/.test(await page.getByRole("row", { name: /median peak/ }).innerText()), true, "what changed");
+  for (const name of [/Largest error at each reversal: before, after/, /Friction over velocity: force \[N\] over velocity \[mm\/s\]/]) await page.getByRole("img", { name }).waitFor();
+  await look("change");
+
   // Another tab has the same session; a page without it is told so.
   const tab = await context.newPage();
   await tab.goto(`${new URL(address).origin}/#view=export`);

@@ -25,7 +25,7 @@ pub use crate::next::{axis_file, why};
 use crate::trust::{compensation, constants, use_it};
 pub use batch::batch;
 pub use brief::brief;
-pub use check::{Row, Told, check, check_in_short, started, told};
+pub use check::{Changed, ChangedRow, Row, Told, changed, check, check_in_short, started, told};
 pub use comparison::{announced_comparison, comparison};
 pub use drift::drift;
 pub use export::exported;

@@ -1,11 +1,13 @@
 //! The outcome of a check, and what an axis file was begun with.
 
 mod brief;
+mod changed;
 mod told;
 
 use super::table::table;
 use crate::next::{ANOTHER_LOG, Line};
 pub use brief::check_in_short;
+pub use changed::{Changed, ChangedRow, changed};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::result::Action;

@@ -326,6 +326,54 @@ fn a_check_is_rows_and_lines() {
     assert!(remark.starts_with("record motion that slides"), "{remark}");
 }
 
+/// A log with a reference that the position follows with an error of so many um after each reversal.
+fn followed(served: &Served, name: &str, error: f64) {
+    let mut text = String::from("time [s],reference [mm],position [mm],force [N]\n");
+    for k in 0..8000 {
+        let t = 1e-3 * f64::from(k);
+        let (r, v) = (50.0 * (6.0 * t).sin(), 0.3 * (6.0 * t).cos());
+        let since = (6.0 * t / std::f64::consts::PI + 0.5).fract() * std::f64::consts::PI / 6.0;
+        let late = 1e-3 * error * (-since / 0.02).exp() * v.signum();
+        let force = 20.0 * v.signum() + 60.0 * v - 9.0 * 0.036 * r;
+        text.push_str(&format!("{t},{r},{},{force}\n", r - late));
+    }
+    std::fs::write(served.path().join(name), text).unwrap();
+}
+
+#[test]
+fn two_logs_are_compared() {
+    let served = open();
+    followed(&served, "before.csv", 80.0);
+    followed(&served, "after.csv", 20.0);
+    let asked = |log: &str, after: &str| serde_json::json!({"kind": "check", "log": log, "after": after, "axis": null});
+    let line = served.ask(
+        "POST",
+        "/api/command",
+        &asked("before.csv", "after.csv").to_string(),
+    );
+    assert_eq!(line.json(), "stiction check before.csv after.csv");
+    let job = done(&served, &asked("before.csv", "after.csv"));
+    assert_eq!(job["about"], "before.csv, after.csv");
+    let change = &job["json"]["change"];
+    assert_eq!(change["good"], true, "{change}");
+    let largest = &change["rows"][0];
+    let of = |key: &str| largest[key].as_f64().unwrap();
+    assert!((of("before") - 80e-6).abs() < 8e-6, "{largest}");
+    assert!((of("change_percent") + 75.0).abs() < 1.0, "{largest}");
+    let peaks = change["peaks"].as_array().unwrap();
+    let count = |k: usize| peaks[k].as_array().unwrap().len();
+    assert!(count(0) > 10 && count(0) == count(1), "{change}");
+    // The other way round it is worse; a log without a reference is not compared.
+    let change = done(&served, &asked("after.csv", "before.csv"))["json"]["change"].clone();
+    assert_eq!(change["good"], false, "{change}");
+    assert!(change["verdict"].as_str().unwrap().starts_with("Worse at "));
+    log(&served, "plain.csv");
+    let job = done(&served, &asked("before.csv", "plain.csv"));
+    assert!(job["json"]["change"].is_null());
+    let why = &job["json"]["logs"][1]["not_tracked"];
+    assert_eq!(why, "it has no reference position");
+}
+
 #[test]
 fn of_changes_at_once_none_is_lost() {
     let served = open();
