@@ -8,6 +8,7 @@ import { Working } from "./jobs";
 import { bytes } from "./numbers";
 import { changed, choose, chooseLog, exists, files, follow, logsOf, onChange, readAddress, refresh, state, VIEWS, type View } from "./state";
 import { ChangeView } from "./views/change";
+import { DriftView } from "./views/drift";
 import { ExportView } from "./views/export";
 import { IdentifyView } from "./views/identify";
 import { LogView } from "./views/log";
@@ -23,6 +24,7 @@ const made: Record<View, () => Shown> = {
   plan: () => new PlanView(),
   export: () => new ExportView(),
   change: () => new ChangeView(),
+  drift: () => new DriftView(),
 };
 
 const tabs = h("nav", { "aria-label": "Views" });
@@ -43,7 +45,7 @@ async function take(dropped: File[]): Promise<void> {
       await refresh();
       put(document.getElementById("said")!);
       if (files("log").some((own) => own.name === file.name)) await chooseLog(file.name, { view: "log" });
-      else say(`${file.name} is in the folder. It is not listed as a log: ${/\.(csv|json)$/i.test(file.name) ? "stiction writes files of that name, so give a log another one" : "its ending is not one of a log"}.`);
+      else say(`${file.name} is in the folder. It is not listed as a log: ${/\.(csv|json|parquet)$/i.test(file.name) ? "stiction writes files of that name, so give a log another one" : "its ending is not one of a log"}.`);
     });
   }
   picker.value = "";

@@ -5,7 +5,8 @@ import { color, onTheme } from "./colors";
 import { h, put } from "./dom";
 import { axisNumber } from "./trace";
 
-export interface Points { x: Float64Array; y: Float64Array }
+/** Points, each with the ends of its interval where it has one. */
+export interface Points { x: Float64Array; y: Float64Array; low?: Float64Array; high?: Float64Array }
 
 export class PointMap {
   readonly element: HTMLElement;
@@ -46,7 +47,7 @@ export class PointMap {
     const axis = { stroke: color("muted"), grid: { stroke: color("grid"), width: 1 }, ticks: { stroke: color("grid"), width: 1 }, font: "12px system-ui", labelSize: 18, labelFont: "12px system-ui" };
     put(this.keys, ...(this.model ? [h("span", { class: "key key-2" }, this.names[0]), h("span", { class: "key key-1" }, this.names[1])] : []));
     const [low, high] = extent(this.points.x, this.model?.x);
-    const [least, most] = extent(this.points.y, this.model?.y);
+    const [least, most] = extent(this.points.y, this.points.low, this.points.high, this.model?.y);
     const values = (_: uPlot, all: number[]) => all.map((value) => axisNumber(value, all));
     this.plot = new uPlot(
       {
@@ -87,6 +88,8 @@ export class PointMap {
       const x = points.x[k]!;
       const y = points.y[k]!;
       if (Number.isNaN(x) || Number.isNaN(y)) continue;
+      const [low, high] = [points.low?.[k] ?? y, points.high?.[k] ?? y].map((end) => plot.valToPos(end, "y", true)) as [number, number];
+      if (low > high) ctx.fillRect(plot.valToPos(x, "x", true) - devicePixelRatio / 2, high, devicePixelRatio, low - high);
       ctx.fillRect(plot.valToPos(x, "x", true) - size / 2, plot.valToPos(y, "y", true) - size / 2, size, size);
     }
     ctx.restore();

@@ -4,8 +4,8 @@ import { get, type About, type Entry, type Job, type Which, type Workspace } fro
 import { attempt, say } from "./dom";
 import { showIn } from "./numbers";
 
-export type View = "log" | "identify" | "study" | "plan" | "export" | "change";
-export const VIEWS: [View, string][] = [["log", "Log"], ["identify", "Identify"], ["study", "Study"], ["plan", "Plan"], ["export", "Export"], ["change", "Before and after"]];
+export type View = "log" | "identify" | "study" | "plan" | "export" | "change" | "drift";
+export const VIEWS: [View, string][] = [["log", "Log"], ["identify", "Identify"], ["study", "Study"], ["plan", "Plan"], ["export", "Export"], ["change", "Before and after"], ["drift", "Drift"]];
 
 export interface Chosen { view: View; log: string | null; axis: string | null; result: string | null }
 

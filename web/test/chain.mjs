@@ -413,6 +413,35 @@ try {
   for (const name of [/Largest error at each reversal: before, after/, /Friction over velocity: force \[N\] over velocity \[mm\/s\]/]) await page.getByRole("img", { name }).waitFor();
   await look("change");
 
+  // Friction over time, of a batch whose last logs have more of it.
+  mkdirSync(join(folder, "runs"));
+  for (let day = 0; day < 45; day += 1) {
+    const coulomb = (day < 30 ? 20 : 26) + 0.2 * Math.sin(2.3 * day);
+    const rows = Array.from({ length: 2000 }, (_, k) => {
+      const t = 2e-3 * k;
+      const [x, v] = [50 * Math.sin(6 * t), 0.3 * Math.cos(6 * t)];
+      return `${t.toFixed(3)},${x.toFixed(5)},${(coulomb * Math.sign(v) + 60 * v - 9 * 0.036 * x + 0.5 * Math.sin(1e4 * t + day)).toFixed(4)}`;
+    });
+    writeFileSync(join(folder, "runs", `run-${new Date(Date.UTC(2026, 2, 1 + day)).toISOString().slice(0, 10)}.csv`), `time [s],position [mm],force [N]\n${rows.join("\n")}\n`);
+  }
+  try {
+    execFileSync(program, ["batch", "runs", "--law", "coulomb-viscous", "--quiet", "--out", join(space, "batch")], { cwd: folder });
+  } catch (error) {
+    if (error.status > 1) throw error;
+  }
+  await page.reload();
+  await page.getByRole("button", { name: "Drift" }).click();
+  await page.waitForFunction(() => document.querySelector(".command code")?.textContent === "stiction drift batch/results.parquet");
+  equal(await page.getByRole("button", { name: /results.parquet/ }).count(), 0, "a table among the logs");
+  await page.getByRole("button", { name: "Follow" }).click();
+  await page.getByText("1 of 1 machine changed").waitFor({ timeout: 120_000 });
+  equal(/step\tlog 3[01]\t/.test(await page.getByRole("row", { name: /coulomb/ }).first().innerText()), true, "what changed over time");
+  await page.getByRole("img", { name: /^coulomb .*coulomb \[N\] over logs, 45 points$/ }).waitFor();
+  await page.getByLabel("times are the dates in the names of the logs").check();
+  await page.getByRole("button", { name: "Follow" }).click();
+  await page.getByRole("row", { name: /step 2026-03-31/ }).waitFor({ timeout: 120_000 });
+  await look("drift");
+
   // Another tab has the same session; a page without it is told so.
   const tab = await context.newPage();
   await tab.goto(`${new URL(address).origin}/#view=export`);

@@ -7,6 +7,7 @@ mod check;
 mod comparison;
 mod drift;
 mod export;
+mod followed;
 pub(crate) mod plan;
 mod procedure;
 mod reproduction;
@@ -29,6 +30,7 @@ pub use check::{Changed, ChangedRow, Row, Told, changed, check, check_in_short, 
 pub use comparison::{announced_comparison, comparison};
 pub use drift::drift;
 pub use export::exported;
+pub use followed::{FollowedWords, followed};
 pub use plan::planned;
 pub use procedure::{planned_log, procedure_commands};
 pub use reproduction::reproduction;

@@ -1,6 +1,7 @@
 //! Work that the page asks for, as a command of the command line: the same words, the same engine, the same files.
 
 mod check;
+mod drift;
 mod export;
 mod identify;
 mod plan;
@@ -19,6 +20,7 @@ use stiction::{Error, Observer, Verdict, bundle};
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Asked {
     Check(check::Check),
+    Drift(drift::Drift),
     Identify(identify::Identify),
     Simulate(simulate::Simulate),
     Plan(plan::Plan),
@@ -73,6 +75,7 @@ impl Asked {
     pub fn work(&self) -> &dyn Work {
         match self {
             Asked::Check(work) => work,
+            Asked::Drift(work) => work,
             Asked::Identify(work) => work,
             Asked::Simulate(work) => work,
             Asked::Plan(work) => work,

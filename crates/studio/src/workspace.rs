@@ -10,6 +10,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 use stiction::Axis;
+use stiction::commands::batch::RESULTS;
 
 /// Most folders below each other.
 const DEEPEST: usize = 6;
@@ -46,7 +47,8 @@ pub struct Workspace {
 pub struct Entry {
     /// From the workspace, with `/`.
     pub name: String,
-    /// What it is for the page: `log`, `axis`, `model`, `study`, `plan`, `result`, `studied`, `planned`, `folder` or `other`.
+    /// What it is for the page: `log`, `axis`, `model`, `study`, `plan`, `table`, `result`, `studied`, `planned`, `folder`
+    /// or `other`.
     pub kind: &'static str,
     /// Size of a file, bytes.
     pub bytes: u64,
@@ -334,6 +336,9 @@ pub fn kind_of_file(name: &str) -> &'static str {
     ];
     if written.contains(&lower.as_str()) {
         return "other";
+    }
+    if lower == RESULTS {
+        return "table";
     }
     let (stem, ending) = lower.rsplit_once('.').unwrap_or((&lower, ""));
     match ending {

@@ -84,6 +84,8 @@ const BODIES: &[&str] = &[
     "{\"kind\":\"identify\",\"logs\":[],\"axis\":\"out/axis.toml\",\"out\":\"out/r\"}",
     "{\"kind\":\"check\",\"log\":\"out/secret.csv\"}",
     "{\"kind\":\"check\",\"log\":\"log.csv\",\"after\":\"out/secret.csv\"}",
+    "{\"kind\":\"drift\",\"table\":\"out/results.parquet\"}",
+    "{\"kind\":\"drift\",\"table\":\"log.csv\",\"limits\":[\">\"],\"names\":true}",
     "{\"kind\":\"simulate\",\"study\":\"log.csv\",\"out\":\"/tmp/x\"}",
     "{\"kind\":\"export\",\"model\":\"log.csv\",\"target\":\"c\",\"cycle_time\":-1,\"out\":\"out/x\"}",
     "{\"log\":\"log.csv\",\"axis\":\"out/axis.toml\",\"role\":\"force\",\"column\":1}",

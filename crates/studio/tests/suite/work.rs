@@ -2,6 +2,7 @@
 
 use crate::client::{Answer, Served, open};
 use std::time::{Duration, Instant};
+use stiction::commands::batch::{LogRow, ParameterRow, Results};
 
 /// A log of an axis that moves to and fro, with Coulomb and viscous friction.
 fn log(served: &Served, name: &str) {
@@ -372,6 +373,103 @@ fn two_logs_are_compared() {
     assert!(job["json"]["change"].is_null());
     let why = &job["json"]["logs"][1]["not_tracked"];
     assert_eq!(why, "it has no reference position");
+}
+
+/// A table of two machines with a log a day, the Stribeck velocity of one of which steps from 5 to 6 mm/s on day 30.
+fn table(served: &Served) {
+    let folder = served.path().join("batch");
+    std::fs::create_dir(&folder).unwrap();
+    let mut out = Results::begin(&folder.join("results.parquet")).unwrap();
+    for (machine, day) in [0, 1]
+        .into_iter()
+        .flat_map(|m| (0..50).map(move |d| (m, d)))
+    {
+        let noise = 1.0 + 0.01 * (f64::from(7 * day + 3 * machine) * 1.7).sin();
+        let value = noise
+            * if machine == 0 && day >= 30 {
+                6e-3
+            } else {
+                5e-3
+            };
+        let parameter = ParameterRow {
+            name: "stribeck_velocity".into(),
+            value: Some(value),
+            unit: "m/s".into(),
+            std: Some(2e-5),
+            low: Some(value - 4e-5),
+            high: Some(value + 4e-5),
+            identifiable: true,
+            origin: "identified".into(),
+        };
+        let row = LogRow {
+            path: format!("m{machine}-{day}.csv"),
+            machine: Some(format!("M{machine}")),
+            time: Some(1_772_323_200.0 + 86_400.0 * f64::from(day)),
+            law: Some("lugre".into()),
+            key: format!("{machine} {day}"),
+            parameters: vec![parameter],
+            ..LogRow::default()
+        };
+        out.add(&row).unwrap();
+    }
+    out.end().unwrap();
+}
+
+#[test]
+fn a_table_is_followed_over_time() {
+    let served = open();
+    table(&served);
+    let files = served.ask("GET", "/api/workspace", "").json()["files"].clone();
+    let kind = |name: &str| {
+        let files = files.as_array().unwrap();
+        files.iter().find(|own| own["name"] == name).unwrap()["kind"].clone()
+    };
+    assert_eq!(kind("batch/results.parquet"), "table");
+    let asked = serde_json::json!({"kind": "drift", "table": "batch/results.parquet", "limits": ["stribeck_velocity > 2"], "names": false});
+    let line = served
+        .ask("POST", "/api/command", &asked.to_string())
+        .json();
+    assert_eq!(
+        line,
+        "stiction drift batch/results.parquet --limit 'stribeck_velocity > 2'"
+    );
+    let job = done(&served, &asked);
+    assert_eq!(job["verdict"], "not-trustworthy");
+    let found = &job["json"];
+    assert_eq!(found["verdict"], "1 of 2 machines changed");
+    let alarm = &found["alarms"][0];
+    assert_eq!(
+        (&alarm["machine"], &alarm["kind"]),
+        (&"M0".into(), &"step".into())
+    );
+    assert_eq!(alarm["since"], "2026-03-31 00:00");
+    // Of the machine that changed first, in the unit that is shown.
+    let course = &found["courses"][0];
+    assert_eq!(
+        (&course["machine"], &course["unit"]),
+        (&"M0".into(), &"mm/s".into())
+    );
+    let numbers = |own: &serde_json::Value| {
+        let own = own.as_array().unwrap().iter();
+        own.map(|one| one.as_f64().unwrap()).collect::<Vec<f64>>()
+    };
+    assert_eq!(numbers(&course["x"])[49], 49.0);
+    let levels = numbers(&course["levels"]["y"]);
+    let wanted = [5.0, 5.0, 6.0, 6.0];
+    assert!(
+        levels.len() == 4 && levels.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 0.2),
+        "{levels:?}"
+    );
+    let refused = serde_json::json!({"kind": "drift", "table": "batch/results.parquet", "limits": ["mass > 2"]});
+    let id = served.ask("POST", "/api/jobs", &refused.to_string()).json();
+    let job = ended(&served, id.as_u64().unwrap());
+    assert!(
+        job["text"]
+            .as_str()
+            .unwrap()
+            .contains("no log determines mass"),
+        "{job}"
+    );
 }
 
 #[test]

@@ -1,0 +1,151 @@
+//! `stiction drift`: what changed over time, from the table of a batch.
+
+use super::{Done, Run, What, Words, Work};
+use crate::refused::Refused;
+use crate::units::Shown;
+use serde::Deserialize;
+use serde_json::{Value, json};
+use stiction::commands::drift::{self, Alarm, DriftFile, DriftOutcome, Limit, Times};
+use stiction::commands::{text, verdict};
+use stiction::{Control, Progress, Stage};
+
+/// Most courses that are drawn, and most logs of all of them.
+const MOST: (usize, usize) = (24, 20_000);
+/// Seconds of a day.
+const DAY: f64 = 86_400.0;
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Drift {
+    table: String,
+    #[serde(default)]
+    limits: Vec<String>,
+    /// Whether times are the dates in the names of the logs.
+    #[serde(default)]
+    names: bool,
+}
+
+impl Work for Drift {
+    fn what(&self) -> What<'_> {
+        What {
+            kind: "drift",
+            about: self.table.clone(),
+            out: None,
+        }
+    }
+
+    fn words(&self, words: &mut Words) {
+        words.word(&self.table);
+        for limit in &self.limits {
+            words.option("--limit", Some(limit));
+        }
+        words.option("--times", self.names.then_some("names"));
+    }
+
+    fn run(&self, run: Run<'_>) -> Result<Done, Refused> {
+        let table = run.workspace.file(&self.table)?;
+        let limits = self.limits.iter().map(|text| Limit::read(text));
+        let limits = limits.collect::<Result<Vec<_>, _>>()?;
+        let times = match self.names {
+            true => Times::Names,
+            false => Times::Table,
+        };
+        // The limits of what changes by itself are simulated.
+        let stage = Stage::Experiments { done: 0, all: 1 };
+        let goes_on = || {
+            let control = run.observer.progress(&Progress::of(stage, 0.0));
+            matches!(control, Control::Continue)
+        };
+        let Some(found) = drift::drift_while(&table, &limits, times, goes_on)? else {
+            return Err(Refused::bad("stopped before anything was found"));
+        };
+        Ok(Done {
+            verdict: Some(verdict::of_drift(&found.file)),
+            json: Some(shown(&found)),
+            ..Done::default()
+        })
+    }
+}
+
+/// What the page shows.
+fn shown(found: &DriftOutcome) -> Value {
+    let file = &found.file;
+    let words = text::followed(file);
+    let alarm = |(alarm, [since, found]): (&Alarm, &[String; 2])| {
+        json!({
+            "machine": alarm.machine,
+            "parameter": alarm.parameter,
+            "kind": alarm.limit.as_ref().unwrap_or(&alarm.kind),
+            "since": since,
+            "found": found,
+            "unit": alarm.unit,
+            "before": alarm.before,
+            "after": alarm.after,
+            "size": alarm.size,
+            "ci95": alarm.ci95,
+            "relative": alarm.relative,
+        })
+    };
+    let unclear = |noise: &drift::NoiseEntry| {
+        let own = (&noise.parameter, &noise.law);
+        let mut all = file.unclear.iter();
+        all.any(|other| (&other.parameter, &other.law) == own)
+    };
+    let is_clear = file.noise.iter().any(|noise| !unclear(noise));
+    let mut logs = 0;
+    let courses = found.shown.iter().chain(&found.quiet).take(MOST.0);
+    let courses = courses.take_while(|course| {
+        logs += course.followed.points.len();
+        logs <= MOST.1
+    });
+    json!({
+        "verdict": words.verdict,
+        "good": is_clear && file.alarms.is_empty() && file.apart.is_empty(),
+        "timed": file.timed,
+        "logs": file.input.logs,
+        "machines": file.machines,
+        "notes": words.notes,
+        "alarms": file.alarms.iter().zip(&words.times).map(alarm).collect::<Value>(),
+        "courses": courses.map(|course| drawn(file, course)).collect::<Value>(),
+    })
+}
+
+/// The course of a parameter over the days since the first log, in the unit that is shown, with its levels.
+fn drawn(file: &DriftFile, course: &drift::Shown) -> Value {
+    let unit = Shown::of(&course.unit);
+    let points = &course.followed.points;
+    let first = points.first().map_or(0.0, |point| point.time);
+    let last = points.last().map_or(0.0, |point| point.time);
+    let days = |time: f64| (time - first) / DAY;
+    let number = |value: f64| unit.number(value);
+    let judged = &course.judged;
+    let (low, high): (Vec<f64>, Vec<f64>) = judged
+        .intervals()
+        .map(|(low, high)| (number(low), number(high)))
+        .unzip();
+    let own = |alarm: &&Alarm| {
+        let names = (&alarm.machine, &alarm.parameter, &alarm.law);
+        names == (&course.machine, &course.parameter, &course.law) && alarm.limit.is_none()
+    };
+    let mut changes: Vec<&Alarm> = file.alarms.iter().filter(own).collect();
+    changes.sort_by(|a, b| a.since.total_cmp(&b.since));
+    let mut levels = vec![(days(first), number(judged.reference))];
+    for change in changes {
+        let at = days(change.since);
+        levels.push((at, levels[levels.len() - 1].1));
+        levels.push((at, number(change.after)));
+    }
+    levels.push((days(last), levels[levels.len() - 1].1));
+    let (level_x, level_y): (Vec<f64>, Vec<f64>) = levels.into_iter().unzip();
+    json!({
+        "machine": course.machine,
+        "parameter": course.parameter,
+        "law": course.law,
+        "unit": unit.unit,
+        "x": points.iter().map(|point| days(point.time)).collect::<Value>(),
+        "y": judged.corrected.iter().map(|value| number(*value)).collect::<Value>(),
+        "low": low,
+        "high": high,
+        "levels": { "x": level_x, "y": level_y },
+    })
+}
