@@ -362,6 +362,13 @@ try {
   await look("plan");
   passed(`planned: ${plan}`);
 
+  // What became of a plan stands with its axis file alone.
+  await page.getByLabel("Limits of").selectOption("slide.axis.toml");
+  await page.getByRole("button", { name: "Plan", exact: true }).last().click();
+  await page.getByRole("alert").getByText("Not done").waitFor();
+  await page.getByLabel("Limits of").selectOption("axis.toml");
+  await page.getByRole("alert").waitFor({ state: "detached" });
+
   // Static parameters by a search from constant velocities, then presliding from a motion with them held.
   const logs = join(folder, "procedures");
   execFileSync(program, ["demo", "--procedures", "--quiet", "--out", logs]);

@@ -66,7 +66,7 @@ export class PlanView {
     const place = h("div", {});
     put(
       this.form,
-      field("Axis file", choice(axes.map((file): [string, string] => [file.name, file.name]), this.axis, (value) => { this.axis = value; choose({ axis: value }); })),
+      field("Limits of", choice(axes.map((file): [string, string] => [file.name, file.name]), this.axis, (value) => { this.axis = value; choose({ axis: value }); })),
       place,
       field("For what this model leaves open", choice([["", "none: for the nameplate"], ...labelled("model")], this.model, (value) => { this.model = value; again(); })),
       field("Longest motion [s]", time),
@@ -78,7 +78,7 @@ export class PlanView {
   }
 
   private drawWork(): void {
-    const job = latest("plan");
+    const job = latest("plan", (own) => own.about === this.axis);
     if (!job || isRunning(job)) put(this.work, job ? progress(job) : null);
     else if (job.state === "failed") put(this.work, failed(job));
     else if (!job.written.length) put(this.work, older("Stopped before anything was found", "Nothing was written."));
