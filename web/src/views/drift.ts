@@ -8,9 +8,9 @@ import { quantity, short, unit } from "../numbers";
 import { older } from "../origin";
 import { changedAt, files, onChange } from "../state";
 
-interface Alarm { machine: string; parameter: string; kind: string; since: string; found: string; unit: string; before: number; after: number; size: number; ci95: [number, number] | null; relative: boolean }
+interface Alarm { machine: string; parameter: string; kind: string; limit: string | null; unit: string; before: number; after: number; size: number; ci95: [number, number] | null; relative: boolean }
 interface Course { machine: string; parameter: string; law: string; unit: string; x: number[]; y: number[]; low: number[]; high: number[]; levels: { x: number[]; y: number[] } }
-interface Followed { verdict: string; good: boolean; timed: boolean; logs: number; machines: number; notes: string[]; alarms: Alarm[]; courses: Course[] }
+interface Followed { verdict: string; good: boolean; timed: boolean; logs: number; machines: number; notes: string[]; alarms: Alarm[]; times: [since: string, found: string][]; courses: Course[] }
 
 /** When a table was changed last as it was followed, by the number of the work. */
 const followedAs = new Map<number, number>();
@@ -93,14 +93,14 @@ export class DriftView {
       put(this.found, this.table ? h("p", { class: "muted" }, "Not followed yet.") : null);
       return;
     }
-    const { verdict, good, timed, logs, machines, notes, alarms, courses } = done.json as Followed;
+    const { verdict, good, timed, logs, machines, notes, alarms, times, courses } = done.json as Followed;
     const maps = courses.map((own) => this.course(own, timed));
     put(
       this.found,
       stale ? older("Older than its table", `${this.table} changed after it was followed. Follow it again.`) : null,
       h("div", { class: `banner ${good ? "good" : "warn"}` }, h("strong", {}, verdict), ...notes.map((note) => h("p", {}, note))),
       h("p", { class: "muted" }, `${this.table}: ${logs} logs, ${machines} machine${machines === 1 ? "" : "s"}.`),
-      alarms.length ? table(alarms) : null,
+      alarms.length ? table(alarms, times) : null,
       h("div", { class: "maps" }, ...maps.map(({ map }) => map.element)),
     );
     for (const { draw } of maps) draw();
@@ -116,8 +116,8 @@ export class DriftView {
   }
 }
 
-function table(alarms: Alarm[]): HTMLElement {
+function table(alarms: Alarm[], times: string[][]): HTMLElement {
   const change = (size: number, { relative, unit: of }: Alarm) => `${size < 0 ? "" : "+"}${relative ? `${short(100 * size)} %` : quantity(size, of)}`;
-  const row = (own: Alarm) => h("tr", {}, h("th", { scope: "row" }, own.machine || "–"), h("td", {}, own.parameter.replaceAll("_", " ")), h("td", {}, own.kind), h("td", {}, own.since), h("td", {}, own.found), h("td", { class: "number" }, quantity(own.before, own.unit)), h("td", { class: "number" }, quantity(own.after, own.unit)), h("td", { class: "number strong" }, change(own.size, own)), h("td", { class: "number" }, own.ci95 ? own.ci95.map((end) => change(end, own)).join(" … ") : ""));
+  const row = (own: Alarm, k: number) => h("tr", {}, h("th", { scope: "row" }, own.machine || "–"), h("td", {}, own.parameter.replaceAll("_", " ")), h("td", {}, own.limit ?? own.kind), ...times[k]!.map((time) => h("td", {}, time)), h("td", { class: "number" }, quantity(own.before, own.unit)), h("td", { class: "number" }, quantity(own.after, own.unit)), h("td", { class: "number strong" }, change(own.size, own)), h("td", { class: "number" }, own.ci95 ? own.ci95.map((end) => change(end, own)).join(" … ") : ""));
   return h("table", { class: "beside" }, h("caption", {}, "What changed"), h("thead", {}, h("tr", {}, ...["machine", "parameter", "what", "since", "found", "before", "after", "change", "95 % interval"].map((text) => h("th", { scope: "col" }, text)))), h("tbody", {}, ...alarms.map(row)));
 }

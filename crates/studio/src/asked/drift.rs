@@ -71,21 +71,6 @@ impl Work for Drift {
 fn shown(found: &DriftOutcome) -> Value {
     let file = &found.file;
     let words = text::followed(file);
-    let alarm = |(alarm, [since, found]): (&Alarm, &[String; 2])| {
-        json!({
-            "machine": alarm.machine,
-            "parameter": alarm.parameter,
-            "kind": alarm.limit.as_ref().unwrap_or(&alarm.kind),
-            "since": since,
-            "found": found,
-            "unit": alarm.unit,
-            "before": alarm.before,
-            "after": alarm.after,
-            "size": alarm.size,
-            "ci95": alarm.ci95,
-            "relative": alarm.relative,
-        })
-    };
     let unclear = |noise: &drift::NoiseEntry| {
         let own = (&noise.parameter, &noise.law);
         let mut all = file.unclear.iter();
@@ -105,7 +90,8 @@ fn shown(found: &DriftOutcome) -> Value {
         "logs": file.input.logs,
         "machines": file.machines,
         "notes": words.notes,
-        "alarms": file.alarms.iter().zip(&words.times).map(alarm).collect::<Value>(),
+        "alarms": file.alarms,
+        "times": words.times,
         "courses": courses.map(|course| drawn(file, course)).collect::<Value>(),
     })
 }
@@ -123,17 +109,19 @@ fn drawn(file: &DriftFile, course: &drift::Shown) -> Value {
         .intervals()
         .map(|(low, high)| (number(low), number(high)))
         .unzip();
-    let own = |alarm: &&Alarm| {
-        let names = (&alarm.machine, &alarm.parameter, &alarm.law);
-        names == (&course.machine, &course.parameter, &course.law) && alarm.limit.is_none()
-    };
-    let mut changes: Vec<&Alarm> = file.alarms.iter().filter(own).collect();
-    changes.sort_by(|a, b| a.since.total_cmp(&b.since));
     let mut levels = vec![(days(first), number(judged.reference))];
-    for change in changes {
-        let at = days(change.since);
-        levels.push((at, levels[levels.len() - 1].1));
-        levels.push((at, number(change.after)));
+    // In the order of time, as alarms are not.
+    for change in &judged.changes {
+        let since = points[change.since].time;
+        let is_own = |alarm: &&Alarm| {
+            let names = (&alarm.machine, &alarm.parameter, &alarm.law);
+            let own = (&course.machine, &course.parameter, &course.law);
+            names == own && alarm.limit.is_none() && alarm.since == since
+        };
+        let after = file.alarms.iter().find(is_own).map(|alarm| alarm.after);
+        let before = levels[levels.len() - 1].1;
+        levels.push((days(since), before));
+        levels.push((days(since), after.map_or(before, number)));
     }
     levels.push((days(last), levels[levels.len() - 1].1));
     let (level_x, level_y): (Vec<f64>, Vec<f64>) = levels.into_iter().unzip();
@@ -142,8 +130,8 @@ fn drawn(file: &DriftFile, course: &drift::Shown) -> Value {
         "parameter": course.parameter,
         "law": course.law,
         "unit": unit.unit,
-        "x": points.iter().map(|point| days(point.time)).collect::<Value>(),
-        "y": judged.corrected.iter().map(|value| number(*value)).collect::<Value>(),
+        "x": points.iter().map(|point| days(point.time)).collect::<Vec<_>>(),
+        "y": judged.corrected.iter().map(|value| number(*value)).collect::<Vec<_>>(),
         "low": low,
         "high": high,
         "levels": { "x": level_x, "y": level_y },

@@ -120,12 +120,14 @@ impl Series {
             None => ((0..rows).map(|k| k as f64).collect(), "row".into()),
         };
         let moves = |own: &Column| own.range.is_some_and(|(low, high)| low < high);
-        let all = columns.iter().enumerate();
-        let mut drawn: Vec<(usize, &Column)> = all
-            .filter(|(at, own)| Some(*at) != clock && moves(own))
-            .collect();
-        drawn.sort_by_key(|(_, own)| own.role.is_none());
-        let channels = drawn.into_iter().take(MOST_UNDECIDED).map(|(at, own)| {
+        let all = || columns.iter().enumerate();
+        let drawn = |is_clear: bool| {
+            all().filter(move |(at, own)| {
+                own.role.is_some() == is_clear && Some(*at) != clock && moves(own)
+            })
+        };
+        let drawn = drawn(true).chain(drawn(false)).take(MOST_UNDECIDED);
+        let channels = drawn.map(|(at, own)| {
             let mut values = take(at);
             values.resize(rows, f64::NAN);
             // As the file has it: its unit may be what has to be said.
