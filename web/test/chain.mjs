@@ -166,6 +166,8 @@ try {
   equal(await can.getByText(/found before/).count(), 0, "a check that is old at once");
   equal(await can.locator("pre").last().innerText(), "stiction identify run.csv --axis axis.toml --out result", "what to do next");
   await can.evaluate((element) => element.scrollIntoView({ block: "end" }));
+  const [ends, covered] = await Promise.all([can.boundingBox(), page.locator(".command").boundingBox()]);
+  equal(ends.y + ends.height <= covered.y, true, "what is scrolled to is not covered");
   await look("check");
   await page.evaluate(() => document.querySelector("main").scrollTo(0, 0));
   await page.emulateMedia({ colorScheme: "dark" });

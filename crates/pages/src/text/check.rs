@@ -14,8 +14,8 @@ use stiction_files::result::Action;
 use stiction_files::shell::{new_axis_file, quoted, quoted_path, shown};
 use stiction_files::symbols;
 use stiction_number::{counted, four_digits as short, unit};
-pub use told::{Row, Told, told};
 use stiction_workflows::check::{Check, LogCheck, Started, TrackingChange};
+pub use told::{Row, Told, told};
 
 /// The outcome of a check.
 pub fn check(check: &Check) -> String {
