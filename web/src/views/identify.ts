@@ -45,14 +45,14 @@ interface Fit { signal: string; unit: string; rmse: number; relative_error_perce
 interface Result extends Origin {
   law: string; asymmetric: boolean; method: string; inputs: { path: string; sha256: string; samples: number; part?: string | null }[];
   parameters: Parameter[]; fit: Fit; validation: (Fit & { path: string })[];
-  trust: { trustworthy: boolean; reasons: string[]; cause?: Cause | null; constants: string[]; next: string; compensation: { friction_left_percent: number; judged_on: string } | null };
+  trust: { trustworthy: boolean; reasons: string[]; cause?: Cause | null; constants: string[]; next: string | object; compensation: { friction_left_percent: number; judged_on: string } | null };
   laws?: { law: string; asymmetric: boolean; held_out_percent?: number; relative_error_percent?: number }[];
   warnings: { code: string; message: string }[];
   static_map?: { velocity_unit: string; force_unit: string; points: { velocity: number; force: number; model: number }[] };
 }
 
 /** What the law leaves, and what takes it into the fit: a line of the axis file or another law. */
-interface Cause { text: string; size: string; cure?: { table?: string; line?: string; law?: string } | null }
+interface Cause { text: string; size: string; cure?: { line?: { table: string; line: string }; law?: { law: string } } | null }
 
 /** What is drawn of a fit: the stretch about its slowest reversal, and what is force over position and over velocity in it. */
 interface Drawable { from: number | null; to: number | null; channels: Channel[]; turn: Stretch | null; loop: Pairs | null; curve: Pairs | null }
@@ -319,7 +319,7 @@ function banner(own: Result): HTMLElement {
     "div",
     { class: `banner ${cause ? "warn" : "good"}` },
     h("strong", {}, "May be used for compensation", cause ? `, though ${cause.text}` : ""),
-    cause ? h("p", {}, `That is ${cause.size}.`, cure?.line ? ` Write ${cure.line} under [${cure.table}] in the axis file and identify again.` : cure?.law ? ` Try the law ${cure.law}.` : "") : null,
+    cause ? h("p", {}, `That is ${cause.size}.`, cure?.line ? ` Write ${cure.line.line} under [${cure.line.table}] in the axis file and identify again.` : cure?.law ? ` Try the law ${cure.law.law}.` : "") : null,
     compensation ? h("p", {}, `It leaves ${short(compensation.friction_left_percent)} % of the friction on ${on}.`) : null,
     constants.length ? null : h("p", {}, "The log leaves every parameter open: none is a constant of the machine."),
   );
@@ -333,7 +333,8 @@ const JUDGED_ON: Record<string, string> = {
 
 function next(own: Result, result: string): HTMLElement[] {
   const go = (view: "study" | "export" | "plan" | "log", label: string, primary = true) => h("button", { class: primary ? "primary" : "", onclick: () => choose({ view, result }) }, label);
-  switch (own.trust.next) {
+  const action = own.trust.next;
+  switch (typeof action === "string" ? action : Object.keys(action)[0]) {
     case "export":
       return [go("study", "Try compensation →"), go("export", "Take the code →", false)];
     case "check":

@@ -1,14 +1,14 @@
 //! A check in short: the columns, what is wrong, what the log determines, and what to do next.
 
+use super::told::{Row, rows};
 use super::{next, silent, tracking};
 use crate::text::first_sentence;
 use crate::text::table::table;
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::shell::shown;
-use stiction_files::symbols;
 use stiction_number::{counted, sig, unit};
-use stiction_workflows::check::{Check, Finding, LogCheck, ParameterCheck};
+use stiction_workflows::check::{Check, Finding, LogCheck};
 
 /// Findings that are shown of a log.
 const MOST_FINDINGS: usize = 5;
@@ -99,31 +99,16 @@ fn findings(all: &[Finding]) -> String {
 
 /// What the log determines, by a fit where there is one, a line each.
 fn parameters(log: &LogCheck) -> String {
-    let motion_for = |p: &ParameterCheck| {
-        let shows = log.shows.iter().find(|s| p.name.starts_with(&s.name));
-        let record = shows.map_or("", |s| s.record.as_str());
-        match record.is_empty() {
-            true => p.reason.clone(),
-            false => format!("record {record}"),
+    let row = |row: Row| {
+        let verdict = match row.value {
+            Some(value) => format!("determined, about {} {}", sig(value, 3), unit(&row.unit)),
+            None => format!("{}: {}", row.verdict, row.remark),
+        };
+        match row.symbol.is_empty() {
+            true => vec![format!("  {}", row.name), verdict],
+            false => vec![format!("  {}", row.name), row.symbol, verdict],
         }
     };
-    let of_fit = log.parameters.iter().map(|p| {
-        let verdict = match p.identifiable {
-            true => format!("determined, about {} {}", sig(p.value, 3), unit(&p.unit)),
-            false => format!("not determined: {}", motion_for(p)),
-        };
-        vec![format!("  {}", p.name), symbols::symbol(&p.name), verdict]
-    });
-    let of_motion = log.shows.iter().map(|s| {
-        let why = match s.record.is_empty() {
-            true => s.because.clone(),
-            false => format!("record {}", s.record),
-        };
-        vec![format!("  {}", s.meaning), format!("{}: {why}", s.shown)]
-    });
-    let rows: Vec<Vec<String>> = match log.parameters.is_empty() {
-        true => of_motion.collect(),
-        false => of_fit.collect(),
-    };
+    let rows: Vec<Vec<String>> = rows(log).into_iter().map(row).collect();
     table(&rows, &[])
 }

@@ -38,14 +38,18 @@ pub fn told(log: &LogCheck, axis: Option<&Path>) -> Told {
     let mut next = next(log, axis);
     let last = next.pop().unwrap_or_default();
     let command = last.strip_prefix("next: ").unwrap_or(&last).into();
-    let rows = match log.parameters.is_empty() {
-        true => of_motion(log),
-        false => log.parameters.iter().map(|p| of_fit(log, p)).collect(),
-    };
     Told {
-        rows,
+        rows: rows(log),
         next,
         command,
+    }
+}
+
+/// What the log determines by a fit, else what its motion can show.
+pub(super) fn rows(log: &LogCheck) -> Vec<Row> {
+    match log.parameters.is_empty() {
+        true => of_motion(log),
+        false => log.parameters.iter().map(|p| of_fit(log, p)).collect(),
     }
 }
 
