@@ -15,7 +15,7 @@
 //! assert_eq!(log.rate_hz, 1000.0);
 //! assert_eq!(log.force_unit, "N");
 //! assert!(log.position.is_some_and(|x| (x[0] - 1e-3).abs() < 1e-15)); // in m
-//! assert!(log.findings.iter().any(|finding| finding.code.as_str() == "few-samples"));
+//! assert!(log.findings.iter().any(|finding| finding.code().as_str() == "few-samples"));
 //! # Ok::<(), stiction_log::Error>(())
 //! ```
 

@@ -116,8 +116,11 @@ pub(crate) fn steps(result: &ResultFile, dir: &Path) -> Steps {
         let (first, or) = (own(), None);
         return Steps { first, or };
     };
-    // One more value of a key that was taken in already is worth little: a result that may be used is used, or the steps never end.
-    let is_more = first.line.as_ref().is_some_and(|line| line.replaces);
+    // One more pitch is worth little: a result that may be used is used, or the steps never end.
+    let is_more = first
+        .line
+        .as_ref()
+        .is_some_and(|line| line.replaces && PITCHES.contains(&Action::key(&line.text)));
     match trust.trustworthy && !ends {
         true if is_more => Steps {
             first: own(),
@@ -129,6 +132,9 @@ pub(crate) fn steps(result: &ResultFile, dir: &Path) -> Steps {
         },
     }
 }
+
+/// Keys of the axis file that list pitches.
+const PITCHES: [&str; 2] = ["cogging", "coulomb_pitch"];
 
 /// Where elements were asked for and one bristle predicts better: what the shape of one bristle leads to is then no better than it, and
 /// a command that leads back would go round in a circle.

@@ -606,7 +606,7 @@ fn a_log_is_put_beside_its_plan() {
     let (_, said, _) = identify("half.csv", "plan/plan.toml");
     assert!(
         said.contains("warning [plan-differs] of ")
-            && said.contains("Run setpoints.csv again, from t = "),
+            && said.contains("Run setpoints.csv again from t = "),
         "{said}"
     );
     let result = std::fs::read_to_string(at.join("out/result.json")).unwrap();
@@ -652,7 +652,7 @@ fn a_log_is_put_beside_its_plan() {
     };
     let said = scaled(0.5, 1.0);
     assert!(
-        said.contains("[plan-differs] the position of the log goes 0.5000 times as far"),
+        said.contains("[plan-differs] the position of the log goes 0.5 times as far"),
         "{said}"
     );
     let said = scaled(1.0, 1e3);

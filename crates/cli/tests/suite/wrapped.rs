@@ -151,8 +151,8 @@ fn an_export_says_what_may_be_fed() {
     let said = format!("{out}{err}");
     assert!(
         said.contains(
-            "the position of the log wraps after 6.283 rad, and cogging1_sin, cogging1_cos depend on it without that period: feed \
-             position unwrapped, 0 to 15.00 rad as identified, not the signal that wraps"
+            "the position of the log wraps after 6.283 rad, and cogging1_sin, cogging1_cos depend on it without that period. Feed \
+             an unwrapped position, 0 to 15 rad as identified"
         ),
         "{said}"
     );

@@ -659,7 +659,7 @@ fn a_unit_in_the_mapping_goes_before_the_file() {
         ..Mapping::default()
     };
     let log = Log::from_table(&table, &position("m")).unwrap();
-    insta::assert_snapshot!(message(&log, "unit-override"), @"position: the recording gives mm, the axis file m; the axis file takes precedence");
+    insta::assert_snapshot!(message(&log, "unit-override"), @"position: the recording gives mm, axis.toml gives m: axis.toml is used");
     let log = Log::from_table(&table, &position("mm")).unwrap();
     assert!(!codes(&log).contains(&"unit-override"));
 }
@@ -723,8 +723,8 @@ fn a_rate_that_beats_time_stamps_without_a_unit_is_said() {
         };
         Log::from_table(&table, &mapping).unwrap()
     };
-    insta::assert_snapshot!(message(&read(0.002, 1000.0), "rate-override"), @r#"the rows are counted at rate = "1000 Hz" of axis.toml, and column 1 "time" is not read: in s it runs at 500 Hz; if that is right, delete the line rate and write under [columns]: time = { column = "time", unit = "s" }"#);
-    insta::assert_snapshot!(message(&read(5.0, 1000.0), "rate-override"), @r#"the rows are counted at rate = "1000 Hz" of axis.toml, and column 1 "time" is not read: in ms it runs at 200 Hz; if that is right, delete the line rate and write under [columns]: time = { column = "time", unit = "ms" }"#);
+    insta::assert_snapshot!(message(&read(0.002, 1000.0), "rate-override"), @r#"rows are counted at rate = "1000 Hz" of axis.toml, and column 1 "time" is not used, which runs at 500 Hz in s. If that is right, delete the line rate and write under [columns]: time = { column = "time", unit = "s" }"#);
+    insta::assert_snapshot!(message(&read(5.0, 1000.0), "rate-override"), @r#"rows are counted at rate = "1000 Hz" of axis.toml, and column 1 "time" is not used, which runs at 200 Hz in ms. If that is right, delete the line rate and write under [columns]: time = { column = "time", unit = "ms" }"#);
     insta::assert_snapshot!(read(0.002, 1000.0).columns[0].reason, @"could be the time, which the rate of the axis file is taken for");
     // Seconds, milliseconds, microseconds, and row numbers.
     for (step, hertz) in [
@@ -753,7 +753,7 @@ fn a_rate_that_beats_the_sample_time_of_the_file_is_said() {
         };
         Log::from_table(&table, &mapping).unwrap()
     };
-    insta::assert_snapshot!(message(&read(1000.0), "rate-override"), @r#"the rows are counted at rate = "1000 Hz" of axis.toml, and the file states a sample time of 0.002 s, 500 Hz; if the file is right, delete the line rate"#);
+    insta::assert_snapshot!(message(&read(1000.0), "rate-override"), @r#"rows are counted at rate = "1000 Hz" of axis.toml, but the file states a sample time of 0.002 s, 500 Hz. If the file is right, delete the line rate"#);
     assert!(!codes(&read(500.0)).contains(&"rate-override"));
 }
 
