@@ -3,23 +3,23 @@
 mod action;
 mod effects;
 mod friction;
+mod operating_range;
 mod planned;
 mod procedure;
 mod searched;
-mod seen;
 mod trust;
 
 use crate::error::Warning;
 pub use action::Action;
 pub use effects::{EffectEntry, SizeEntry};
 pub use friction::{BandEntry, FrictionAtEntry, FrictionCurveEntry, FrictionLineEntry, ValueEntry};
+pub use operating_range::{LevelAlongEntry, PitchEntry, RangeEntry};
 pub use planned::{PieceEntry, PlannedEntry, PlannedParameter};
 pub use procedure::{
     BreakAwayEntry, InversionEntry, PreslidingStepEntry, RejectedEntry, StaticMapEntry,
     StaticPointEntry, TwoStepEntry, TwoStepParameter,
 };
 pub use searched::{Evaluations, SearchedEntry, SearchedParameter, SearchedPoint, end_of};
-pub use seen::{LevelAlongEntry, PitchEntry, RangeEntry};
 use serde::{Deserialize, Serialize};
 use stiction_codes::Code;
 pub use trust::{BetterLaw, CauseEntry, Compensation, Trust};

@@ -14,8 +14,8 @@ mod levels;
 mod limit;
 mod measures;
 mod other_shape;
+mod single;
 mod spring;
-mod stated;
 mod waves;
 
 use self::beside::Beside;
@@ -221,7 +221,7 @@ pub(crate) fn sought(
     let mut beside = Beside::new(&at.jacobian(), residual);
     let mut found: Vec<Found> = Vec::new();
     let all = held_out.left();
-    let fixed = stated::candidates(&fitted).into_iter();
+    let fixed = single::candidates(&fitted).into_iter();
     let fixed = fixed.chain(levels::candidates(&fitted));
     let fixed: Vec<Candidate> = fixed.chain(other_shape::candidates(&fitted)).collect();
     while found.len() < effect::MAX_REPORTED {

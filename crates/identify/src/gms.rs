@@ -23,8 +23,8 @@ mod ladder;
 mod limit;
 
 pub use count::{FEWEST, MOST};
+pub(crate) mod history;
 pub(crate) mod physical;
 pub(crate) mod recursion;
 pub(crate) mod score;
 pub(crate) mod search;
-pub(crate) mod settled;

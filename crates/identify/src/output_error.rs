@@ -20,10 +20,10 @@
 pub(crate) mod bristles;
 pub(crate) mod controller;
 pub(crate) mod covariance;
+pub(crate) mod dead_time;
 pub(crate) mod descent;
 pub(crate) mod drawn;
 pub(crate) mod elements;
-pub(crate) mod late;
 pub(crate) mod outcome;
 pub(crate) mod physical;
 pub(crate) mod places;

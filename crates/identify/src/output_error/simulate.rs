@@ -2,9 +2,9 @@
 
 use crate::output_error::bristles::Bristles;
 use crate::output_error::controller::{Controller, Memory};
+use crate::output_error::dead_time::Late;
 use crate::output_error::drawn::Drawn;
 use crate::output_error::elements::Slipping;
-use crate::output_error::late::Late;
 use crate::output_error::plant::{Axis, State};
 use crate::output_error::run::{Hold, Run};
 use crate::output_error::unknowns::{LOCALS, Layout, MOST, Unknown};

@@ -1,11 +1,11 @@
 //! From what the engine found to what goes to disk.
 
 use super::compensation;
-use super::left;
+use super::effects;
 use super::load::Asked;
 use super::method::Method;
+use super::operating_range;
 use super::remaining::remaining;
-use super::seen;
 use super::trust::Judged;
 use crate::entries;
 use crate::source::Source;
@@ -168,7 +168,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
             .flatten(),
         fit: fit_entry(&estimate.fit),
         low_speed: estimate.low_speed.as_ref().map(low_entry),
-        effects: left::entries(estimate, &parts.laws, motion, force_unit),
+        effects: effects::entries(estimate, &parts.laws, motion, force_unit),
         validation,
         simulation: None,
         laws: parts.laws,
@@ -179,10 +179,10 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         break_away: Vec::new(),
         elements: elements(estimate),
         top_speed: top_speed(estimate),
-        range: seen::range(sources, &estimate.series, &estimate.terms),
-        pitch: seen::pitch(&estimate.terms),
+        range: operating_range::range(sources, &estimate.series, &estimate.terms),
+        pitch: operating_range::pitch(&estimate.terms),
         friction_curve: None,
-        level_along: seen::level_along(estimate),
+        level_along: operating_range::level_along(estimate),
         search: Search {
             status: estimate.status.name().into(),
             evaluations: estimate.counts.total(),

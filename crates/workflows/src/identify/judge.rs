@@ -2,14 +2,14 @@
 
 use super::compensation::rms;
 use super::condition::Conditioned;
+use super::contradictions;
 use super::disagree;
 use super::fit::Fitted;
-use super::late;
+use super::force_unit;
 use super::load::{Asked, Loaded};
 use super::logs::{log_warnings_but, path_of, validation_warnings};
 use super::machine;
-use super::mixed;
-use super::stated;
+use super::time_offset;
 use super::trust::{self, Judged};
 use stiction_identify as engine;
 use stiction_identify::{Delay, Mass, Record, Series, Source as Signal, Status};
@@ -42,9 +42,9 @@ pub(super) fn judge(
     if compares && fitted.choice.laws.is_empty() && law.status != Status::Interrupted {
         warnings.push(Notice::ComparisonStopped.into());
     }
-    late::stated(asked, loaded, law, &mut warnings);
+    time_offset::stated(asked, loaded, law, &mut warnings);
     let unused = unused(loaded, conditioned);
-    let of_limits = stated::against_limits(asked, loaded, &law.parameters);
+    let of_limits = contradictions::against_limits(asked, loaded, &law.parameters);
     let odd = machine::unlikely(asked, loaded, law);
     let stated = loaded.contradicted.as_ref().or(of_limits.as_ref());
     let contradicted = stated.or(odd.as_ref());
@@ -71,7 +71,7 @@ pub(super) fn judge(
         simpler: &simpler,
         held_out: &loaded.held_out,
         options: disagree::options(asked),
-        unscaled: mixed::cause(asked, &loaded.sources[0].log),
+        unscaled: force_unit::cause(asked, &loaded.sources[0].log),
         can_be_simulated: can_be_simulated(asked, loaded),
     };
     match &fitted.two_steps {

@@ -2,11 +2,11 @@
 
 use super::assemble::{self, Parts};
 use super::condition::{Conditioned, condition, enough};
+use super::contradictions;
 use super::fit::fit;
 use super::friction;
 use super::heard::Heard;
 use super::judge::judge;
-use super::late::{aligned, realigned, unfiltered};
 use super::load::{Asked, Loaded, load};
 use super::method::Method;
 use super::options::{Files, Options};
@@ -16,7 +16,7 @@ use super::planned;
 use super::procedure::{static_map, step};
 use super::remedy;
 use super::simulate;
-use super::stated;
+use super::time_offset::{aligned, realigned, unfiltered};
 use super::weight;
 use crate::error::Error;
 use crate::source::{Source, Used, load_held_out, refuse_several, usage_at};
@@ -215,7 +215,7 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     let mut loaded = aligned(asked, loaded)?;
     let mut conditioned = condition(asked, &loaded, heard)?;
     if !heard.stopped {
-        loaded.contradicted = stated::named(asked, &loaded, &conditioned, heard);
+        loaded.contradicted = contradictions::named(asked, &loaded, &conditioned, heard);
     }
     if !heard.stopped {
         let realigned = realigned(asked, loaded, conditioned, heard)?;
@@ -227,7 +227,7 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     // Beside another motion than its own a force says nothing of what is stated.
     let is_moved = loaded.late != 0.0 || loaded.filter.is_some();
     if !heard.stopped && loaded.contradicted.is_none() && is_moved {
-        loaded.contradicted = stated::named(asked, &loaded, &conditioned, heard);
+        loaded.contradicted = contradictions::named(asked, &loaded, &conditioned, heard);
     }
     let weight = match heard.stopped {
         true => None,

@@ -4,10 +4,10 @@ use super::assemble::{self, Parts};
 use super::condition::{check_share, settings};
 use super::conditioning::{self, conditioned};
 use super::disagree;
+use super::force_unit;
 use super::load::{Asked, Loaded};
 use super::logs::{log_warnings, refused, validation_warnings};
 use super::machine;
-use super::mixed;
 use super::outcome::{Found, Outcome, Simulated};
 use super::procedure::break_away;
 use super::trust::{self, Evidence};
@@ -135,7 +135,7 @@ pub(super) fn run(
         simpler: &[],
         held_out: &[],
         options: disagree::options(asked),
-        unscaled: mixed::cause(asked, &sources[0].log),
+        unscaled: force_unit::cause(asked, &sources[0].log),
         can_be_simulated: false,
         motion,
         apart: None,

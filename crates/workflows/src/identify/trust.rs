@@ -3,10 +3,10 @@
 use super::choice::FAMILIES;
 use super::compensation;
 use super::disagree;
-use super::left;
+use super::effects;
+use super::extrapolation;
+use super::inverted_sign;
 use super::logs::log_warnings;
-use super::turned;
-use super::unfit;
 use super::verdict::{
     self, Against, Best, CurveFacts, Facts, Findings, SimulatedFacts, UnseenFacts,
 };
@@ -89,7 +89,7 @@ impl Judged {
     fn with_cause(mut self, evidence: &Evidence) -> Self {
         let first = [Action::AxisFile, Action::Again, Action::Finish];
         // Nor where the logs have different signs, which is all that is left.
-        if turned::named(evidence.sources, &evidence.law.disagreements).is_some() {
+        if inverted_sign::named(evidence.sources, &evidence.law.disagreements).is_some() {
             return self;
         }
         self.trust.better = match &self.trust.next {
@@ -97,7 +97,7 @@ impl Judged {
             _ => evidence.clearly_better().cloned(),
         };
         if evidence.shows_friction() && !first.contains(&self.trust.next) {
-            let own = left::cause(evidence.law, evidence.sources, evidence.laws);
+            let own = effects::cause(evidence.law, evidence.sources, evidence.laws);
             let between = disagree::cause(evidence.law);
             let levels = between
                 .as_ref()
@@ -321,7 +321,7 @@ impl Evidence<'_> {
             }),
             has_other_clock: sources.iter().any(|s| s.log.force_as_stamped),
             found: Findings {
-                mixed_signs: turned::named(sources, &law.disagreements),
+                mixed_signs: inverted_sign::named(sources, &law.disagreements),
                 several_axes: disagree::of_two_axes(&law.disagreements),
                 overflow: overflow.map(|refused| refused.found),
                 delays_apart: self.apart.map(String::from),
@@ -496,7 +496,7 @@ pub(super) fn of_static_map(
         saturated: saturated(sources),
         outlying: outlying as f64 / law.series.measured.len().max(1) as f64,
         lacks_coulomb: lacks_coulomb(law),
-        level: unfit::largest_level(law, sources),
+        level: extrapolation::largest_level(law, sources),
         explained: law.fit.r2,
     };
     let against = verdict::of_curve(&facts);
@@ -565,7 +565,7 @@ fn whole_record(
     // Causes first: what they leave open, and what else shows them, comes after.
     let mut causes = Vec::new();
     if mixed.is_none() && evidence.contradicted.is_none() {
-        left::named(law, evidence.sources, evidence.laws, &mut causes);
+        effects::named(law, evidence.sources, evidence.laws, &mut causes);
         causes.extend(disagree::named(
             &law.disagreements,
             evidence.sources,

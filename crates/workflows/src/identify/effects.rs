@@ -1,6 +1,6 @@
 //! The effects that a residual shows, in words, and what takes each into the fit.
 
-use super::{pitch, settled};
+use super::{pitch, settling};
 use crate::source::Source;
 use stiction_codes::Code;
 use stiction_files::result::{Action, CauseEntry, EffectEntry, LawEntry, SizeEntry};
@@ -244,7 +244,7 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Action> {
         is_open.then(|| of_terms(format!("{} = true", term.name())))
     };
     match &found.effect {
-        Effect::Drift(_) => settled::part(found, sources),
+        Effect::Drift(_) => settling::part(found, sources),
         Effect::Position(_, straight) => along_the_stroke(*straight, law).map(of_terms),
         Effect::LevelWave(_) if law.law.kind.has_elements() => None,
         Effect::LevelWave(wave) => {
@@ -277,7 +277,7 @@ fn cure(found: &Found, law: &FittedLaw, sources: &[Source]) -> Option<Action> {
             })
         }
         Effect::Curve if law.law.has_stribeck() && !law.law.exponent_fitted => Some(fit_exponent()),
-        Effect::Clocks(drift) => settled::before_the_clocks_part(*drift, sources),
+        Effect::Clocks(drift) => settling::before_the_clocks_part(*drift, sources),
         Effect::Resonance { .. }
         | Effect::Backlash { .. }
         | Effect::Dynamics(_)
