@@ -84,6 +84,8 @@ pub enum Error {
         path: PathBuf,
         /// Why.
         reason: String,
+        /// Whether there is no room left.
+        is_full: bool,
     },
     /// The output folder, or a file in it, is something that would be lost.
     #[error("{}: {found}; choose another folder{}", .path.display(), if *.may_force { ", or ask for it to be written into all the same" } else { "" })]
@@ -124,7 +126,7 @@ impl Error {
 
     /// Whether something could not be written because there is no room left.
     pub fn is_full_disk(&self) -> bool {
-        matches!(self, Error::Output { reason, .. } if reason == crate::output::FULL)
+        matches!(self, Error::Output { is_full: true, .. })
     }
 
     /// One error of all that were found, if any were.
@@ -140,6 +142,16 @@ impl Error {
         Error::Output {
             path: path.to_path_buf(),
             reason: reason.into(),
+            is_full: false,
+        }
+    }
+
+    /// A folder or file that the system does not let be written.
+    pub(crate) fn io(path: &Path, e: &std::io::Error) -> Self {
+        Error::Output {
+            path: path.to_path_buf(),
+            reason: why(e),
+            is_full: is_full(e),
         }
     }
 
@@ -149,6 +161,25 @@ impl Error {
             found: found.into(),
             may_force,
         }
+    }
+}
+
+fn is_full(e: &std::io::Error) -> bool {
+    use std::io::ErrorKind as Kind;
+    matches!(e.kind(), Kind::StorageFull | Kind::QuotaExceeded)
+}
+
+/// What went wrong with a file that is written, in words.
+pub(crate) fn why(e: &std::io::Error) -> String {
+    use std::io::ErrorKind as Kind;
+    match e.kind() {
+        Kind::PermissionDenied => "permission denied".into(),
+        _ if is_full(e) => "the disk, or the share of it that may be used, is full".into(),
+        Kind::NotFound => "no such folder".into(),
+        Kind::InvalidFilename => {
+            "is longer than a disk takes: a name mostly 255 bytes, the whole path 4096".into()
+        }
+        _ => e.to_string(),
     }
 }
 

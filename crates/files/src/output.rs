@@ -24,35 +24,15 @@ pub use single::{Kept, check_writable, write_atomic, write_keeping};
 pub(crate) use staged::Staged;
 pub use taken::{check_apart, check_folder, check_folder_of, check_inputs};
 
-/// Why nothing can be written where no room is left.
-pub(crate) const FULL: &str = "the disk, or the share of it that may be used, is full";
-
-/// What went wrong with a file, in words.
-fn describe(e: &std::io::Error) -> String {
-    match e.kind() {
-        std::io::ErrorKind::PermissionDenied => "permission denied".into(),
-        std::io::ErrorKind::StorageFull | std::io::ErrorKind::QuotaExceeded => FULL.into(),
-        std::io::ErrorKind::NotFound => "no such folder".into(),
-        std::io::ErrorKind::InvalidFilename => {
-            "is longer than a disk takes: a name mostly 255 bytes, the whole path 4096".into()
-        }
-        _ => e.to_string(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::describe;
     use crate::Error;
     use std::io::ErrorKind;
     use std::path::Path;
 
     #[test]
     fn a_full_disk_is_told_from_other_faults() {
-        let full = |kind: ErrorKind| {
-            let error = Error::output(Path::new("out"), describe(&kind.into()));
-            error.is_full_disk()
-        };
+        let full = |kind: ErrorKind| Error::io(Path::new("out"), &kind.into()).is_full_disk();
         assert!(full(ErrorKind::StorageFull) && full(ErrorKind::QuotaExceeded));
         assert!(!full(ErrorKind::PermissionDenied) && !full(ErrorKind::Other));
     }

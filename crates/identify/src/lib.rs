@@ -105,7 +105,6 @@ pub use error::Error;
 pub use estimate::fitted::FittedLaw;
 pub use estimate::intervals::effects;
 pub use estimate::intervals::intervals;
-pub use estimate::searched::NO_INTERVAL;
 pub use estimate::series::Series;
 pub use estimate::{Estimate, LevelAlong, estimate, predict};
 pub use fit::{Fit, low_speed_bound};

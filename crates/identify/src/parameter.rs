@@ -40,6 +40,8 @@ pub enum IntervalKind {
     Profile,
     /// From the likelihood of the encoder's counts, whose samples are left out in turn.
     StateSpace,
+    /// None: a search found the value, and no least squares followed.
+    Searched,
 }
 
 impl IntervalKind {
@@ -49,6 +51,7 @@ impl IntervalKind {
             IntervalKind::Linear => "linear",
             IntervalKind::Profile => "profile",
             IntervalKind::StateSpace => "state-space",
+            IntervalKind::Searched => "none",
         }
     }
 }

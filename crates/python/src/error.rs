@@ -145,7 +145,7 @@ fn of_file(error: &FileError) -> (String, String, String) {
             found.clone(),
             format!("less, or max_samples={needed}"),
         ),
-        FileError::Output { path, reason } => {
+        FileError::Output { path, reason, .. } => {
             (path.display().to_string(), reason.clone(), String::new())
         }
         FileError::Taken { path, found, .. } => (

@@ -165,10 +165,8 @@ pub fn write_rows(py: Python<'_>, table: PathBuf, rows: Vec<String>) -> PyResult
 }
 
 fn foreign(table: &Path, error: &serde_json::Error) -> stiction::commands::FileError {
-    stiction::commands::FileError::Output {
-        path: table.to_path_buf(),
-        reason: format!("a row that is none of stiction's: {error}"),
-    }
+    let reason = format!("a row that is none of stiction's: {error}");
+    stiction::commands::FileError::output(table, reason)
 }
 
 /// Writes a table anew without the logs of those paths, and others with what is known of them now, whole or not at all; returns

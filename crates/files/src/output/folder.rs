@@ -2,7 +2,7 @@
 
 use super::replace::replace;
 use super::staged::{PREFIX, clean, sweep};
-use super::{describe, pending, taken::writable_above};
+use super::{pending, taken::writable_above};
 use crate::error::Error;
 use std::fs::{self, File};
 use std::io::Write;
@@ -25,7 +25,7 @@ pub fn write_folder<'f>(
     force: bool,
 ) -> Result<(), Error> {
     let dir = dir.as_ref();
-    let fail = |e: std::io::Error| Error::output(dir, describe(&e));
+    let fail = |e: std::io::Error| Error::io(dir, &e);
     let files: Vec<_> = files.into_iter().collect();
     if dir.symlink_metadata().is_ok() {
         if !dir.is_dir() {
@@ -80,7 +80,7 @@ pub fn write_folder<'f>(
 /// changed.
 fn refuse_foreign(dir: &Path, files: &[(&str, &[u8])]) -> Result<(), Error> {
     let refuse = |path: &Path, found| Err(Error::taken(path, found, true));
-    let entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)));
+    let entries = fs::read_dir(dir).map_err(|e| Error::io(dir, &e));
     let is_empty = entries?.next().is_none();
     let changed = |name: &str| dir.join(name).metadata().and_then(|m| m.modified()).ok();
     // They are written in their order.

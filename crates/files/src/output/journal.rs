@@ -3,7 +3,6 @@
 //!
 //! As [`runs`](super::runs) in all else. What was kept stays on disk: of each piece only its place in the file is in memory.
 
-use super::describe;
 use super::runs::{LONGEST, NAME, SUM, Work, begun, held, opened};
 use crate::error::Error;
 use crate::hash::sha256_of;
@@ -54,7 +53,7 @@ impl Journal {
     /// As [`Journal::begin`], and where it is not of this kind of work or of another version.
     pub fn resume(dir: &Path, kind: &str) -> Result<Self, Error> {
         let path = dir.join(NAME);
-        let fail = |e: std::io::Error| Error::output(&path, describe(&e));
+        let fail = |e: std::io::Error| Error::io(&path, &e);
         let Some(file) = opened(&path)? else {
             return Self::begin(dir, kind);
         };
@@ -152,7 +151,7 @@ impl Journal {
                 open.end += line.len() as u64;
                 open.places.insert(key.into(), (from, text.len()));
             }
-            Err(e) => open.fault = Some(Error::output(&self.path, describe(&e))),
+            Err(e) => open.fault = Some(Error::io(&self.path, &e)),
         }
     }
 

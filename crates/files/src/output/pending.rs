@@ -8,7 +8,7 @@
 //!
 //! A folder may come from elsewhere, and its record with it: no name in it leads out of the folder, also not through a link.
 
-use super::{describe, staged};
+use super::staged;
 use crate::error::Error;
 use std::fs::{self, File};
 use std::io::{ErrorKind, Read, Write};
@@ -118,7 +118,7 @@ pub(super) fn linked(dir: &Path, name: &str) -> Option<PathBuf> {
 impl Pending {
     /// Makes the record of a folder, and waits for and ends what another program has begun there.
     pub(super) fn begin(dir: &Path) -> Result<Self, Error> {
-        let fail = |e: std::io::Error| Error::output(dir, describe(&e));
+        let fail = |e: std::io::Error| Error::io(dir, &e);
         let path = dir.join(NAME);
         loop {
             let new = File::options().write(true).create_new(true).open(&path);
@@ -198,7 +198,7 @@ struct Left<'d> {
 
 impl Left<'_> {
     fn fault(&self, e: &std::io::Error) -> Error {
-        let why = describe(e);
+        let why = crate::error::why(e);
         let found = format!(
             "was left half replaced, and that cannot be completed: {why}; to keep what is there, remove {NAME}"
         );
@@ -224,7 +224,7 @@ fn left(dir: &Path) -> Result<Option<Left<'_>>, Error> {
     let file = match File::open(&path) {
         Ok(file) => file,
         Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
-        Err(e) => return Err(Error::output(&path, describe(&e))),
+        Err(e) => return Err(Error::io(&path, &e)),
     };
     let _ = file.lock();
     if !is_the_file(&file, &path) {

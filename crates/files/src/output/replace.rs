@@ -2,7 +2,7 @@
 
 use super::pending::{Pending, Rename, is_inside, linked};
 use super::staged::{stage, sweep};
-use super::{describe, taken::writable_above};
+use super::taken::writable_above;
 use crate::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ pub(super) fn replace<'f>(
     kept: impl FnOnce() -> Vec<(PathBuf, PathBuf)>,
 ) -> Result<(), Error> {
     writable_above(dir)?;
-    let fail = |e: std::io::Error| Error::output(dir, describe(&e));
+    let fail = |e: std::io::Error| Error::io(dir, &e);
     fs::create_dir_all(dir).map_err(fail)?;
     let mut pending = Pending::begin(dir)?;
     // Nobody else is at work here now.

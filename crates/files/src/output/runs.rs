@@ -4,8 +4,8 @@
 //! The first line says what work they belong to; each further one is a run, with a check sum. A line is added when its run is
 //! done, and nothing else of the file changes, so that all but its last line is whole wherever the program is ended.
 
+use super::staged;
 use super::taken::writable_above;
-use super::{describe, staged};
 use crate::error::Error;
 use crate::hash::sha256_of;
 use std::fs::{self, File, TryLockError};
@@ -98,7 +98,7 @@ impl Runs {
     /// As [`Runs::begin`], and where the runs are of other work.
     pub fn resume(dir: &Path, work: &Work) -> Result<Self, Error> {
         let path = dir.join(NAME);
-        let fail = |e: std::io::Error| Error::output(&path, describe(&e));
+        let fail = |e: std::io::Error| Error::io(&path, &e);
         let Some(file) = opened(&path)? else {
             return Self::begin(dir, work);
         };
@@ -164,7 +164,7 @@ impl Runs {
         if open.fault.is_none()
             && let Err(e) = open.file.write_all(line.as_bytes())
         {
-            open.fault = Some(Error::output(&self.path, describe(&e)));
+            open.fault = Some(Error::io(&self.path, &e));
         }
     }
 
@@ -189,7 +189,7 @@ pub fn has_runs(dir: &Path) -> bool {
 /// The file with its first line alone, in place of what an earlier call has left.
 pub(super) fn begun(dir: &Path, work: &Work) -> Result<(PathBuf, File), Error> {
     let path = dir.join(NAME);
-    let fail = |e: std::io::Error| Error::output(&path, describe(&e));
+    let fail = |e: std::io::Error| Error::io(&path, &e);
     writable_above(dir)?;
     fs::create_dir_all(dir).map_err(fail)?;
     if let Some(before) = opened(&path)? {
@@ -211,8 +211,7 @@ pub(super) fn opened(path: &Path) -> Result<Option<File>, Error> {
         Ok(_) => {}
     }
     let file = File::options().read(true).write(true).open(path);
-    file.map(Some)
-        .map_err(|e| Error::output(path, describe(&e)))
+    file.map(Some).map_err(|e| Error::io(path, &e))
 }
 
 /// The file, which no other program works on.

@@ -1,7 +1,6 @@
 //! One file alone.
 
 use super::bundle::free;
-use super::describe;
 use super::staged::{self, probe, stage};
 use crate::error::Error;
 use std::fs;
@@ -41,7 +40,7 @@ pub fn write_keeping(path: impl AsRef<Path>, content: &[u8]) -> Result<Option<Ke
         _ => None,
     };
     if let Some(other) = &kept {
-        fs::rename(path, other).map_err(|e| Error::output(path, describe(&e)))?;
+        fs::rename(path, other).map_err(|e| Error::io(path, &e))?;
     }
     staged::publish(file, path)?;
     Ok(kept.map(|other| (path.to_path_buf(), other)))
@@ -53,6 +52,6 @@ pub fn write_keeping(path: impl AsRef<Path>, content: &[u8]) -> Result<Option<Ke
 /// With the reason.
 pub fn check_writable(path: impl AsRef<Path>) -> Result<(), Error> {
     let path = path.as_ref();
-    let fail = |e: std::io::Error| Error::output(path, describe(&e));
+    let fail = |e: std::io::Error| Error::io(path, &e);
     probe(path).map_err(fail)
 }

@@ -1,6 +1,6 @@
 //! Files under temporary names, and those that a program which was ended by force left behind.
 
-use super::{describe, pending::settle};
+use super::pending::settle;
 use crate::error::Error;
 use std::fs::{self, File};
 use std::io::Write;
@@ -19,7 +19,7 @@ const SOON: Duration = Duration::from_secs(60);
 
 /// The content under a temporary name beside `path`; it vanishes unless it is published.
 pub(super) fn stage(path: &Path, content: &[u8]) -> Result<NamedTempFile, Error> {
-    let fail = |e: std::io::Error| Error::output(path, describe(&e));
+    let fail = |e: std::io::Error| Error::io(path, &e);
     let mut file = temporary_beside(path).map_err(fail)?;
     // Says that somebody is at work here; it ends with the process. Some file systems have no locks.
     let _ = file.as_file().try_lock();
@@ -37,8 +37,7 @@ pub(super) fn stage(path: &Path, content: &[u8]) -> Result<NamedTempFile, Error>
 
 /// Gives a file its name.
 pub(super) fn publish(file: NamedTempFile, path: &Path) -> Result<(), Error> {
-    file.persist(path)
-        .map_err(|e| Error::output(path, describe(&e.error)))?;
+    file.persist(path).map_err(|e| Error::io(path, &e.error))?;
     Ok(())
 }
 
@@ -130,7 +129,7 @@ impl Staged {
 
     /// The file to write to.
     pub(crate) fn file(&self) -> Result<File, Error> {
-        let fail = |e: std::io::Error| Error::output(&self.path, describe(&e));
+        let fail = |e: std::io::Error| Error::io(&self.path, &e);
         self.file.as_file().try_clone().map_err(fail)
     }
 
@@ -142,7 +141,7 @@ impl Staged {
     /// Gives it its name.
     pub(crate) fn publish(self) -> Result<(), Error> {
         let synced = self.file.as_file().sync_all();
-        synced.map_err(|e| Error::output(&self.path, describe(&e)))?;
+        synced.map_err(|e| Error::io(&self.path, &e))?;
         publish(self.file, &self.path)
     }
 }

@@ -1,7 +1,7 @@
 //! What an output folder may hold already, and what would be lost in it.
 
+use super::runs;
 use super::staged::{self, clean, probe};
-use super::{describe, runs};
 use crate::error::Error;
 use std::fs;
 use std::io::{ErrorKind, Read};
@@ -127,7 +127,7 @@ pub fn check_folder_of(dir: impl AsRef<Path>, schema: &str, force: bool) -> Resu
         let found = "is a folder, and a file of this name may be written";
         return Err(Error::taken(&folder, found, false));
     }
-    let mut entries = fs::read_dir(dir).map_err(|e| Error::output(dir, describe(&e)))?;
+    let mut entries = fs::read_dir(dir).map_err(|e| Error::io(dir, &e))?;
     // Runs that were kept until the outcome is there are nothing that would be lost.
     let empty = entries.all(|entry| entry.is_ok_and(|entry| entry.file_name() == runs::NAME));
     if empty || force {
@@ -151,7 +151,7 @@ pub(super) fn writable_above(dir: &Path) -> Result<&Path, Error> {
     if let Err(e) = inside.symlink_metadata()
         && !matches!(e.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory)
     {
-        return Err(Error::output(dir, describe(&e)));
+        return Err(Error::io(dir, &e));
     }
     // The nearest folder that exists; `symlink_metadata` so that a dangling link counts as something.
     let existing = dir
@@ -168,7 +168,7 @@ pub(super) fn writable_above(dir: &Path) -> Result<&Path, Error> {
     if !existing.is_dir() {
         return Err(Error::taken(existing, "is not a folder", false));
     }
-    probe(&existing.join("probe")).map_err(|e| Error::output(existing, describe(&e)))?;
+    probe(&existing.join("probe")).map_err(|e| Error::io(existing, &e))?;
     Ok(existing)
 }
 

@@ -4,8 +4,8 @@ use crate::conditioning::record::Record;
 use crate::estimate::fitted::FittedLaw;
 use crate::estimate::{Estimate, estimate};
 use crate::law::terms::{Delay, Terms};
-use crate::parameter::Parameter;
 use crate::parameter::covariance::Covariance;
+use crate::parameter::{IntervalKind, Parameter};
 use crate::separable::linear;
 use crate::separable::objective::Objective;
 use crate::separable::optimum::Optimum;
@@ -14,29 +14,36 @@ use crate::separable::secant::Secant;
 use stiction_parameters::Name;
 use stiction_search::{Counts, Status};
 
-/// Why a parameter that a search found by itself has no interval.
-pub const NO_INTERVAL: &str = "as the search found it: without least squares it has no interval";
-
-/// Why a parameter of a search that was stopped has none: how far it is from the optimum nothing says.
-const STOPPED: &str = "the run was stopped before its interval was known";
-
-pub(crate) fn without_interval(parameter: &mut Parameter, reason: &str) {
+/// Takes the interval off a parameter that a search found by itself, or that was found by the time a search was stopped: how far it is
+/// from the optimum nothing says.
+pub(crate) fn without_interval(parameter: &mut Parameter, stopped: bool) {
     if !parameter.identified {
         return;
     }
+    let (interval, reason) = match stopped {
+        true => (
+            parameter.interval,
+            "the run was stopped before its interval was known",
+        ),
+        false => (
+            IntervalKind::Searched,
+            "as the search found it: without least squares it has no interval",
+        ),
+    };
     *parameter = Parameter {
         identified: true,
         identifiable: false,
+        interval,
         reason: reason.into(),
         ..Parameter::given(parameter.name, parameter.value)
     };
 }
 
 impl FittedLaw {
-    /// Leaves every parameter that was fitted open, for this reason.
-    fn leave_open(&mut self, reason: &str) {
+    /// Takes the intervals off all parameters that were fitted.
+    fn leave_open(&mut self, stopped: bool) {
         for parameter in &mut self.parameters {
-            without_interval(parameter, reason);
+            without_interval(parameter, stopped);
         }
         self.covariance = Covariance::default();
     }
@@ -45,7 +52,7 @@ impl FittedLaw {
     /// of how far it is.
     pub(crate) fn stopped(&mut self) {
         self.status = Status::Interrupted;
-        self.leave_open(STOPPED);
+        self.leave_open(true);
     }
 }
 
@@ -114,7 +121,7 @@ impl Estimate {
             evaluation,
         };
         let mut out = estimate(record, self.law, terms, &optimum, self.low_speed_bound);
-        out.fitted.leave_open(NO_INTERVAL);
+        out.fitted.leave_open(false);
         Ok(out)
     }
 }

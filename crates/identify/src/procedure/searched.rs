@@ -1,7 +1,7 @@
 //! A static map with the curve that a search found, without the least squares that give it intervals.
 
 use super::static_map::StaticMap;
-use crate::estimate::searched::{NO_INTERVAL, without_interval};
+use crate::estimate::searched::without_interval;
 use crate::parameter::covariance::Covariance;
 use stiction_parameters::{LawKind, Name, ParameterSet, Quantity, SteadyCurve};
 
@@ -14,7 +14,7 @@ impl StaticMap {
             if let Some((_, value)) = values.iter().find(|(name, _)| *name == parameter.name) {
                 parameter.value = *value;
             }
-            without_interval(parameter, NO_INTERVAL);
+            without_interval(parameter, false);
         }
         let named = out.parameters.iter().map(|p| (p.name, p.value));
         let curve = SteadyCurve::of(&ParameterSet::of(LawKind::Stribeck, named));

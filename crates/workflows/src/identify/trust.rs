@@ -17,7 +17,7 @@ use stiction_files::result::{Action, BetterLaw, CauseEntry, Compensation, LawEnt
 use stiction_files::symbols;
 use stiction_identify::procedure::StepFit;
 use stiction_identify::{Effect, Fit, FittedLaw, LawKind, Series, SimulationFit, Status, Unseen};
-use stiction_identify::{NO_INTERVAL, Parameter};
+use stiction_identify::{IntervalKind, Parameter};
 use stiction_log::Motion;
 use stiction_parameters::Quantity;
 use stiction_policy::{choice, interval};
@@ -383,7 +383,8 @@ pub(super) fn of_force(evidence: &Evidence, warnings: Vec<Warning>) -> Judged {
 /// The same with static parameters found first; `changed` where the motion has another steady friction than these.
 pub(super) fn of_two_steps(evidence: &Evidence, changed: bool, warnings: Vec<Warning>) -> Judged {
     let stiffness = evidence.law.parameter("sigma0");
-    let is_open = stiffness.is_some_and(|p| !p.identifiable && p.reason != NO_INTERVAL);
+    let is_open =
+        stiffness.is_some_and(|p| !p.identifiable && p.interval != IntervalKind::Searched);
     of_the_force(evidence, verdict::of_two_steps(changed, is_open), warnings)
 }
 
@@ -606,7 +607,11 @@ fn is_negative(law: &FittedLaw) -> bool {
 
 /// Whether a law comes from a search alone: how far it is off nothing says.
 fn lacks_intervals(law: &FittedLaw) -> bool {
-    law.status != Status::Interrupted && law.parameters.iter().any(|p| p.reason == NO_INTERVAL)
+    law.status != Status::Interrupted
+        && law
+            .parameters
+            .iter()
+            .any(|p| p.interval == IntervalKind::Searched)
 }
 
 /// Part of the samples with saturated force.
@@ -623,7 +628,7 @@ fn saturated(sources: &[Source]) -> f64 {
 /// Names each parameter that the data do not determine, what it is confused with, and the cure.
 fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warning>) {
     let unknown = || estimate.parameters.iter().filter(|p| !p.identifiable);
-    if unknown().any(|p| p.reason == NO_INTERVAL) {
+    if unknown().any(|p| p.interval == IntervalKind::Searched) {
         let text = "no parameter has an interval: least squares after the search were left out";
         warnings.push(Warning::new(Code::NotIdentifiable, text));
         return;
