@@ -1,6 +1,6 @@
 //! What to beware of in a result.
 
-use crate::{Effect, Found, Unplanned, Value};
+use crate::{Effect, Found, Reason, Unplanned, Value};
 use std::fmt;
 use stiction_codes::Code;
 use stiction_number::{Percent, counted, four_digits, full, quantity, short};
@@ -210,6 +210,14 @@ pub enum Notice {
     ComparisonStopped,
     /// A law with fewer parameters has a smaller held-out error.
     SimplerLaw { law: String, error: f64, own: f64 },
+    /// What speaks against a law and has a page of its own.
+    Against(Box<Reason>),
+    /// A search was not followed by least squares.
+    NoIntervals,
+    /// Parameters that the data do not determine: their names and why, those of one reason together; and what motion would.
+    Open { each: Vec<(Vec<String>, String)>, record: Vec<String> },
+    /// Elements whose sum alone is determined.
+    OpenElements { names: Vec<String> },
     /// A law with more parameters has a much smaller held-out error.
     RicherLaw { law: String, error: f64, own: f64 },
     /// Encoder, filters and noise bias parameters: each by its name, percent.
@@ -314,6 +322,10 @@ impl Notice {
             Self::CheckpointLost { .. } => Code::BadCheckpoint,
             Self::ComparisonStopped => Code::Interrupted,
             Self::SimplerLaw { .. } => Code::SimplerLawHoldsBetter,
+            Self::Against(reason) => reason.code(),
+            Self::NoIntervals | Self::Open { .. } | Self::OpenElements { .. } => {
+                Code::NotIdentifiable
+            }
             Self::RicherLaw { .. } => Code::RicherLawHoldsBetter,
             Self::Biased { .. } => Code::LargeShift,
             Self::StaticLawAtRest { .. } => Code::StaticLawAtRest,
@@ -410,6 +422,13 @@ impl fmt::Display for Notice {
             Self::DelayOfStep => f.write_str("the delay between force and position is at its search bound of two samples: it stands for something that the law does not describe, such as another force held before the step than that of the model"),
             Self::CheckpointLost { error } => write!(f, "the state of the search could not be kept: {error}"),
             Self::ComparisonStopped => f.write_str("the comparison of laws was interrupted and is left out; the fit is complete"),
+            Self::Against(reason) => reason.fmt(f),
+            Self::NoIntervals => f.write_str("no parameter has an interval: least squares after the search were left out"),
+            Self::Open { each, record } => {
+                let each = list(each, "; ", |(names, why)| format!("{}: {why}", names.join(", ")));
+                write!(f, "{each}{}", record.iter().map(|motion| format!(". {motion}")).collect::<String>())
+            }
+            Self::OpenElements { names } => write!(f, "{}: the data determine the sum of the elements, not each of them. Record slow reversals of several amplitudes, or ask for fewer elements ([terms] gms_elements)", names.join(", ")),
             Self::SimplerLaw { law, error: least, own } => write!(f, "the law {law} has a smaller held-out error ({}) than this law ({}): the richer law is not supported by this log", error(*least), error(*own)),
             Self::RicherLaw { law, error: least, own } => write!(f, "the law {law} has a much smaller held-out error ({}) than this law ({}): this law is too simple for the axis, its parameters are biased", error(*least), error(*own)),
             Self::Biased { parameters } => write!(f, "encoder steps, filters and noise bias {}: the bias is subtracted, but one of this size is known only roughly", list(parameters, ", ", |(name, percent)| format!("{name} {}", Percent::error(*percent).signed(0)))),

@@ -1,6 +1,7 @@
 //! Why a law should not be used for compensation.
 
 use std::fmt;
+use stiction_codes::Code;
 use stiction_number::{Percent, counted, short};
 
 /// The samples on which an error was measured.
@@ -108,6 +109,19 @@ pub enum Reason {
 
 fn percent(part: f64) -> String {
     Percent::error(100.0 * part).digits(2)
+}
+
+impl Reason {
+    /// The code of the warning that says the same.
+    pub fn code(&self) -> Code {
+        match self {
+            Self::NotConverged { .. } => Code::NotConverged,
+            Self::Interrupted => Code::Interrupted,
+            Self::OneDirection => Code::OneDirection,
+            Self::MixedSigns { .. } => Code::ForceSign,
+            _ => Code::PoorFit,
+        }
+    }
 }
 
 impl fmt::Display for Reason {

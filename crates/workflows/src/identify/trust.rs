@@ -356,21 +356,17 @@ fn stopped(law: &FittedLaw, mut warnings: Vec<Warning>) -> Judged {
 
 /// Warns of what a verdict says that has a code of its own.
 fn warn(against: &[Against], warnings: &mut Vec<Warning>) {
-    let codes = against.iter().filter_map(|own| {
-        let code = match own.reason {
-            Reason::NotConverged { .. } => Code::NotConverged,
-            Reason::Interrupted => Code::Interrupted,
-            Reason::PoorFit { .. } | Reason::PoorCurve { .. } => Code::PoorFit,
-            Reason::OneDirection => Code::OneDirection,
-            _ => return None,
-        };
-        Some(Warning::new(code, own.reason.to_string()))
-    });
-    for warning in codes {
+    for reason in against.iter().map(|own| &own.reason) {
         // A log that moves in one direction has said so itself.
-        let is_said = warnings.iter().any(|own| own.code == warning.code);
-        if !(is_said && warning.code == Code::OneDirection) {
-            warnings.push(warning);
+        let is_said = || warnings.iter().any(|own| own.code == Code::OneDirection);
+        let warns = match reason {
+            Reason::NotConverged { .. } | Reason::Interrupted => true,
+            Reason::PoorFit { .. } | Reason::PoorCurve { .. } => true,
+            Reason::OneDirection => !is_said(),
+            _ => false,
+        };
+        if warns {
+            warnings.push(Notice::Against(Box::new(reason.clone())).into());
         }
     }
 }
@@ -556,7 +552,8 @@ fn whole_record(
         // Those of logs that are not fitted stay.
         let own = log_warnings(evidence.sources);
         warnings.retain(|w| w.code != Code::ForceSign || !own.contains(w));
-        warnings.insert(0, Warning::new(Code::ForceSign, mixed.reason.to_string()));
+        let notice = Notice::Against(Box::new(mixed.reason.clone()));
+        warnings.insert(0, notice.into());
     }
     if let Some(stated) = evidence.contradicted {
         warnings.insert(0, stated.clone());
@@ -629,8 +626,7 @@ fn saturated(sources: &[Source]) -> f64 {
 fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warning>) {
     let unknown = || estimate.parameters.iter().filter(|p| !p.identifiable);
     if unknown().any(|p| p.interval == IntervalKind::Searched) {
-        let text = "no parameter has an interval: least squares after the search were left out";
-        warnings.push(Warning::new(Code::NotIdentifiable, text));
+        warnings.push(Notice::NoIntervals.into());
         return;
     }
     let of_an_element = |p: &&Parameter| p.name.quantity.is_of_an_element();
@@ -640,7 +636,7 @@ fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
         .collect();
     // Parameters that are open for one reason stand together.
     let mut each: Vec<(Vec<String>, String)> = Vec::new();
-    let mut advice: Vec<&str> = Vec::new();
+    let mut record: Vec<String> = Vec::new();
     for parameter in unknown().filter(|p| !of_an_element(p)) {
         let meaning = symbols::meaning_of(parameter.name, motion);
         let name = format!("{} ({meaning})", parameter.name);
@@ -658,29 +654,16 @@ fn unidentifiable(estimate: &FittedLaw, motion: Motion, warnings: &mut Vec<Warni
             None => each.push((vec![name], reason)),
         }
         // Several parameters may be determined by one motion.
-        let own = parameter.advice.as_str();
-        if !own.is_empty() && !advice.contains(&own) {
-            advice.push(own);
+        let own = &parameter.advice;
+        if !own.is_empty() && !record.contains(own) {
+            record.push(own.clone());
         }
     }
     if !each.is_empty() {
-        let each = each.iter();
-        let each = each.map(|(names, reason)| format!("{}: {reason}", names.join(", ")));
-        let text = [each.collect::<Vec<_>>().join("; ")]
-            .into_iter()
-            .chain(advice.into_iter().map(String::from));
-        let text = text.collect::<Vec<_>>().join(". ");
-        warnings.push(Warning::new(Code::NotIdentifiable, text));
+        warnings.push(Notice::Open { each, record }.into());
     }
     if !elements.is_empty() {
-        warnings.push(Warning::new(
-            Code::NotIdentifiable,
-            format!(
-                "{}: the data determine the sum of the elements, not each of them. Record slow \
-                 reversals of several amplitudes, or ask for fewer elements ([terms] gms_elements)",
-                elements.join(", ")
-            ),
-        ));
+        warnings.push(Notice::OpenElements { names: elements }.into());
     }
 }
 
