@@ -5,7 +5,6 @@ use crate::{next, output};
 use std::io::Write;
 use std::path::Path;
 use stiction::Error;
-use stiction::commands::shell::text as path_text;
 use stiction::commands::{Runs, has_runs};
 
 /// Says how large the work is before it begins.
@@ -57,10 +56,6 @@ pub fn kept(runs: Runs, whole: bool) {
 
 /// Says how to go on with work that was stopped.
 pub fn how_to_resume() {
-    let arguments = std::env::args_os().skip(1);
-    let arguments = arguments.map(|a| path_text(Path::new(&a)));
-    let others = arguments.filter(|a| a != "--resume");
-    let all = others.chain(["--resume".into()]);
-    let command = stiction::commands::text::command(all);
+    let command = stiction::commands::text::command(next::resumed().into_iter());
     output::complain(&next::after("to go on where it was stopped:", &command));
 }

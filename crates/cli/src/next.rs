@@ -13,7 +13,7 @@ use stiction::commands::{
     FileError, LogError, Looks, Wording, check_apart, has_runs, is_regular, looks, text,
 };
 use stiction::result::Action;
-use stiction::{Code, Error, ModelFile};
+use stiction::{Axis, Code, Error, ModelFile};
 
 /// What is to be known or done first, on a line of its own, and a command alone behind `next:`, to be pasted as it stands.
 pub fn after(first: &str, command: &str) -> String {
@@ -40,7 +40,11 @@ pub fn of(error: &Error, command: &Command) -> Option<String> {
         }
         Error::Usage { found, allowed } => given.of_usage(found, allowed),
         Error::Checkpoint { file, .. } if is_regular(file) => {
-            Some(after("to begin anew:", &pasted(without("resume"))))
+            let anew = without("resume");
+            Some(match anew == words() {
+                true => next(&with_value("checkpoint", &path_text(&free_folder(file)))),
+                false => after("to begin anew:", &pasted(anew)),
+            })
         }
         Error::Checkpoint { file, .. } => shown(file),
         _ => None,
@@ -91,16 +95,16 @@ fn completed() -> Option<String> {
     if !(file.is_file() || typed.command == "batch" && file.is_dir()) {
         return None;
     }
-    let mut kept = words();
+    let mut more = Vec::new();
     let out = match typed.command.as_str() {
         "export" => {
             let model = ModelFile::read(&file).ok();
             let rate = model.and_then(|model| model.source.rate_hz);
             if let Some(rate) = rate.filter(|_| typed.values("cycle_time").is_empty()) {
-                kept.extend(["--cycle-time".into(), cycle_time(rate).to_string()]);
+                more.extend(["--cycle-time".into(), cycle_time(rate).to_string()]);
             }
             if typed.values("target").is_empty() {
-                kept.extend(["--target".into(), "c".into()]);
+                more.extend(["--target".into(), "c".into()]);
             }
             file.with_file_name("c")
         }
@@ -112,8 +116,9 @@ fn completed() -> Option<String> {
         false => out,
     };
     if typed.values("out").is_empty() {
-        kept.extend(["--out".into(), path_text(&free_folder(&out))]);
+        more.extend(["--out".into(), path_text(&free_folder(&out))]);
     }
+    let kept = with(more);
     is_read(&kept).then(|| pasted(kept))
 }
 
@@ -203,6 +208,7 @@ impl<'a> Given<'a> {
         });
         left_out
             .or_else(|| match self.command {
+                Command::Plan(own) if own.model.is_some() => Some(next(&pasted(without("model")))),
                 Command::Drift(drift) if !drift.limit.is_empty() => {
                     Some(next(&pasted(without("limit"))))
                 }
@@ -251,13 +257,17 @@ impl<'a> Given<'a> {
     /// What leads on where something cannot be written.
     fn of_output(&self, error: &FileError, path: &Path) -> Option<String> {
         if error.is_full_disk() {
-            let mut kept = words();
+            let out = match self.command {
+                Command::Batch(own) => Some(&own.out),
+                Command::Compare(own) => Some(&own.out),
+                Command::Simulate(own) => own.out.as_ref(),
+                _ => None,
+            };
             // What was done by then is kept in the folder.
-            let resume = "--resume".to_string();
-            let mut folders = path.ancestors().filter(|dir| !dir.as_os_str().is_empty());
-            if folders.any(has_runs) && !kept.contains(&resume) {
-                kept.push(resume);
-            }
+            let kept = match out.is_some_and(|out| has_runs(out)) {
+                true => resumed(),
+                false => words(),
+            };
             return Some(after("make room on the disk, then", &pasted(kept)));
         }
         match self.command {
@@ -340,7 +350,9 @@ impl<'a> Given<'a> {
                 &begun(self.logs.first()?),
             ));
         }
-        if matches!(self.command, Command::Identify(own) if own.plan.as_deref() == Some(file)) {
+        if file.exists()
+            && matches!(self.command, Command::Identify(own) if own.plan.as_deref() == Some(file))
+        {
             return Some(next(&pasted(without("plan"))));
         }
         if !file.is_dir() {
@@ -356,7 +368,7 @@ impl<'a> Given<'a> {
         let of = |wanted: Looks| files.iter().find(|file| looks(file) == Some(wanted));
         let wanted = match self.command {
             Command::Simulate(_) => of(Looks::Study),
-            Command::Plan(_) => of(Looks::Axis),
+            Command::Plan(own) if own.axis == file => of(Looks::Axis),
             Command::Export(_) => of(Looks::Model),
             _ => None,
         };
@@ -366,8 +378,13 @@ impl<'a> Given<'a> {
         if let Some(use_of) = of(Looks::Model).and_then(|model| self.use_of(model)) {
             return Some(next(&use_of));
         }
-        if of(Looks::Log).is_some() {
-            let axis = self.axis.map_or(String::new(), |axis| {
+        // A batch leaves out what an earlier command has written.
+        let is_written = ["result.json", "batch.json", "study.json", "drift.json"]
+            .iter()
+            .any(|name| file.join(name).is_file());
+        if !is_written && of(Looks::Log).is_some() {
+            let axis = self.axis.filter(|axis| *axis != file);
+            let axis = axis.map_or(String::new(), |axis| {
                 format!(" --axis {}", quoted_path(axis))
             });
             let out = quoted_path(&free_folder(&match file.file_name() {
@@ -387,13 +404,13 @@ impl<'a> Given<'a> {
     /// The command that a file is good for.
     fn use_of(&self, file: &Path) -> Option<String> {
         let path = quoted_path(file);
-        let beside = |name: &str| quoted_path(&file.with_file_name(name));
         Some(match (looks(file)?, self.command) {
             (Looks::Log, Command::Plan(_)) => begun(file),
             (Looks::Log, Command::Drift(_)) => {
+                let out = free_folder(&file.with_file_name("batch"));
                 format!(
                     "stiction batch {path} --law lugre --out {}",
-                    beside("batch")
+                    quoted_path(&out)
                 )
             }
             (Looks::Log, _) => {
@@ -415,8 +432,15 @@ impl<'a> Given<'a> {
                 let model = file.with_file_name("model.toml");
                 return (looks(&model)? == Looks::Model).then(|| self.use_of(&model))?;
             }
-            (Looks::Study, _) => format!("stiction simulate {path} --out {}", beside("study")),
-            (Looks::Axis, _) => format!("stiction check --axis {path}"),
+            (Looks::Study, _) => {
+                let out = free_folder(&file.with_file_name("study"));
+                format!("stiction simulate {path} --out {}", quoted_path(&out))
+            }
+            (Looks::Axis, _) => {
+                let lists = Axis::read(file).is_ok_and(|axis| !axis.logs.is_empty());
+                let log = if lists { "" } else { "log.csv " };
+                format!("stiction check {log}--axis {path}")
+            }
             (Looks::Plan, _) => return None,
         })
     }
@@ -510,13 +534,19 @@ fn again() -> String {
 
 /// The command that was typed, with another path in place of one.
 pub fn in_place_of(file: &Path, instead: &Path) -> String {
-    let words = words()
-        .into_iter()
-        .map(|word| match Path::new(&word) == file {
-            true => path_text(instead),
-            false => word,
-        });
-    text::command(words)
+    let mut words = words();
+    let joined = |word: &String| {
+        let value = word.split_once('=').map(|(_, value)| value);
+        word.starts_with("--") && value.is_some_and(|value| Path::new(value) == file)
+    };
+    // A name may stand for something else too: the first is the file.
+    if let Some(own) = words.iter_mut().find(|word| Path::new(word) == file) {
+        *own = path_text(instead);
+    } else if let Some(own) = words.iter_mut().find(|word| joined(word)) {
+        let name = own.split('=').next().unwrap_or_default();
+        *own = format!("{name}={}", path_text(instead));
+    }
+    pasted(words)
 }
 
 /// The command that was typed, with another value of an option; added where it was not typed.
@@ -535,10 +565,27 @@ pub fn with_value(option: &str, value: &str) -> String {
             is_typed = true;
         }
     }
-    if !is_typed {
-        words.extend([format!("--{option}"), value.into()]);
+    match is_typed {
+        true => pasted(words),
+        false => pasted(with([format!("--{option}"), value.into()])),
     }
-    pasted(words)
+}
+
+/// What was typed with more words, before those that no option may follow.
+fn with(more: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut words = words();
+    let end = words.iter().position(|word| word == "--");
+    let at = end.unwrap_or(words.len());
+    words.splice(at..at, more);
+    words
+}
+
+/// What was typed, to go on with what an earlier call has done.
+pub fn resumed() -> Vec<String> {
+    match words().iter().any(|word| word == "--resume") {
+        true => words(),
+        false => with(["--resume".into()]),
+    }
 }
 
 /// What was typed without an option and its values.

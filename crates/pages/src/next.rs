@@ -75,6 +75,14 @@ impl Line {
     }
 }
 
+/// Where a command writes: into the folder of this name, or one beside it that is free.
+pub(crate) type Place = fn(&str) -> PathBuf;
+
+/// A folder that is free, so that a command that is pasted replaces nothing.
+pub(crate) fn free(name: &str) -> PathBuf {
+    free_folder(Path::new(name))
+}
+
 /// What leads on from a result.
 pub(crate) struct Steps {
     /// What to do.
@@ -84,16 +92,16 @@ pub(crate) struct Steps {
 }
 
 /// What leads on from the result in a folder: what the cause of the error, or a better law, asks for before what the verdict does.
-pub(crate) fn steps(result: &ResultFile, dir: &Path) -> Steps {
+pub(crate) fn steps(result: &ResultFile, dir: &Path, place: Place) -> Steps {
     let step = |what: String, action: &Action| Step {
         action: action.clone(),
         what,
         line: line(action, result),
-        command: command(action, result, dir),
+        command: command(action, result, dir, place),
     };
     let trust = &result.trust;
     let own = || step(why(&trust.next).into(), &trust.next);
-    let (first, ends) = if let Some(what) = tried(result, dir) {
+    let (first, ends) = if let Some(what) = tried(result, dir, place) {
         (Some(step(what, &trust.next)), true)
     } else if let Some(better) = &trust.better {
         let what = format!("the law {} has a smaller held-out error", better.law);
@@ -138,7 +146,7 @@ const PITCHES: [&str; 2] = ["cogging", "coulomb_pitch"];
 
 /// Where elements were asked for and one bristle predicts better: what the shape of one bristle leads to is then no better than it, and
 /// a command that leads back would go round in a circle.
-fn tried(result: &ResultFile, dir: &Path) -> Option<String> {
+fn tried(result: &ResultFile, dir: &Path, place: Place) -> Option<String> {
     let better = result.trust.better.as_ref()?;
     let [own, other] = [&result.law, &better.law].map(|name| LawKind::from_name(name));
     if !result.trust.trustworthy || !own?.has_elements() || other?.has_elements() {
@@ -152,7 +160,7 @@ fn tried(result: &ResultFile, dir: &Path) -> Option<String> {
     let mine = error(&result.law, result.asymmetric)?;
     let least = error(&better.law, better.asymmetric)?;
     let (own, other) = (&result.law, &better.law);
-    let back = command(&of_law(better), result, dir);
+    let back = command(&of_law(better), result, dir, place);
     Some(format!(
         "{own} has a larger held-out error than {other} ({mine} against {least}). Both are tried and neither has the shape of this friction: \
          compensate with the result of {other} (without one: {back}), and look for the rest in the drive train, in the time stamps or in \
@@ -231,7 +239,7 @@ fn law_option(law: &str, asymmetric: bool) -> String {
 }
 
 /// The command of an action on the result in a folder.
-pub(crate) fn command(action: &Action, result: &ResultFile, dir: &Path) -> String {
+pub(crate) fn command(action: &Action, result: &ResultFile, dir: &Path, place: Place) -> String {
     // Without a slash or a dot at its end, to which a suffix would be added.
     let dir: &Path = &dir.components().collect::<PathBuf>();
     let own = logs(result);
@@ -245,14 +253,14 @@ pub(crate) fn command(action: &Action, result: &ResultFile, dir: &Path) -> Strin
         "separable" => law,
         other => format!("{law} --method {other}"),
     };
-    let into = |suffix: &str| quoted(&format!("{}-{suffix}", text(dir)));
+    let into = |suffix: &str| quoted_path(&place(&format!("{}-{suffix}", text(dir))));
     let identify = |logs: &str, axis: &str, how: &str, out: &str| {
         format!("stiction identify{logs}{axis}{how} --out {out}")
     };
     match action {
         Action::Export => {
             let model = quoted_path(&dir.join("model.toml"));
-            let code = quoted_path(&free_folder(&dir.join("c")));
+            let code = quoted_path(&place(&text(&dir.join("c"))));
             let cycle = cycle_option(result.rate_hz());
             format!("stiction export {model} --target c{cycle} --out {code}")
         }

@@ -288,7 +288,7 @@ fn next_step(result: &ResultFile, folder: &Path) -> Text {
     if matches!(next, Action::Again | Action::Finish) {
         return format!("Next: {}.", next::why(next)).into();
     }
-    let next::Steps { first, or } = next::steps(result, folder);
+    let next::Steps { first, or } = next::steps(result, folder, |name| name.into());
     let said = |step: next::Step| {
         let line = step.line.as_ref().map_or(String::new(), |line| {
             format!(": {}", line.text.replace('\n', " and "))
@@ -297,7 +297,7 @@ fn next_step(result: &ResultFile, folder: &Path) -> Text {
         let (there, command) = match step.action {
             Action::Export => (
                 "In the folder of this report",
-                next::command(&Action::Export, result, Path::new("")),
+                next::command(&Action::Export, result, Path::new(""), |name| name.into()),
             ),
             _ => ("In the folder it was identified in", step.command),
         };
@@ -368,7 +368,7 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
         .count();
     out.push(
         KeyFigure::new("Identifiable", format!("{known} of {total}"), "")
-            .note("95 % interval of another day within ±20 %"),
+            .note("interval of another day within ±20 % of the value, of levels within ±20 % of the Coulomb level"),
     );
     out
 }

@@ -271,7 +271,7 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
              the axis file{how}, identify writes one"
         );
     }
-    let next::Steps { first, or } = next::steps(result, dir);
+    let next::Steps { first, or } = next::steps(result, dir, next::free);
     let _ = writeln!(out, "{}", first.what);
     if let Some(line) = first.line {
         out.push_str(&written(&line));
@@ -292,7 +292,7 @@ pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
 
 /// The same in short: the line to write and the command to type.
 pub fn next_in_short(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
-    let next::Steps { first, or } = next::steps(result, dir);
+    let next::Steps { first, or } = next::steps(result, dir, next::free);
     let uses = result.trust.next == Action::Export && first.line.is_none() && or.is_none();
     let simulate = study.filter(|_| uses).map_or(String::new(), |study| {
         format!("to simulate it first: {}\n", next::simulate(study, dir))

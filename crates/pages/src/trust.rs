@@ -88,7 +88,7 @@ pub(crate) fn constants(result: &ResultFile, called: impl Fn(&str) -> String) ->
     };
     let mixed = match mixed_offset(result) {
         true => format!(
-            "; {} counts half of what friction differs between the directions too",
+            "; {} cannot be told from a difference of friction between the two directions",
             called("offset")
         ),
         false => String::new(),

@@ -214,6 +214,8 @@ pub enum Notice {
     Against(Box<Reason>),
     /// A search was not followed by least squares.
     NoIntervals,
+    /// The map of the level that the axis file asks for has no part that the log supports.
+    NoMap,
     /// Parameters that the data do not determine: their names and why, those of one reason together; and what motion would.
     Open { each: Vec<(Vec<String>, String)>, record: Vec<String> },
     /// Elements whose sum alone is determined.
@@ -323,6 +325,7 @@ impl Notice {
             Self::ComparisonStopped => Code::Interrupted,
             Self::SimplerLaw { .. } => Code::SimplerLawHoldsBetter,
             Self::Against(reason) => reason.code(),
+            Self::NoMap => Code::PositionDependence,
             Self::NoIntervals | Self::Open { .. } | Self::OpenElements { .. } => {
                 Code::NotIdentifiable
             }
@@ -423,6 +426,7 @@ impl fmt::Display for Notice {
             Self::CheckpointLost { error } => write!(f, "the state of the search could not be kept: {error}"),
             Self::ComparisonStopped => f.write_str("the comparison of laws was interrupted and is left out; the fit is complete"),
             Self::Against(reason) => reason.fmt(f),
+            Self::NoMap => f.write_str("coulomb_position = \"map\" has no effect: the log supports no map, and the level is fitted as a constant"),
             Self::NoIntervals => f.write_str("no parameter has an interval: least squares after the search were left out"),
             Self::Open { each, record } => {
                 let each = list(each, "; ", |(names, why)| format!("{}: {why}", names.join(", ")));

@@ -384,7 +384,8 @@ fn verdicts(outcome: &Outcome) -> Vec<ParameterCheck> {
                 false => p.reason.clone(),
                 // Beside one level for both directions.
                 true if p.name == "offset" && outcome.result.trust.trustworthy => {
-                    "it counts half of what friction differs between the directions too".into()
+                    "it cannot be told from a difference of friction between the two directions"
+                        .into()
                 }
                 true => "the law explains too little of the force".into(),
             },

@@ -52,7 +52,7 @@ interface Result extends Origin {
 }
 
 /** What the law leaves, and what takes it into the fit: a line of the axis file or another law. */
-interface Cause { text: string; size: string; cure?: { line?: { table: string; line: string }; law?: { law: string } } | null }
+interface Cause { text: string; size: string; cure?: { line?: { table: string; line: string } | string; table?: string; law?: { law: string } | string } | null }
 
 /** What is drawn of a fit: the stretch about its slowest reversal, and what is force over position and over velocity in it. */
 interface Drawable { from: number | null; to: number | null; channels: Channel[]; turn: Stretch | null; loop: Pairs | null; curve: Pairs | null }
@@ -319,10 +319,18 @@ function banner(own: Result): HTMLElement {
     "div",
     { class: `banner ${cause ? "warn" : "good"}` },
     h("strong", {}, "May be used for compensation", cause ? `, though ${cause.text}` : ""),
-    cause ? h("p", {}, `That is ${cause.size}.`, cure?.line ? ` Write ${cure.line.line} under [${cure.line.table}] in the axis file and identify again.` : cure?.law ? ` Try the law ${cure.law.law}.` : "") : null,
+    cause ? h("p", {}, `That is ${cause.size}.`, cured(cure)) : null,
     compensation ? h("p", {}, `It leaves ${short(compensation.friction_left_percent)} % of the friction on ${on}.`) : null,
     constants.length ? null : h("p", {}, "The log leaves every parameter open: none is a constant of the machine."),
   );
+}
+
+/// What a cure asks for, also as results of earlier versions state it.
+function cured(cure: Cause["cure"]): string {
+  const line = typeof cure?.line === "string" ? { table: cure.table, line: cure.line } : cure?.line;
+  if (line) return ` Write ${line.line} under [${line.table}] in the axis file and identify again.`;
+  const law = typeof cure?.law === "string" ? cure.law : cure?.law?.law;
+  return law ? ` Try the law ${law}.` : "";
 }
 
 const JUDGED_ON: Record<string, string> = {
@@ -334,7 +342,7 @@ const JUDGED_ON: Record<string, string> = {
 function next(own: Result, result: string): HTMLElement[] {
   const go = (view: "study" | "export" | "plan" | "log", label: string, primary = true) => h("button", { class: primary ? "primary" : "", onclick: () => choose({ view, result }) }, label);
   const action = own.trust.next;
-  switch (typeof action === "string" ? action : Object.keys(action)[0]) {
+  switch (typeof action === "string" ? action : Object.keys(action ?? {})[0]) {
     case "export":
       return [go("study", "Try compensation →"), go("export", "Take the code →", false)];
     case "check":

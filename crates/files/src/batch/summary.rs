@@ -73,7 +73,9 @@ impl BatchFile {
 
     /// The options that are not the defaults, as they are typed.
     fn settings(&self, wanted: impl Fn(&str) -> bool) -> String {
-        let wanted = |(name, _): &(&String, &String)| wanted(name);
+        // The file may be anyone's: no other word of it becomes part of a command.
+        let wanted =
+            |(name, _): &(&String, &String)| OPTIONS.contains(&name.as_str()) && wanted(name);
         let typed = |(name, value): (&String, &String)| match (name.as_str(), value.as_str()) {
             ("law", "auto") | ("method", "separable") | ("seed", "0") | (_, "false") => {
                 String::new()
@@ -84,6 +86,17 @@ impl BatchFile {
         self.options.iter().filter(wanted).map(typed).collect()
     }
 }
+
+/// Options of a batch that its command is given again with.
+const OPTIONS: [&str; 7] = [
+    "asymmetric",
+    "axis",
+    "law",
+    "method",
+    "reports",
+    "seed",
+    "split",
+];
 
 /// One log of a batch.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -72,3 +72,66 @@ impl Action {
         line.split(' ').next().unwrap_or_default()
     }
 }
+
+/// Reads an action, also as it was written before it had data: a name alone, a line or a law.
+pub(super) fn read<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Action, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Form {
+        Whole(Action),
+        Line {
+            table: String,
+            line: String,
+            #[serde(default)]
+            replaces: bool,
+        },
+        Law {
+            law: String,
+            #[serde(default)]
+            asymmetric: bool,
+        },
+        Name(String),
+    }
+    Ok(match Form::deserialize(from)? {
+        Form::Whole(action) => action,
+        Form::Line {
+            table,
+            line,
+            replaces,
+        } => Action::Line {
+            table,
+            line,
+            replaces,
+        },
+        Form::Law { law, asymmetric } => Action::Law { law, asymmetric },
+        Form::Name(name) if name.starts_with("check") => Action::CHECK,
+        Form::Name(_) => Action::LetTheDataChoose,
+    })
+}
+
+/// The same where there may be none.
+pub(super) fn read_some<'de, D: serde::Deserializer<'de>>(
+    from: D,
+) -> Result<Option<Action>, D::Error> {
+    read(from).map(Some)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Action, read};
+
+    #[test]
+    fn what_earlier_versions_wrote_is_read() {
+        let of = |text: &str| read(&mut serde_json::Deserializer::from_str(text)).unwrap();
+        assert_eq!(of("\"check\""), Action::CHECK);
+        assert_eq!(of("\"another-law\""), Action::LetTheDataChoose);
+        assert_eq!(of("\"export\""), Action::Export);
+        let line = of(r#"{"table": "terms", "line": "gravity = true"}"#);
+        assert!(matches!(&line, Action::Line { table, .. } if table == "terms"));
+        assert!(matches!(of(r#"{"law": "gms"}"#), Action::Law { .. }));
+        for action in [Action::CHECK, Action::IDENTIFY, line, Action::Again] {
+            let text = serde_json::to_string(&action).unwrap();
+            assert_eq!(of(&text), action);
+        }
+    }
+}

@@ -28,7 +28,7 @@ pub struct Trust {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub better: Option<BetterLaw>,
     /// What to do next.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "super::action::read")]
     pub next: Action,
 }
 
@@ -51,7 +51,11 @@ pub struct CauseEntry {
     /// How much it is.
     pub size: String,
     /// What takes it into the fit; absent where neither a line of the axis file nor another law does.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "super::action::read_some"
+    )]
     pub cure: Option<Action>,
 }
 

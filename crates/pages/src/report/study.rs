@@ -192,14 +192,14 @@ fn verdict(file: &StudyFile) -> Callout {
         (Severity::Warning, text + " Marked in the tables.")
     } else if file.warnings.iter().any(is_misleading) {
         let text = format!(
-            "{} runs. No compensator made the error that counts larger, but some figures are misleading: \
+            "{} runs. With the nominal parameters no compensator made the error larger, but some figures are misleading: \
              see the warnings.",
             number::count(runs as u64)
         );
         (Severity::Warning, text)
     } else {
         let text = format!(
-            "{} runs. No compensator made the error that counts larger.",
+            "{} runs. With the nominal parameters no compensator made the error larger.",
             number::count(runs as u64)
         );
         (Severity::Good, text)

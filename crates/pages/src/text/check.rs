@@ -77,7 +77,7 @@ fn tracking(change: &TrackingChange, kind: &str) -> String {
     ]);
     for (name, a, b) in [
         (
-            "  largest peak at one",
+            "  largest peak at a reversal",
             before.largest_peak(),
             after.largest_peak(),
         ),
@@ -349,7 +349,9 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
         format!("stiction check {path}{with} --init {new}")
     };
     if !log.input.assumed.is_empty() {
-        out.push("to write down the units that were assumed, and correct them there:".into());
+        out.push(
+            "optional: an axis file with the units that were assumed, to correct them:".into(),
+        );
         out.push(format!("  {}", init()));
     }
     let identify = |how: &str| format!("stiction identify {path}{how} --out result");
@@ -382,7 +384,7 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
             identify(&format!(" --axis {}", line.file))
         }
         Action::AxisFile if axis.is_none() => {
-            out.push("to correct what is said above in it:".into());
+            out.push("write an axis file, and correct what is said above in it:".into());
             init()
         }
         Action::AxisFile => {
@@ -391,7 +393,7 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
         }
         Action::Simulate => {
             out.push(format!(
-                "where a fit by simulation is refused too, record what is named above as {ANOTHER_LOG}, then"
+                "if that fails too, record a new log, with reversals at several speeds, as {ANOTHER_LOG}, then"
             ));
             out.push(format!(
                 "  stiction identify {ANOTHER_LOG}{with} --out another"

@@ -576,6 +576,9 @@ fn whole_record(
         false => warnings.len(),
     };
     warnings.splice(place..place, causes);
+    if law.terms.map().is_some_and(|map| map.terms == 0) {
+        warnings.push(Notice::NoMap.into());
+    }
     shifted(law, warnings);
     static_at_rest(law, evidence.motion, warnings);
     unidentifiable(law, evidence.motion, warnings);

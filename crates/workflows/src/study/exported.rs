@@ -76,14 +76,10 @@ impl ExportedC {
             false => quoted(&format!("{}-new", name.trim_end_matches('/'))),
         };
         let again = into(&format!(" --out {beside}"));
-        let export = match is_other {
-            true => again.clone(),
-            false => into(&format!(" --force --out {}", quoted(&name))),
-        };
         let source = Source::find(folder).map_err(|found| {
             refuse(
                 format!("--exported-c {name}: {found}"),
-                format!("a folder that this wrote: {}", export),
+                format!("a folder that this wrote: {again}"),
             )
         })?;
         let failed = |found: String| {
@@ -103,7 +99,7 @@ impl ExportedC {
                     shortest(settled.cycle_time),
                     four_digits(study.machine.rate)
                 ),
-                format!("the same: {export}{}", fed(options.feedforward)),
+                format!("the same: {again}{}", fed(options.feedforward)),
             ));
         }
         // A ramp of years would be waited for.
