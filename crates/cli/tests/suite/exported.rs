@@ -172,7 +172,7 @@ fn what_cannot_be_run_is_refused() {
     let folder = desk(&lugre(), &[]);
     let at = folder.path();
     std::fs::create_dir(at.join("empty")).unwrap();
-    let export = "stiction export model.toml --target c --cycle-time 0.0005 --force --out empty";
+    let export = "stiction export model.toml --target c --cycle-time 0.0005 --out empty-new";
     let simulate = |dir: &str| {
         let arguments = [
             "simulate",

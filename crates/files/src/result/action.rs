@@ -115,23 +115,3 @@ pub(super) fn read_some<'de, D: serde::Deserializer<'de>>(
 ) -> Result<Option<Action>, D::Error> {
     read(from).map(Some)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Action, read};
-
-    #[test]
-    fn what_earlier_versions_wrote_is_read() {
-        let of = |text: &str| read(&mut serde_json::Deserializer::from_str(text)).unwrap();
-        assert_eq!(of("\"check\""), Action::CHECK);
-        assert_eq!(of("\"another-law\""), Action::LetTheDataChoose);
-        assert_eq!(of("\"export\""), Action::Export);
-        let line = of(r#"{"table": "terms", "line": "gravity = true"}"#);
-        assert!(matches!(&line, Action::Line { table, .. } if table == "terms"));
-        assert!(matches!(of(r#"{"law": "gms"}"#), Action::Law { .. }));
-        for action in [Action::CHECK, Action::IDENTIFY, line, Action::Again] {
-            let text = serde_json::to_string(&action).unwrap();
-            assert_eq!(of(&text), action);
-        }
-    }
-}

@@ -762,3 +762,27 @@ fn a_split_is_one_of_the_samples_that_count() {
     );
     whole(&outcome);
 }
+
+/// Results of earlier versions, whose next step was a name and whose cure was a line or a law alone.
+#[test]
+fn actions_of_earlier_results_are_read() {
+    use stiction::result::{Action, Trust};
+    let trust = |next: &str, cure: &str| -> Trust {
+        let text = format!(
+            r#"{{"trustworthy": true, "reasons": [], "next": {next}, "cause": {{"code": "law-shape", "text": "", "size": "", "cure": {cure}}}}}"#
+        );
+        serde_json::from_str(&text).unwrap()
+    };
+    let line = r#"{"table": "terms", "line": "gravity = true"}"#;
+    let old = trust("\"check\"", line);
+    assert_eq!(old.next, Action::CHECK);
+    let cure = old.cause.clone().and_then(|cause| cause.cure);
+    assert!(matches!(cure, Some(Action::Line { table, .. }) if table == "terms"));
+    assert_eq!(trust("\"export\"", line).next, Action::Export);
+    let law = trust("\"another-law\"", r#"{"law": "gms"}"#);
+    assert_eq!(law.next, Action::LetTheDataChoose);
+    let cure = law.cause.and_then(|cause| cause.cure);
+    assert!(matches!(cure, Some(Action::Law { law, .. }) if law == "gms"));
+    let text = serde_json::to_string(&old).unwrap();
+    assert_eq!(serde_json::from_str::<Trust>(&text).unwrap(), old);
+}
