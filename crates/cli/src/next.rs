@@ -10,10 +10,11 @@ use stiction::commands::shell::{
     cycle_option, cycle_time, free_folder, new_axis_file, quoted_path, text as path_text,
 };
 use stiction::commands::{
-    FileError, LogError, Looks, Wording, check_apart, has_runs, is_regular, looks, text,
+    FileError, LogError, LogKind as Kind, Looks, Wording, check_apart, has_runs, is_regular, looks,
+    text,
 };
 use stiction::result::Action;
-use stiction::{Axis, Code, Error, ModelFile};
+use stiction::{Axis, Error, ModelFile};
 
 /// What is to be known or done first, on a line of its own, and a command alone behind `next:`, to be pasted as it stands.
 pub fn after(first: &str, command: &str) -> String {
@@ -297,14 +298,10 @@ impl<'a> Given<'a> {
         if !is_regular(file) {
             return self.of_other(file);
         }
-        let code = e.kind.code();
-        let unclear = [
-            Code::LogMissing,
-            Code::LogAmbiguous,
-            Code::LogUnit,
-            Code::LogTime,
-            Code::LogValue,
-        ];
+        let is_unclear = matches!(
+            e.kind,
+            Kind::Missing | Kind::Ambiguous | Kind::Unit | Kind::Time | Kind::Value
+        );
         if !self.logs.contains(&file) {
             return None;
         }
@@ -315,11 +312,11 @@ impl<'a> Given<'a> {
             let check = format!("stiction check {} --axis {axis}", quoted_path(file));
             return Some(after(&format!("with that line in {axis}:"), &check));
         }
-        if code == Code::LogFormat || e.place.row.is_some() && code != Code::LogLimit {
+        if e.kind == Kind::Format || e.place.row.is_some() && e.kind != Kind::Limit {
             return Some(after("correct the file, then", &again()));
         }
         match self.axis {
-            _ if !unclear.contains(&code) => None,
+            _ if !is_unclear => None,
             Some(axis) => Some(after(
                 &format!("with what is said above in {}:", quoted_path(axis)),
                 &again(),

@@ -7,7 +7,7 @@ use stiction_testkit::worlds::{Machine, Motion, World, record};
 use stiction_testkit::{DEFAULT_RUNS, gate, recordings};
 
 /// Commands after the first one that may lead to the end.
-const MOST_STEPS: usize = 4;
+const MOST_STEPS: usize = 3;
 
 fn run(dir: &Path, command: &str) -> (i32, String) {
     let output = Command::new(env!("CARGO_BIN_EXE_stiction"))

@@ -104,8 +104,12 @@ pub(super) fn read<'de, D: serde::Deserializer<'de>>(from: D) -> Result<Action, 
             replaces,
         },
         Form::Law { law, asymmetric } => Action::Law { law, asymmetric },
-        Form::Name(name) if name.starts_with("check") => Action::CHECK,
-        Form::Name(_) => Action::LetTheDataChoose,
+        Form::Name(name) => match name.as_str() {
+            "check" | "check-the-other" => Action::CHECK,
+            "identify-the-other" => Action::IDENTIFY,
+            "another-law" => Action::LetTheDataChoose,
+            _ => return Err(serde::de::Error::custom("an action")),
+        },
     })
 }
 

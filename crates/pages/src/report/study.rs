@@ -192,14 +192,14 @@ fn verdict(file: &StudyFile) -> Callout {
         (Severity::Warning, text + " Marked in the tables.")
     } else if file.warnings.iter().any(is_misleading) {
         let text = format!(
-            "{} runs. With the nominal parameters no compensator made the error larger, but some figures are misleading: \
+            "{} runs. In no row of the tables did a compensator make the error larger, but some figures are misleading: \
              see the warnings.",
             number::count(runs as u64)
         );
         (Severity::Warning, text)
     } else {
         let text = format!(
-            "{} runs. With the nominal parameters no compensator made the error larger.",
+            "{} runs. In no row of the tables did a compensator make the error larger.",
             number::count(runs as u64)
         );
         (Severity::Good, text)

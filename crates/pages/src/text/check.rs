@@ -268,9 +268,11 @@ fn log_check(log: &LogCheck, axis: Option<&Path>) -> String {
     if let Some(refused) = &log.refused {
         let _ = writeln!(out, "  cannot be trusted: {refused}");
     }
-    for line in next(log, axis) {
+    let (lines, command) = next(log, axis);
+    for line in lines {
         let _ = writeln!(out, "  {line}");
     }
+    let _ = writeln!(out, "  next: {command}");
     out
 }
 
@@ -335,8 +337,8 @@ fn shows(log: &LogCheck) -> String {
     out
 }
 
-/// What to type next.
-fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
+/// What to do next, and the command to type then.
+fn next(log: &LogCheck, axis: Option<&Path>) -> (Vec<String>, String) {
     let path = quoted(&log.input.path);
     let mut out = Vec::new();
     let with = axis.map_or(String::new(), |file| {
@@ -409,6 +411,5 @@ fn next(log: &LogCheck, axis: Option<&Path>) -> Vec<String> {
         }
         _ => identify(&with),
     };
-    out.push(format!("next: {command}"));
-    out
+    (out, command)
 }

@@ -45,9 +45,11 @@ fn one(log: &LogCheck, axis: Option<&Path>) -> String {
     out.push_str(&findings(&log.findings));
     out.push_str(&parameters(log));
     out.extend(refused(log));
-    for line in next(log, axis) {
+    let (lines, command) = next(log, axis);
+    for line in lines {
         let _ = writeln!(out, "{line}");
     }
+    let _ = writeln!(out, "next: {command}");
     out
 }
 

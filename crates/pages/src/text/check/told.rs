@@ -35,9 +35,7 @@ pub struct Row {
 
 /// What is told of a log that was read with this axis file.
 pub fn told(log: &LogCheck, axis: Option<&Path>) -> Told {
-    let mut next = next(log, axis);
-    let last = next.pop().unwrap_or_default();
-    let command = last.strip_prefix("next: ").unwrap_or(&last).into();
+    let (next, command) = next(log, axis);
     Told {
         rows: rows(log),
         next,
