@@ -8,6 +8,7 @@ use super::table::table;
 use crate::next::{ANOTHER_LOG, Line};
 pub use brief::check_in_short;
 pub use changed::{Changed, ChangedRow, changed};
+use changed::{micro, worst};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::result::Action;
@@ -52,127 +53,41 @@ fn silent(check: &Check) -> impl Iterator<Item = String> {
 /// What changed in how a reference is followed.
 fn tracking(change: &TrackingChange, kind: &str) -> String {
     let (before, after) = (&change.before, &change.after);
-    let unit = match kind {
-        "rotary" => "urad",
-        _ => "um",
-    };
-    let micro = |x: f64| format!("{} {unit}", short(1e6 * x));
+    let found = changed(change, kind);
     let mut out = format!(
         "following error of {}, against that of {}\n",
         after.log, before.log
     );
-    let mut rows = vec![vec![
-        String::new(),
-        "before".into(),
-        "after".into(),
-        String::new(),
-    ]];
-    let reversals = [before, after].map(|log| log.peaks.len().to_string());
-    let [a, b] = reversals;
-    rows.push(vec![
-        "  reversals of the reference".into(),
-        a,
-        b,
-        String::new(),
-    ]);
-    for (name, a, b) in [
-        (
-            "  largest peak at a reversal",
-            before.largest_peak(),
-            after.largest_peak(),
-        ),
-        ("  median peak", before.median_peak(), after.median_peak()),
-        ("  rms error of the motion", before.rms, after.rms),
-        ("  largest error", before.largest, after.largest),
-    ] {
-        let change = 100.0 * (b / a - 1.0);
-        let words = match change {
+    let [a, b] = [before, after].map(|log| log.peaks.len().to_string());
+    let mut rows = vec![
+        vec![
+            String::new(),
+            "before".into(),
+            "after".into(),
+            String::new(),
+        ],
+        vec!["  reversals of the reference".into(), a, b, String::new()],
+    ];
+    rows.extend(found.rows.iter().map(|row| {
+        let words = match row.change_percent {
             c if !c.is_finite() => String::new(),
             c if c < 0.0 => format!("{:.1} % less", -c),
             c => format!("{c:.1} % more"),
         };
-        rows.push(vec![name.into(), micro(a), micro(b), words]);
-    }
+        let [a, b] = [row.before, row.after].map(|x| micro(x, kind));
+        vec![format!("  {}", row.name), a, b, words]
+    }));
     out.push_str(&table(&rows, &[false, true, true]));
-    if let Some(rate) = change.thinned_to_hz {
-        let _ = writeln!(
-            out,
-            "  the rates differ, {} and {} Hz: peaks and largest error of the finer log are those at the rows that {} Hz show",
-            short(before.rate_hz),
-            short(after.rate_hz),
-            short(rate)
-        );
+    for note in &found.notes {
+        let _ = writeln!(out, "  {note}");
     }
-    for log in [before, after] {
-        if log.offset.abs() > log.largest {
-            let _ = writeln!(
-                out,
-                "  the errors of {} are without their median of {}: {}",
-                log.log,
-                micro(log.offset),
-                match turns(log.offset).filter(|_| kind == "rotary") {
-                    Some(turns) => format!(
-                        "{turns} between position and reference, of which one wraps; wrap = \"360 deg\" under [log] in the axis file puts both together"
-                    ),
-                    None => "an encoder whose zero is elsewhere".into(),
-                }
-            );
-        }
-        if log.left_out > 0 {
-            let _ = writeln!(
-                out,
-                "  {} of {} reversals of {} are left out: beside a gap, or in rows that are frozen or missing",
-                log.left_out,
-                log.left_out + log.peaks.len(),
-                log.log
-            );
-        }
-        if log.rows_left_out > 0 {
-            let _ = writeln!(
-                out,
-                "  {} of the motion of {} left out: frozen, or without a position or reference",
-                counted(log.rows_left_out, "row"),
-                log.log
-            );
-        }
-        if let Some(step) = log.step.filter(|step| *step > log.largest_peak()) {
-            let _ = writeln!(
-                out,
-                "  the encoder of {} has steps of {}, larger than its peaks: they limit what the figures show",
-                log.log,
-                micro(step)
-            );
-        }
-        if log.largest > 0.5 * log.range {
-            let _ = writeln!(
-                out,
-                "  the errors of {} are as large as its motion: look at sign and unit of the reference, and whether the position wraps (wrap under [log] in the axis file)",
-                log.log
-            );
-        }
-    }
-    if !change.differs.is_empty() {
-        let _ = writeln!(
-            out,
-            "  the motions differ ({}): the same program before and after shows what changed",
-            change.differs.join(", ")
-        );
-    }
-    match change.grown.first() {
-        Some((time, a, b)) => {
-            let _ = writeln!(
-                out,
-                "  worse at {} of {} reversals, most at {} s: {} before, {} after{}",
-                change.grown.len(),
-                after.peaks.len(),
-                short(*time),
-                micro(*a),
-                micro(*b),
-                match change.worse {
-                    true => "; exit code 1, since that is half of them or more",
-                    false => "",
-                }
-            );
+    let exit = match change.worse {
+        true => "; exit code 1, since that is half of them or more",
+        false => "",
+    };
+    match worst(change, kind) {
+        Some(worst) => {
+            let _ = writeln!(out, "  worse {worst}{exit}");
         }
         None if change.differs.is_empty() => out.push_str("  worse at no reversal\n"),
         None => {}

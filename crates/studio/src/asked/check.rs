@@ -64,7 +64,7 @@ impl Work for Check {
 /// What the page shows of a change.
 fn changed(change: &TrackingChange, kind: &str) -> Value {
     let unit = if kind == "rotary" { "rad" } else { "m" };
-    let told = text::changed(change, unit);
+    let told = text::changed(change, kind);
     let row = |row: &text::ChangedRow| {
         json!({
             "name": row.name,

@@ -1,7 +1,7 @@
 //! How the following of a reference changed between two logs, for whoever shows it with elements of its own.
 
-use stiction_files::shell::shown;
-use stiction_number::{counted, quantity, sig};
+use super::turns;
+use stiction_number::{counted, four_digits as short};
 use stiction_workflows::check::{Tracking, TrackingChange};
 
 /// What changed from one log to another.
@@ -30,8 +30,8 @@ pub struct ChangedRow {
     pub change_percent: f64,
 }
 
-/// What changed; `unit` is that of positions, m or rad.
-pub fn changed(change: &TrackingChange, unit: &str) -> Changed {
+/// What changed on a linear or rotary axis.
+pub fn changed(change: &TrackingChange, kind: &str) -> Changed {
     let (before, after) = (&change.before, &change.after);
     let row = |name, of: fn(&Tracking) -> f64| ChangedRow {
         name,
@@ -42,40 +42,32 @@ pub fn changed(change: &TrackingChange, unit: &str) -> Changed {
     let rows = vec![
         row("largest peak at a reversal", Tracking::largest_peak),
         row("median peak", Tracking::median_peak),
-        row("rms error", |log| log.rms),
+        row("rms error of the motion", |log| log.rms),
         row("largest error", |log| log.largest),
     ];
     let same = change.differs.is_empty();
     let reversals = counted(after.peaks.len(), "reversal");
-    let (verdict, good) = match change.grown.first() {
-        Some((time, a, b)) => (
-            format!(
-                "Worse at {} of {reversals}, most at {} s: {} before, {} after",
-                change.grown.len(),
-                sig(*time, 3),
-                quantity(*a, unit),
-                quantity(*b, unit)
-            ),
-            Some(false),
-        ),
+    let (verdict, good) = match worst(change, kind) {
+        Some(worst) => (format!("Worse {worst}"), Some(false)),
         None if same => (format!("Worse at none of {reversals}"), Some(true)),
         None => ("The motions differ".into(), None),
     };
     let mut notes = Vec::new();
-    if !same {
-        notes.push(format!(
-            "The motions differ in {}. Run the same program before and after to see what changed.",
-            change.differs.join(", ")
-        ));
-    }
     if let Some(rate) = change.thinned_to_hz {
         notes.push(format!(
-            "The sample rates differ: peaks of the finer log are taken at {} Hz.",
-            sig(rate, 3)
+            "the rates differ, {} and {} Hz: peaks and largest error of the finer log are those at the rows that {} Hz show",
+            short(before.rate_hz),
+            short(after.rate_hz),
+            short(rate)
         ));
     }
-    for log in [before, after] {
-        notes.extend(limits(log, unit));
+    notes.extend(limits(before, kind));
+    notes.extend(limits(after, kind));
+    if !same {
+        notes.push(format!(
+            "the motions differ ({}): the same program before and after shows what changed",
+            change.differs.join(", ")
+        ));
     }
     Changed {
         verdict,
@@ -85,37 +77,66 @@ pub fn changed(change: &TrackingChange, unit: &str) -> Changed {
     }
 }
 
+/// At how many reversals the error has grown, and where most; `None` where at none.
+pub(super) fn worst(change: &TrackingChange, kind: &str) -> Option<String> {
+    let (time, a, b) = change.grown.first()?;
+    let reversals = counted(change.after.peaks.len(), "reversal");
+    Some(format!(
+        "at {} of {reversals}, most at {} s: {} before, {} after",
+        change.grown.len(),
+        short(*time),
+        micro(*a, kind),
+        micro(*b, kind)
+    ))
+}
+
+/// An error in micrometres or microradians.
+pub(super) fn micro(x: f64, kind: &str) -> String {
+    let unit = match kind {
+        "rotary" => "urad",
+        _ => "um",
+    };
+    format!("{} {unit}", short(1e6 * x))
+}
+
 /// What limits the figures of a log.
-fn limits(log: &Tracking, unit: &str) -> Vec<String> {
-    let name = shown(&log.log);
+fn limits(own: &Tracking, kind: &str) -> Vec<String> {
+    let log = &own.log;
     let mut out = Vec::new();
-    if log.largest > 0.5 * log.range {
+    if own.offset.abs() > own.largest {
+        let why = match turns(own.offset).filter(|_| kind == "rotary") {
+            Some(turns) => format!(
+                "{turns} between position and reference, of which one wraps; wrap = \"360 deg\" under [log] in the axis file puts both together"
+            ),
+            None => "an encoder whose zero is elsewhere".into(),
+        };
+        let median = micro(own.offset, kind);
         out.push(format!(
-            "{name}: the error is as large as the motion. Check sign and unit of the reference, and whether the position wraps."
+            "the errors of {log} are without their median of {median}: {why}"
         ));
     }
-    if log.offset.abs() > log.largest {
+    if own.left_out > 0 {
         out.push(format!(
-            "{name}: errors are without a constant offset of {}.",
-            quantity(log.offset, unit)
+            "{} of {} reversals of {log} are left out: beside a gap, or in rows that are frozen or missing",
+            own.left_out,
+            own.left_out + own.peaks.len()
         ));
     }
-    if log.left_out > 0 {
+    if own.rows_left_out > 0 {
+        let rows = counted(own.rows_left_out, "row");
         out.push(format!(
-            "{name}: {} skipped, at a gap or in frozen or missing rows.",
-            counted(log.left_out, "reversal")
+            "{rows} of the motion of {log} left out: frozen, or without a position or reference"
         ));
     }
-    if log.rows_left_out > 0 {
+    if let Some(step) = own.step.filter(|step| *step > own.largest_peak()) {
+        let steps = micro(step, kind);
         out.push(format!(
-            "{name}: {} skipped, frozen or without position or reference.",
-            counted(log.rows_left_out, "row")
+            "the encoder of {log} has steps of {steps}, larger than its peaks: they limit what the figures show"
         ));
     }
-    if let Some(step) = log.step.filter(|step| *step > log.largest_peak()) {
+    if own.largest > 0.5 * own.range {
         out.push(format!(
-            "{name}: encoder steps of {} are larger than the peaks.",
-            quantity(step, unit)
+            "the errors of {log} are as large as its motion: look at sign and unit of the reference, and whether the position wraps (wrap under [log] in the axis file)"
         ));
     }
     out
