@@ -1,0 +1,7 @@
+//! Tests of the rigid-body dynamics.
+
+mod common;
+mod dynamics;
+mod hostile;
+mod pinocchio;
+mod urdf;
