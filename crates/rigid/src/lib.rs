@@ -23,9 +23,11 @@
 //!
 //! Parameters of a body are those of Pinocchio, about the origin of the joint's frame: see [`inertia`]. Units are SI.
 
+pub mod base;
 mod dynamics;
 mod error;
 pub mod inertia;
+mod random;
 mod regressor;
 mod robot;
 mod scalar;
@@ -33,6 +35,7 @@ mod space;
 mod symmetric;
 pub mod urdf;
 
+pub use base::{Base, Parameter, Scope};
 pub use dynamics::Workspace;
 pub use error::Error;
 pub use robot::{Body, Finding, Follows, GRAVITY, Joint, MOST_JOINTS, PlacedLink, Robot};

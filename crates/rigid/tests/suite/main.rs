@@ -1,5 +1,6 @@
 //! Tests of the rigid-body dynamics.
 
+mod base;
 mod common;
 mod dynamics;
 mod hostile;
