@@ -24,9 +24,12 @@
 //! Parameters of a body are those of Pinocchio, about the origin of the joint's frame: see [`inertia`]. Units are SI.
 
 pub mod base;
+pub mod consistency;
 mod dynamics;
 mod error;
 pub mod inertia;
+mod linear;
+mod projection;
 mod random;
 mod regressor;
 mod robot;
@@ -38,6 +41,7 @@ pub mod urdf;
 pub use base::{Base, Parameter, Scope};
 pub use dynamics::Workspace;
 pub use error::Error;
+pub use projection::{Projection, project};
 pub use robot::{Body, Finding, Follows, GRAVITY, Joint, MOST_JOINTS, PlacedLink, Robot};
 pub use space::Frame;
 pub use urdf::Document;

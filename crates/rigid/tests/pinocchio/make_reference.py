@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes what Pinocchio 4.1 computes for the robots beside this file, for tests/suite/pinocchio.rs. Run with it installed:
+"""Writes what Pinocchio 4.1 computes for the robots beside this file, for tests/suite/pinocchio.rs, and of log-Cholesky
+coordinates for tests/suite/consistency.rs. Run with it installed:
 
     python3 -m pip install pin==4.1.0
     python3 crates/rigid/tests/pinocchio/make_reference.py
@@ -56,3 +57,11 @@ for path in sorted(HERE.glob("*.urdf")):
             if name != "joints":
                 values = [repr(float(x)) for x in numpy.ravel(values)]
             print(name, *values, file=out)
+
+with open(HERE / "log_cholesky.txt", "w") as out:
+    rng = numpy.random.default_rng(6)
+    for _ in range(5):
+        theta = rng.uniform(-1.5, 1.5, 10)
+        coordinates = pinocchio.LogCholeskyParameters(theta)
+        for values in theta, coordinates.toDynamicParameters(), coordinates.calculateJacobian():
+            print(*(repr(float(x)) for x in numpy.ravel(values)), file=out)

@@ -2,6 +2,7 @@
 
 mod base;
 mod common;
+mod consistency;
 mod dynamics;
 mod hostile;
 mod pinocchio;
