@@ -169,7 +169,7 @@ pub enum Error {
         /// Most of them.
         most: usize,
     },
-    /// A link that is not there, or one that no joint moves where a moved one is needed.
+    /// A link that is not there or cannot be what it is asked for.
     #[error("link \"{name}\": {reason}")]
     Link {
         /// Name asked for.
@@ -177,11 +177,13 @@ pub enum Error {
         /// What is wrong.
         reason: &'static str,
     },
-    /// A joint that is not there.
-    #[error("joint \"{name}\" does not exist; correct the name")]
+    /// A joint that is not there, or is asked for twice.
+    #[error("joint \"{name}\": {reason}")]
     Joint {
         /// Name asked for.
         name: String,
+        /// What is wrong.
+        reason: &'static str,
     },
     /// A value given that is out of range.
     #[error("{what} = {found}; allowed: {allowed}")]

@@ -2,7 +2,7 @@
 
 use crate::common::{ALL, Dice};
 use proptest::prelude::*;
-use stiction_rigid::{Document, Robot, Workspace};
+use stiction_rigid::{Base, Document, NewDynamics, NewInertial, Robot, Scope, Workspace, rewrite};
 
 /// Everything that is computed for a robot.
 fn use_all(urdf: &str) {
@@ -26,6 +26,23 @@ fn use_all(urdf: &str) {
         &mut torque,
     );
     assert!(robot.parameters().iter().all(|x| !x.is_nan()), "{urdf}");
+    assert!(Base::of(&robot, &Scope::all(&robot, true)).unwrap().len() <= 11 * n);
+    let written = |i: usize| {
+        let mut parameters = [0.1; 10];
+        parameters.copy_from_slice(&robot.parameters()[10 * i..10 * i + 10]);
+        let link = robot.links()[robot.bodies()[i].carrier].name.as_str();
+        let inertial = robot.carrier_inertial(i, &parameters)?;
+        Some(NewInertial { link, inertial })
+    };
+    let inertials: Vec<NewInertial> = (0..n).filter_map(written).collect();
+    let dynamics = robot.joints().iter().map(|joint| NewDynamics {
+        joint: &joint.name,
+        damping: 1.0,
+        friction: 2.0,
+    });
+    let text = rewrite(urdf, &inertials, &dynamics.collect::<Vec<_>>()).unwrap();
+    let again = Robot::new(&Document::parse(&text).unwrap()).unwrap();
+    assert!(again.joints().iter().all(|joint| joint.friction == 2.0));
 }
 
 proptest! {

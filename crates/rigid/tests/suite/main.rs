@@ -6,4 +6,5 @@ mod consistency;
 mod dynamics;
 mod hostile;
 mod pinocchio;
+mod rewrite;
 mod urdf;
