@@ -3,6 +3,8 @@ first script that is started, from a clean checkout too. Needs Python 3.11 or la
 
     import environment
     environment.enter()     # before anything that is not in the standard library
+
+A script with other requirements names their file and has an environment of its own.
 """
 
 import os
@@ -18,27 +20,27 @@ HOME = WORK / "venv"
 REQUIREMENTS = ROOT / "bench" / "requirements.txt"
 
 
-def make():
+def make(home, requirements):
     """Makes the environment afresh, unless it was made from the requirements as they are now."""
-    wanted = REQUIREMENTS.read_text()
+    wanted = requirements.read_text()
     # A copy of the requirements, written last: it is there only if all of them are installed.
-    stamp = HOME / "requirements.installed"
+    stamp = home / "requirements.installed"
     if stamp.exists() and stamp.read_text() == wanted:
         return
     assert sys.version_info >= (3, 11), f"found Python {sys.version.split()[0]}; 3.11 or later is needed"
-    venv.create(HOME, clear=True, with_pip=True)
-    pip = [HOME / "bin/python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
-    subprocess.check_call([*pip, "--only-binary", ":all:", "-r", REQUIREMENTS])
+    venv.create(home, clear=True, with_pip=True)
+    pip = [home / "bin/python", "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+    subprocess.check_call([*pip, "--only-binary", ":all:", "-r", requirements])
     stamp.write_text(wanted)
 
 
-def enter():
+def enter(home=HOME, requirements=REQUIREMENTS):
     """Starts the script again inside the environment; returns where it runs there already."""
-    if Path(sys.prefix) == HOME:
+    if Path(sys.prefix) == home:
         return
-    make()
+    make(home, requirements)
     sys.stdout.flush()
-    os.execv(HOME / "bin/python", [str(HOME / "bin/python"), *sys.argv])
+    os.execv(home / "bin/python", [str(home / "bin/python"), *sys.argv])
 
 
 def example(name):

@@ -1,5 +1,5 @@
 //! The virtual environments: one with the Python packages that tests compare stiction with, one that has nothing but the
-//! Python package stiction and what its tests need.
+//! Python package stiction and what its tests need, and for long tests one with Pinocchio.
 
 use crate::shell::{self, Outcome};
 use crate::{debian, interpreter};
@@ -52,6 +52,15 @@ pub fn free_threaded() -> Result<String, String> {
         folder: shell::target().join("python/free-threaded/venv"),
         requirements: "python/tests/requirements-free-threaded.txt",
         python: Some(interpreter::find()?),
+    })
+}
+
+/// The Python that has Pinocchio and the robots that `stiction-rigid` is compared with.
+pub fn pinocchio() -> Result<String, String> {
+    made(&Environment {
+        folder: shell::target().join("python/pinocchio/venv"),
+        requirements: "crates/rigid/tests/pinocchio/requirements.txt",
+        python: None,
     })
 }
 

@@ -4,7 +4,7 @@
 //! free-threaded Python.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{instructions, interpreter, package, setup, tools, wheel};
+use crate::{instructions, interpreter, package, python, setup, tools, wheel};
 
 /// The one crate with features, without them: its lints and its tests.
 const BARE_LINTS: &str =
@@ -27,6 +27,7 @@ pub fn run() -> Outcome {
     let mut tests = shell::linted(tools::command(&tools::NEXTEST, tests)?);
     // Of tables of cases, all.
     tests.env("STICTION_SOAK", "1");
+    tests.env("STICTION_PINOCCHIO", python::pinocchio()?);
     shell::run(tests)?;
     wheel::soak()?;
     interpreter::install()?;

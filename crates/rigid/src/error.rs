@@ -151,7 +151,7 @@ pub enum Error {
     },
     /// A joint that follows one that it cannot follow.
     #[error(
-        "line {line}: joint \"{joint}\" mimics \"{of}\"; allowed: another moving joint that mimics none itself"
+        "line {line}: joint \"{joint}\" mimics \"{of}\"; allowed: another joint that mimics none itself"
     )]
     Mimic {
         /// Where the joint is.

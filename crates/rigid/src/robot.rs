@@ -76,7 +76,7 @@ pub struct PlacedLink {
     pub frame: Frame,
 }
 
-/// What is doubtful about the inertias of a URDF.
+/// What is doubtful about the inertias and joints of a URDF.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Finding {
     /// A joint moves links that have no mass together.
@@ -94,6 +94,15 @@ pub enum Finding {
         line: usize,
         /// Principal moments about the centre of mass, smallest first, kg m².
         principal: [f64; 3],
+    },
+    /// A joint mimics one that does not move or exist; it counts as independent.
+    NoLeader {
+        /// Name of the joint.
+        joint: String,
+        /// Its line.
+        line: usize,
+        /// Name of the joint that it mimics.
+        of: String,
     },
 }
 
@@ -146,7 +155,7 @@ impl Robot {
         &self.links
     }
 
-    /// What is doubtful about the inertias in the file.
+    /// What is doubtful about the inertias and joints in the file.
     pub fn findings(&self) -> &[Finding] {
         &self.findings
     }

@@ -158,6 +158,9 @@ impl Document {
                 _ => {}
             }
         }
+        if document.links.is_empty() {
+            return Err(robot.missing("robot", "link"));
+        }
         Ok(document)
     }
 }

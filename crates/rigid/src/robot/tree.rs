@@ -76,11 +76,7 @@ impl Tree {
                     line: link.line,
                     link: link.name.clone(),
                 },
-                None => Error::Missing {
-                    line: 1,
-                    element: "robot",
-                    missing: "link",
-                },
+                None => too_few_or_many(0),
             });
         };
         if let Some(second) = roots.next() {
@@ -142,13 +138,10 @@ pub(super) fn build(document: &Document) -> Result<Robot, Error> {
         });
     }
     if joints.is_empty() || joints.len() > MOST_JOINTS {
-        return Err(Error::Joints {
-            found: joints.len(),
-            most: MOST_JOINTS,
-        });
+        return Err(too_few_or_many(joints.len()));
     }
-    follow(document, &moving, &mut joints)?;
     let mut findings = Vec::new();
+    follow(document, &moving, &mut joints, &mut findings)?;
     let parts = members
         .iter()
         .map(|m| body(document, &links, m, &mut findings));
@@ -167,6 +160,11 @@ pub(super) fn build(document: &Document) -> Result<Robot, Error> {
         findings,
         gravity: GRAVITY,
     })
+}
+
+fn too_few_or_many(found: usize) -> Error {
+    let most = MOST_JOINTS;
+    Error::Joints { found, most }
 }
 
 /// A joint that moves, as yet following none.
@@ -190,6 +188,7 @@ fn follow(
     document: &Document,
     moving: &[Option<usize>],
     joints: &mut [Joint],
+    findings: &mut Vec<Finding>,
 ) -> Result<(), Error> {
     let numbered = document.joints.iter().enumerate();
     let index: HashMap<&str, usize> = numbered
@@ -200,13 +199,21 @@ fn follow(
             continue;
         };
         let leader = index.get(mimic.of.as_str()).copied();
-        let leads = |&leader: &usize| document.joints[leader].mimic.is_none();
-        let of = leader.filter(leads).and_then(|leader| moving[leader]);
-        let of = of.ok_or_else(|| Error::Mimic {
-            line: stated.line,
-            joint: stated.name.clone(),
-            of: mimic.of.clone(),
-        })?;
+        let Some((leader, of)) = leader.and_then(|leader| Some((leader, moving[leader]?))) else {
+            findings.push(Finding::NoLeader {
+                joint: stated.name.clone(),
+                line: stated.line,
+                of: mimic.of.clone(),
+            });
+            continue;
+        };
+        if document.joints[leader].mimic.is_some() {
+            return Err(Error::Mimic {
+                line: stated.line,
+                joint: stated.name.clone(),
+                of: mimic.of.clone(),
+            });
+        }
         joints[i].mimic = Some(Follows {
             of,
             multiplier: mimic.multiplier,

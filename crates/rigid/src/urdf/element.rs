@@ -52,7 +52,7 @@ impl<'a> Element<'a> {
         self.attribute(name).ok_or_else(|| self.missing(own, name))
     }
 
-    fn missing(&self, element: &'static str, missing: &'static str) -> Error {
+    pub fn missing(&self, element: &'static str, missing: &'static str) -> Error {
         Error::Missing {
             line: self.line(),
             element,

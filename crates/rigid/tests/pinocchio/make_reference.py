@@ -51,17 +51,22 @@ def reference(path):
         yield "mass", numpy.triu(mass) + numpy.triu(mass, 1).T
 
 
-for path in sorted(HERE.glob("*.urdf")):
-    with open(path.with_suffix(".txt"), "w") as out:
-        for name, values in reference(path):
-            if name != "joints":
-                values = [repr(float(x)) for x in numpy.ravel(values)]
-            print(name, *values, file=out)
+def main():
+    for path in sorted(HERE.glob("*.urdf")):
+        with open(path.with_suffix(".txt"), "w") as out:
+            for name, values in reference(path):
+                if name != "joints":
+                    values = [repr(float(x)) for x in numpy.ravel(values)]
+                print(name, *values, file=out)
 
-with open(HERE / "log_cholesky.txt", "w") as out:
-    rng = numpy.random.default_rng(6)
-    for _ in range(5):
-        theta = rng.uniform(-1.5, 1.5, 10)
-        coordinates = pinocchio.LogCholeskyParameters(theta)
-        for values in theta, coordinates.toDynamicParameters(), coordinates.calculateJacobian():
-            print(*(repr(float(x)) for x in numpy.ravel(values)), file=out)
+    with open(HERE / "log_cholesky.txt", "w") as out:
+        rng = numpy.random.default_rng(6)
+        for _ in range(5):
+            theta = rng.uniform(-1.5, 1.5, 10)
+            coordinates = pinocchio.LogCholeskyParameters(theta)
+            for values in theta, coordinates.toDynamicParameters(), coordinates.calculateJacobian():
+                print(*(repr(float(x)) for x in numpy.ravel(values)), file=out)
+
+
+if __name__ == "__main__":
+    main()

@@ -7,4 +7,5 @@ mod dynamics;
 mod hostile;
 mod pinocchio;
 mod rewrite;
+mod robots;
 mod urdf;

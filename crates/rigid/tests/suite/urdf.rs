@@ -80,7 +80,7 @@ fn refusals_name_line_and_remedy() {
         (two(revolute, "<limit effort=\"much\"/>"), "line 7: effort=\"much\"; allowed: a finite number"),
         (
             two(revolute, "<mimic joint=\"j\"/>"),
-            "line 4: joint \"j\" mimics \"j\"; allowed: another moving joint that mimics none itself",
+            "line 4: joint \"j\" mimics \"j\"; allowed: another joint that mimics none itself",
         ),
         (two("name=\"j\" type=\"fixed\"", ""), "the robot has 0 moving joints; allowed: 1 to 128"),
         (inertial(&format!("<mass value=\"-1\"/>{moments}")), "line 4: value=\"-1\"; allowed: 0 or more"),
@@ -182,4 +182,16 @@ fn impossible_inertias_are_found() {
         line: 3,
     };
     assert_eq!(bare.findings(), [none]);
+}
+
+#[test]
+fn joint_that_mimics_none_that_moves_is_independent() {
+    let robot = robot(&two("name=\"j\" type=\"revolute\"", "<mimic joint=\"k\"/>"));
+    assert_eq!(robot.joints()[0].mimic, None);
+    let found = Finding::NoLeader {
+        joint: "j".into(),
+        line: 4,
+        of: "k".into(),
+    };
+    assert_eq!(robot.findings()[0], found);
 }
