@@ -46,6 +46,8 @@ mod open;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod regular;
+#[cfg(feature = "mcap")]
+mod ros;
 mod sniff;
 mod stamps;
 #[cfg(feature = "svb")]

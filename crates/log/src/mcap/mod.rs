@@ -1,24 +1,15 @@
 //! MCAP recordings of ROS 2, as rosbag2 writes them: messages in CDR with their definition (`ros2msg`).
 //!
-//! Format: <https://mcap.dev/spec>. Each topic is a list of records: `joint_states.header.stamp`, and where a message has names
-//! beside lists, as JointState has, `joint_states.elbow.position`. Lists of one length are `topic.field(:,1)`. Time stamps become
-//! seconds from the first of the file; `topic.log_time`, when the message was recorded, stands where it has no stamp of its own.
-//! Topics in other encodings are named in [`Table::skipped`].
-
-mod cdr;
-mod definition;
-mod message;
+//! Format: <https://mcap.dev/spec>. Topics in other encodings are named in [`Table::skipped`].
 
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 
-use cdr::Cdr;
-use definition::{Definitions, Kind as Of};
 use flate2::Crc;
-use message::{Trouble, moment};
 
-use crate::binary::{Collector, Tree, guard, lz4, zstd};
+use crate::binary::{Collector, guard, lz4, zstd};
+use crate::ros::{Bag, DEFINED, Definitions, MAX_TOPIC, Trouble, column_name};
 use crate::{Error, Kind, Limits, Table};
 
 /// Largest message, schema or other record that is kept, in bytes.
@@ -27,20 +18,13 @@ const MAX_RECORD: u64 = 64 << 20;
 /// Most schemas and channels.
 const MAX_CHANNELS: usize = 4096;
 
-/// Longest name of a topic in bytes; ROS allows 255.
-const MAX_TOPIC: usize = 1024;
-
-/// Bytes that are held for a byte of a definition, at most: `byte a` is a field.
-const DEFINED: u64 = 24;
-
 /// Reads the numbers of every message in a file of this many bytes.
 pub(crate) fn read(file: File, bytes: u64, limits: Limits) -> Result<Table, Error> {
     guard("MCAP", || {
         let mut reader = Reader {
-            tree: Tree::new(Collector::packed(limits, bytes, MAX_RECORD)),
+            bag: Bag::new(Collector::packed(limits, bytes, MAX_RECORD)),
             schemas: BTreeMap::new(),
             channels: BTreeMap::new(),
-            topics: BTreeMap::new(),
             at: 0,
             ended: false,
         };
@@ -55,7 +39,7 @@ pub(crate) fn read(file: File, bytes: u64, limits: Limits) -> Result<Table, Erro
                 reader.bad("the file ends before the record that ends its data; was it cut off?")
             );
         }
-        reader.finish()
+        reader.bag.finish()
     })
 }
 
@@ -64,18 +48,15 @@ enum Channel {
     /// Messages with these definitions.
     Read {
         schema: u16,
-        topic: String,
-        stamped: bool,
+        topic: usize,
     },
     Skipped,
 }
 
 struct Reader {
-    tree: Tree,
+    bag: Bag,
     schemas: BTreeMap<u16, Result<Definitions, String>>,
     channels: BTreeMap<u16, Channel>,
-    /// Place of each topic in the tree, and how many messages it has.
-    topics: BTreeMap<String, (usize, u64)>,
     /// Where the record begins that is read, in the file.
     at: u64,
     ended: bool,
@@ -162,7 +143,7 @@ impl Reader {
         let size = long(&mut rest).unwrap_or(0);
         let crc = word(&mut rest).unwrap_or(0);
         let length = word(&mut rest).unwrap_or(0);
-        if !self.tree.collector.unpacks(size) {
+        if !self.bag.collector().unpacks(size) {
             let found = format!("a chunk of {size} bytes, more than this file can hold");
             let allowed = "the topics that matter: `mcap filter` takes them out of a recording";
             return Err(Error::new(Kind::Limit, found, allowed).at_byte(self.at));
@@ -216,7 +197,7 @@ impl Reader {
         if self.schemas.len() < MAX_CHANNELS && !self.schemas.contains_key(&id) {
             let definitions = match &*encoding {
                 "ros2msg" => {
-                    self.tree.collector.hold(DEFINED * data.len() as u64)?;
+                    self.bag.collector().hold(DEFINED * data.len() as u64)?;
                     Definitions::new(&name, &String::from_utf8_lossy(data))
                 }
                 other => Err(format!("a definition in {other}, not in ros2msg")),
@@ -248,7 +229,7 @@ impl Reader {
                 "a topic whose name has more than {MAX_TOPIC} bytes"
             )));
         }
-        let name = topic.trim_matches('/').replace('/', ".");
+        let name = column_name(&topic);
         let why = match self.schemas.get(&schema) {
             _ if encoding != "cdr" => Some(format!("messages encoded as {encoding}, not as cdr")),
             None => Some("messages without a definition".to_owned()),
@@ -256,18 +237,12 @@ impl Reader {
             Some(Ok(_)) => None,
         };
         let channel = match (why, self.schemas.get(&schema)) {
-            (None, Some(Ok(definitions))) => Channel::Read {
+            (None, Some(Ok(_))) => Channel::Read {
                 schema,
-                topic: name,
-                stamped: definitions.0[0].iter().any(|field| match field.kind {
-                    Of::Message(inner) => definitions.0[inner]
-                        .iter()
-                        .any(|field| field.kind == Of::Time),
-                    kind => kind == Of::Time,
-                }),
+                topic: self.bag.topic(name),
             },
             (why, _) => {
-                self.tree.collector.skip(&name, &why.unwrap_or_default());
+                self.bag.collector().skip(&name, &why.unwrap_or_default());
                 Channel::Skipped
             }
         };
@@ -282,55 +257,24 @@ impl Reader {
         else {
             return Ok(None);
         };
-        let (schema, topic, stamped) = match self.channels.get(&id) {
+        let (schema, topic) = match self.channels.get(&id) {
             None => return Ok(None),
             Some(Channel::Skipped) => return Ok(Some(())),
-            Some(Channel::Read {
-                schema,
-                topic,
-                stamped,
-            }) => (*schema, topic.clone(), *stamped),
+            Some(Channel::Read { schema, topic }) => (*schema, *topic),
         };
         let Some(Ok(definitions)) = self.schemas.get(&schema) else {
             return Ok(None);
         };
         let time = i64::try_from(time).unwrap_or(i64::MAX);
-        self.tree.origin.get_or_insert(moment(time));
-        let (node, row) = match self.topics.get(&topic) {
-            Some(&there) => there,
-            None => (self.tree.child(0, Some(topic.as_bytes()))?, 0),
-        };
-        self.topics.insert(topic.clone(), (node, row + 1));
-        let element = self.tree.child(node, None)?;
-        self.tree.at = vec![row];
-        let mut cdr = match Cdr::new(bytes) {
-            Some(cdr) => cdr,
-            None => return Ok(None),
-        };
-        if !stamped {
-            let child = self.tree.child(element, Some(b"log_time"))?;
-            self.tree.moment(child, moment(time))?;
-        }
-        let read = message::read(definitions, &mut cdr, element, &mut self.tree);
-        read.map_err(|trouble| match trouble {
-            Trouble::Short => self
-                .bad("a message that does not fit its definition")
-                .at_row(row + 1),
-            Trouble::Error(error) => error.at_byte(self.at),
-        })
-        .map_err(|error| match error.place.column {
-            None => error.in_column(topic),
-            Some(_) => error,
+        let read = self.bag.message(topic, definitions, time, bytes);
+        read.map_err(|trouble| {
+            let error = match trouble {
+                Trouble::Short => self.bad("a message that does not fit its definition"),
+                Trouble::Error(error) => error.at_byte(self.at),
+            };
+            self.bag.place(error, topic)
         })?;
         Ok(Some(()))
-    }
-
-    fn finish(mut self) -> Result<Table, Error> {
-        self.tree.at.clear();
-        for (node, rows) in std::mem::take(&mut self.topics).into_values() {
-            self.tree.end_list(node, rows)?;
-        }
-        Ok(self.tree.finish(0)?.finish())
     }
 }
 

@@ -10,7 +10,7 @@ use crate::text::Moment;
 const MAX_LIST: usize = 1024;
 
 /// Why a message cannot be read.
-pub(super) enum Trouble {
+pub(crate) enum Trouble {
     /// It ends too early, or has what its definition does not know.
     Short,
     Error(Error),
@@ -41,7 +41,7 @@ impl Message<'_> {
     fn fields(&mut self, definition: usize, cdr: &mut Cdr<'_>, node: usize) -> Result<(), Trouble> {
         // Names of joints or motors, which stand before the lists of what each of them does.
         let mut names: Vec<&[u8]> = Vec::new();
-        for field in &self.definitions.0[definition] {
+        for field in &self.definitions.all[definition] {
             match (field.kind, field.count) {
                 (Kind::Text, Count::Said) if is_names(&field.name) => {
                     let count = counted(cdr, 5)?;

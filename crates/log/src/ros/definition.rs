@@ -48,11 +48,15 @@ pub(super) struct Field {
 
 /// The definitions of a schema; the first is that of the message.
 #[derive(Debug)]
-pub(super) struct Definitions(pub(super) Vec<Vec<Field>>);
+pub(crate) struct Definitions {
+    pub(super) all: Vec<Vec<Field>>,
+    /// Whether a message says when it was made.
+    stamped: bool,
+}
 
 impl Definitions {
     /// Reads the text of a schema; the error says what of it is not understood.
-    pub(super) fn new(name: &str, text: &str) -> Result<Self, String> {
+    pub(crate) fn new(name: &str, text: &str) -> Result<Self, String> {
         let mut sections = vec![(short(name), Vec::new())];
         let mut below_rule = false;
         let mut fields = 0;
@@ -115,8 +119,19 @@ impl Definitions {
         }
         match depth[0] > MAX_DEPTH {
             true => Err(format!("messages nested deeper than {MAX_DEPTH}")),
-            false => Ok(Self(all)),
+            false => Ok(Self {
+                stamped: all[0].iter().any(|field| match field.kind {
+                    Kind::Message(inner) => all[inner].iter().any(|field| field.kind == Kind::Time),
+                    kind => kind == Kind::Time,
+                }),
+                all,
+            }),
         }
+    }
+
+    /// Whether a message says when it was made, itself or in its header.
+    pub(super) fn is_stamped(&self) -> bool {
+        self.stamped
     }
 }
 
@@ -189,7 +204,7 @@ mod tests {
         let text = "# about\nuint8 A=1\nstring<=5 name\nint32[<=3] n # some\nfloat64[3] v [1,2,3]\nHeader header\n\
                     Inner inner\n===\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n\
                     ====\nMSG: a_msgs/Inner\nint16 x 7\n";
-        let all = Definitions::new("a_msgs/msg/Outer", text).unwrap().0;
+        let all = Definitions::new("a_msgs/msg/Outer", text).unwrap().all;
         let seen: Vec<_> = all[0]
             .iter()
             .map(|f| (f.name.as_str(), f.kind, f.count))
