@@ -48,6 +48,8 @@ mod parquet;
 mod regular;
 #[cfg(feature = "mcap")]
 mod ros;
+#[cfg(feature = "rosbag")]
+mod rosbag;
 mod sniff;
 mod stamps;
 #[cfg(feature = "svb")]

@@ -129,7 +129,7 @@ impl Budget {
     }
 
     /// Bytes that are allowed at all.
-    #[cfg(feature = "parquet")]
+    #[cfg(any(feature = "mcap", feature = "parquet"))]
     pub(crate) fn memory(self) -> u64 {
         self.memory
     }

@@ -86,10 +86,10 @@ pub(crate) fn everything(heads: &Table) -> Vec<bool> {
 /// Whom the bytes are handed to, if anyone.
 type Bytes<'a> = Option<&'a mut dyn FnMut(&[u8])>;
 
-fn opened<'a>(
-    path: &'a Path,
+fn opened(
+    path: &Path,
     options: &ReadOptions,
-    bytes: Bytes<'a>,
+    bytes: Bytes<'_>,
     wanted: Wanted,
 ) -> Result<Table, Error> {
     read(path, options, bytes, wanted).map_err(|error| error.in_file(path))
@@ -107,10 +107,10 @@ fn io(error: io::Error) -> Error {
     Error::new(Kind::Io, format!("cannot be read ({error})"), "")
 }
 
-fn read<'a>(
-    path: &'a Path,
+fn read(
+    path: &Path,
     options: &ReadOptions,
-    seen: Bytes<'a>,
+    seen: Bytes<'_>,
     wanted: Wanted,
 ) -> Result<Table, Error> {
     let about = regular(path).map_err(|e| not_opened(e, "a recording has to be a regular file"))?;
@@ -161,15 +161,15 @@ pub(crate) fn take_units_of_names(table: &mut Table) {
 }
 
 /// The file of a text, of which every byte is handed on as it is read.
-struct Watched<'a> {
+struct Watched<'p, 's> {
     file: File,
-    path: &'a Path,
-    seen: Bytes<'a>,
+    path: &'p Path,
+    seen: Bytes<'s>,
     done: u64,
     all: u64,
 }
 
-impl Read for Watched<'_> {
+impl Read for Watched<'_, '_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let read = self.file.read(buffer)?;
         if let Some(seen) = &mut self.seen {
@@ -240,7 +240,11 @@ fn binary(
         #[cfg(feature = "arrow")]
         Format::Arrow => crate::arrow::read(file, bytes, limits),
         #[cfg(feature = "mcap")]
-        Format::Mcap => crate::mcap::read(file, bytes, limits),
+        Format::Mcap => crate::ros::read("MCAP", bytes, limits, |bag| crate::mcap::read(file, bag)),
+        #[cfg(feature = "rosbag")]
+        Format::Rosbag => crate::ros::read("rosbag2", bytes, limits, |bag| {
+            crate::rosbag::read(file, path, bytes, limits, bag)
+        }),
         #[cfg(feature = "tdms")]
         Format::Tdms => crate::tdms::read(file, bytes, limits),
         #[cfg(feature = "mdf")]

@@ -7,6 +7,10 @@ use std::io::{self, Read, Seek, SeekFrom};
 pub(crate) const MDF_AS_TABLES: &str = "have it written as one table for each clock in it, after pip install asammdf: python3 -c 'from asammdf import MDF; \
      MDF(\"log.mf4\").export(\"csv\", \"log.csv\", add_units=True)'";
 
+/// First bytes of MCAP and of SQLite.
+const MCAP: &[u8] = b"\x89MCAP0\r\n";
+pub(crate) const SQLITE: &[u8] = b"SQLite format 3\0";
+
 /// The formats that are recognised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
@@ -19,6 +23,7 @@ pub(crate) enum Format {
     Json,
     Arrow,
     Mcap,
+    Rosbag,
     Tdms,
     Mdf,
     /// Told from text by reading its header, which its reader does.
@@ -45,6 +50,7 @@ impl Format {
             Format::Json => "JSON",
             Format::Arrow => "Arrow IPC",
             Format::Mcap => "MCAP",
+            Format::Rosbag => "rosbag2 in SQLite",
             Format::Tdms => "TDMS",
             Format::Mdf => "ASAM MDF",
             Format::Svb => "TwinCAT Scope SVB",
@@ -95,8 +101,11 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
     if starts(b"TDSm") {
         return Ok(Format::Tdms);
     }
-    if starts(b"\x89MCAP0\r\n") {
+    if starts(MCAP) {
         return Ok(Format::Mcap);
+    }
+    if starts(SQLITE) {
+        return Ok(Format::Rosbag);
     }
     if starts(b"ARROW1\0\0") || is_arrow_stream(&start) {
         return Ok(Format::Arrow);
@@ -114,6 +123,10 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
             return Ok(Format::Hdf5);
         }
         at *= 2;
+    }
+    #[cfg(feature = "mcap")]
+    if let Some(format) = packed_bag(file, &start)? {
+        return Ok(format);
     }
     let compressed = "unpack it first";
     Ok(match start[..] {
@@ -142,6 +155,24 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
         _ if crate::svb::starts(&start) => Format::Svb,
         _ if is_json(&start) => Format::Json,
         _ => Format::Text,
+    })
+}
+
+/// The format of a recording of rosbag2 that was packed as a whole (`.db3.zstd`, `.mcap.zstd`).
+#[cfg(feature = "mcap")]
+fn packed_bag(file: &mut File, start: &[u8]) -> io::Result<Option<Format>> {
+    if !start.starts_with(&crate::ros::ZSTD) {
+        return Ok(None);
+    }
+    file.rewind()?;
+    let mut inside = Vec::new();
+    let unpacked = crate::binary::zstd(&*file, 0);
+    // What cannot be unpacked is no recording that is known.
+    let _ = unpacked.and_then(|stream| stream.take(16).read_to_end(&mut inside));
+    Ok(match &inside[..] {
+        SQLITE => Some(Format::Rosbag),
+        inside if inside.starts_with(MCAP) => Some(Format::Mcap),
+        _ => None,
     })
 }
 

@@ -26,9 +26,9 @@ const LARGEST_TEXT: u64 = 64 << 20;
 pub const UNFINISHED: &str = ".stiction-upload-";
 
 /// Endings of recordings.
-const LOGS: [&str; 24] = [
+const LOGS: [&str; 25] = [
     "csv", "tsv", "txt", "log", "dat", "asc", "mat", "h5", "hdf5", "npy", "npz", "parquet", "json",
-    "arrow", "feather", "ipc", "mcap", "tdms", "mf4", "svb", "svbx", "svdx", "xlsx", "xml",
+    "arrow", "feather", "ipc", "mcap", "db3", "tdms", "mf4", "svb", "svbx", "svdx", "xlsx", "xml",
 ];
 /// Names of devices on Windows, which no folder holds as files.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];

@@ -101,6 +101,12 @@ impl Collector {
         left.is_some()
     }
 
+    /// How many bytes may still be unpacked.
+    #[cfg(feature = "mcap")]
+    pub(crate) fn unpackable(&self) -> u64 {
+        self.unpacked
+    }
+
     /// Counts one more variable, field or cell.
     pub(crate) fn entry(&mut self) -> Result<(), Error> {
         self.entries += 1;
@@ -134,7 +140,7 @@ impl Collector {
     }
 
     /// Refuses a part of a file that a decoder would hold at once, in so many bytes, where these are too many.
-    #[cfg(feature = "parquet")]
+    #[cfg(any(feature = "mcap", feature = "parquet"))]
     pub(crate) fn holds(&self, what: &str, bytes: u64) -> Result<(), Error> {
         match bytes > self.budget.memory() {
             true => Err(self.budget.refusal(what, Some(bytes))),

@@ -1,46 +1,50 @@
 //! MCAP recordings of ROS 2, as rosbag2 writes them: messages in CDR with their definition (`ros2msg`).
 //!
-//! Format: <https://mcap.dev/spec>. Topics in other encodings are named in [`Table::skipped`].
+//! Format: <https://mcap.dev/spec>. Topics in other encodings are named in [`Table::skipped`](crate::Table::skipped).
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read};
 
 use flate2::Crc;
 
-use crate::binary::{Collector, guard, lz4, zstd};
-use crate::ros::{Bag, DEFINED, Definitions, MAX_TOPIC, Trouble, column_name};
-use crate::{Error, Kind, Limits, Table};
-
-/// Largest message, schema or other record that is kept, in bytes.
-const MAX_RECORD: u64 = 64 << 20;
+use crate::binary::{lz4, zstd};
+use crate::ros::{Bag, DEFINED, Definitions, MAX_RECORD, MAX_TOPIC, Trouble, ZSTD, column_name};
+use crate::{Error, Kind};
 
 /// Most schemas and channels.
 const MAX_CHANNELS: usize = 4096;
 
-/// Reads the numbers of every message in a file of this many bytes.
-pub(crate) fn read(file: File, bytes: u64, limits: Limits) -> Result<Table, Error> {
-    guard("MCAP", || {
-        let mut reader = Reader {
-            bag: Bag::new(Collector::packed(limits, bytes, MAX_RECORD)),
-            schemas: BTreeMap::new(),
-            channels: BTreeMap::new(),
-            at: 0,
-            ended: false,
-        };
-        let mut file = BufReader::with_capacity(1 << 16, file);
-        let mut magic = [0; 8];
-        file.read_exact(&mut magic)
-            .map_err(|error| reader.cut(error))?;
-        reader.at = 8;
-        reader.records(&mut file, false)?;
-        if !reader.ended {
-            return Err(
-                reader.bad("the file ends before the record that ends its data; was it cut off?")
-            );
+/// Reads the numbers of every message in a file, which may be packed as a whole.
+pub(crate) fn read(file: File, bag: &mut Bag) -> Result<(), Error> {
+    let mut reader = Reader {
+        bag,
+        schemas: BTreeMap::new(),
+        channels: BTreeMap::new(),
+        at: 0,
+        ended: false,
+    };
+    let mut file = BufReader::with_capacity(1 << 16, file);
+    let start = file.fill_buf().map_err(|error| reader.cut(error))?;
+    let mut stream: Box<dyn Read> = match start.starts_with(&ZSTD) {
+        true => {
+            let unpacked = zstd(file, 0).map_err(|error| reader.cut(error))?;
+            Box::new(unpacked.take(reader.bag.collector().unpackable()))
         }
-        reader.bag.finish()
-    })
+        false => Box::new(file),
+    };
+    let mut magic = [0; 8];
+    stream
+        .read_exact(&mut magic)
+        .map_err(|error| reader.cut(error))?;
+    reader.at = 8;
+    reader.records(&mut stream, false)?;
+    match reader.ended {
+        true => Ok(()),
+        false => {
+            Err(reader.bad("the file ends before the record that ends its data; was it cut off?"))
+        }
+    }
 }
 
 /// What messages of a channel are.
@@ -53,8 +57,8 @@ enum Channel {
     Skipped,
 }
 
-struct Reader {
-    bag: Bag,
+struct Reader<'b> {
+    bag: &'b mut Bag,
     schemas: BTreeMap<u16, Result<Definitions, String>>,
     channels: BTreeMap<u16, Channel>,
     /// Where the record begins that is read, in the file.
@@ -62,7 +66,7 @@ struct Reader {
     ended: bool,
 }
 
-impl Reader {
+impl Reader<'_> {
     fn bad(&self, found: impl Into<String>) -> Error {
         let allowed = "a whole MCAP file; `mcap recover` saves what a broken one holds";
         Error::new(Kind::Format, found, allowed).at_byte(self.at)
@@ -266,7 +270,11 @@ impl Reader {
             return Ok(None);
         };
         let time = i64::try_from(time).unwrap_or(i64::MAX);
-        let read = self.bag.message(topic, definitions, time, bytes);
+        let message = self
+            .bag
+            .unpacked(bytes)
+            .map_err(|error| error.at_byte(self.at))?;
+        let read = self.bag.message(topic, definitions, time, &message);
         read.map_err(|trouble| {
             let error = match trouble {
                 Trouble::Short => self.bad("a message that does not fit its definition"),

@@ -136,7 +136,7 @@ impl Definitions {
 }
 
 /// `package/Type` of `package/msg/Type`.
-fn short(name: &str) -> String {
+pub(super) fn short(name: &str) -> String {
     name.replace("/msg/", "/")
 }
 

@@ -2,9 +2,9 @@
 
 use super::cdr::Cdr;
 use super::definition::{Count, Definitions, Field, Kind};
-use crate::Error;
-use crate::binary::{Class, Tree};
+use crate::binary::{Class, Collector, Tree};
 use crate::text::Moment;
+use crate::{Error, Limits};
 
 /// More elements of a list than that are no signals.
 const MAX_LIST: usize = 1024;
@@ -30,6 +30,28 @@ pub(super) fn read(
     tree: &mut Tree,
 ) -> Result<(), Trouble> {
     Message { definitions, tree }.fields(0, cdr, node)
+}
+
+impl Definitions {
+    /// Whether a message has this layout, to its end.
+    pub(crate) fn fits(&self, message: &[u8], limits: Limits) -> bool {
+        let mut tree = Tree::new(Collector::new(limits));
+        tree.at.push(0);
+        let Some(mut cdr) = Cdr::new(message) else {
+            return false;
+        };
+        let element = tree.child(0, None);
+        let read = element
+            .map_err(Trouble::Error)
+            .and_then(|element| read(self, &mut cdr, element, &mut tree));
+        match read {
+            // Encoders pad what they write to a multiple of their largest number.
+            Ok(()) => cdr.left() < 8,
+            Err(Trouble::Short) => false,
+            // A limit, which is told where the message is read.
+            Err(Trouble::Error(_)) => true,
+        }
+    }
 }
 
 struct Message<'m> {

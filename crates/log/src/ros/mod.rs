@@ -5,24 +5,37 @@
 //! `topic.log_time`, when the message was recorded, stands where it has no stamp of its own.
 
 mod cdr;
+mod common;
 mod definition;
 mod message;
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::io::Read;
 
 use cdr::Cdr;
+pub(crate) use common::layouts;
 pub(crate) use definition::Definitions;
 pub(crate) use message::Trouble;
 use message::moment;
 
-use crate::binary::{Collector, Tree};
-use crate::{Error, Table};
+use crate::binary::{Collector, Tree, guard, zstd};
+use crate::{Error, Kind, Limits, Table};
 
 /// Longest name of a topic in bytes; ROS allows 255.
 pub(crate) const MAX_TOPIC: usize = 1024;
 
 /// Bytes that are held for a byte of a definition, at most: `byte a` is a field.
 pub(crate) const DEFINED: u64 = 24;
+
+/// First bytes of what is packed with Zstandard, which no message in CDR begins with.
+pub(crate) const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+
+/// Largest message or other record that is kept, in bytes.
+pub(crate) const MAX_RECORD: u64 = 64 << 20;
+
+/// Bytes of a packed message that are unpacked at once.
+const PART: usize = 1 << 16;
 
 /// A recording in the making.
 pub(crate) struct Bag {
@@ -40,8 +53,22 @@ struct Topic {
     rows: u64,
 }
 
+/// Reads messages of a recording in this format, whose files have so many bytes together.
+pub(crate) fn read(
+    format: &str,
+    bytes: u64,
+    limits: Limits,
+    take: impl FnOnce(&mut Bag) -> Result<(), Error>,
+) -> Result<Table, Error> {
+    guard(format, || {
+        let mut bag = Bag::new(Collector::packed(limits, bytes, MAX_RECORD));
+        take(&mut bag)?;
+        bag.finish()
+    })
+}
+
 impl Bag {
-    pub(crate) fn new(collector: Collector) -> Self {
+    fn new(collector: Collector) -> Self {
         Self {
             tree: Tree::new(collector),
             places: BTreeMap::new(),
@@ -65,6 +92,42 @@ impl Bag {
             });
         }
         index
+    }
+
+    /// The name of a topic.
+    pub(crate) fn name(&self, topic: usize) -> String {
+        self.topics[topic].name.clone()
+    }
+
+    /// A message as it was before rosbag2 packed it, where it did (`compression_mode: message`).
+    pub(crate) fn unpacked<'m>(&mut self, message: &'m [u8]) -> Result<Cow<'m, [u8]>, Error> {
+        if !message.starts_with(&ZSTD) {
+            return Ok(Cow::Borrowed(message));
+        }
+        let damaged = |error| {
+            let found = format!("a packed message is damaged ({error})");
+            Error::new(
+                Kind::Format,
+                found,
+                "messages that rosbag2 packed with zstd",
+            )
+        };
+        let mut stream = zstd(message, 0).map_err(damaged)?;
+        let (mut bytes, mut part) = (Vec::new(), 0);
+        while part == 0 || bytes.len() == part {
+            part = bytes.len() + PART;
+            self.tree.collector.holds("a message", part as u64)?;
+            let stream = stream.by_ref().take(PART as u64);
+            { stream }.read_to_end(&mut bytes).map_err(damaged)?;
+        }
+        match self.tree.collector.unpacks(bytes.len() as u64) {
+            true => Ok(Cow::Owned(bytes)),
+            false => Err(Error::new(
+                Kind::Limit,
+                "messages that unpack to more than this file can hold",
+                "the topics that matter",
+            )),
+        }
     }
 
     /// Reads a message of a topic that was recorded at this time, in ns since 1970.
@@ -105,7 +168,7 @@ impl Bag {
         }
     }
 
-    pub(crate) fn finish(mut self) -> Result<Table, Error> {
+    fn finish(mut self) -> Result<Table, Error> {
         self.tree.at.clear();
         for Topic { node, rows, .. } in self.topics {
             if let Some(node) = node {

@@ -33,7 +33,7 @@ const SAMPLES: u64 = 1 << 17;
 const MEMORY_BOUND: usize = 8 << 20;
 
 /// First bytes of the formats; the last of these lead to the text reader.
-const STARTS: [&[u8]; 18] = [
+const STARTS: [&[u8]; 19] = [
     b"\x89HDF\r\n\x1a\n",
     b"\x93NUMPY\x01\x00",
     b"\x93NUMPY\x02\x00",
@@ -45,6 +45,7 @@ const STARTS: [&[u8]; 18] = [
     b"[[",
     b"TDSm\x0e\0\0\0\x69\x12\0\0",
     b"\x89MCAP0\r\n",
+    b"SQLite format 3\0\x10\0\x01\x01\0\x40\x20\x20",
     b"MDF     4.10    by hand \0\0\0\0\x9a\x01\0\0",
     b"ARROW1\0\0",
     b"\xff\xff\xff\xff\x10\0\0\0",

@@ -7,6 +7,8 @@ Small files, so that most damage hits the structure of the file and not its samp
 
 import json
 import pathlib
+import shutil
+import sqlite3
 import struct
 import sys
 
@@ -21,6 +23,8 @@ from mcap.writer import CompressionType
 from mcap_ros2.writer import Writer
 from nptdms import ChannelObject, RootObject, TdmsWriter
 from openpyxl import Workbook
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer as Bag
+from rosbags.typesys import Stores, get_typestore
 
 from mdf import Blocks, linear
 
@@ -82,7 +86,7 @@ with h5py.File(folder / "refused_loop.h5", "w") as file:
 table = pa.table({
     "t": t, "n": count, "flag": count > 9, "holes": pa.array([None, 1.0] * 20),
     "stamp": pa.array(np.arange(40) + 10**15, pa.timestamp("us")),
-    "words": pa.array(["a", "b"] * 20), "list": pa.array([[1.0]] * 40),
+    "words": pa.array(["a", "b"] * 20), "list": pa.array([[1.0, None], None] * 20),
     "pose": pa.StructArray.from_arrays([pa.array(q)], ["x"]),
 })
 pq.write_table(table, folder / "snappy.parquet", row_group_size=17)
@@ -127,6 +131,40 @@ for compression in CompressionType:
                        "position": [float(q[i]), 1.0], "effort": [2.0, float(i)]}
             writer.write_message("/joint_states", schema, message, log_time=5 * 10**9 + 1000 * i)
         writer.finish()
+
+
+
+def rosbag(name, mode, plugin, bare=False):
+    """A recording of rosbag2 with a message on pages of its own, and one of a type that is not read."""
+    store = get_typestore(Stores.ROS2_HUMBLE)
+    state, some = "sensor_msgs/msg/JointState", "std_msgs/msg/Float64MultiArray"
+    types = store.types
+    writer = Bag(folder / "bag.d", version=8, storage_plugin=plugin)
+    writer.set_compression(mode, CompressionFormat.ZSTD)
+    with writer:
+        connections = [writer.add_connection(f"/{i}", kind, typestore=store) for i, kind in enumerate([state, some, "std_msgs/msg/String"])]
+        for i in range(20):
+            header = types["std_msgs/msg/Header"](types["builtin_interfaces/msg/Time"](5, 1000 * i), "")
+            message = types[state](header, ["a", "b"], np.array([q[i], 1.0]), np.array([]), np.array([2.0, i]))
+            writer.write(connections[0], 1000 * i, store.serialize_cdr(message, state))
+        layout = types["std_msgs/msg/MultiArrayLayout"]([], 0)
+        writer.write(connections[1], 20_000, store.serialize_cdr(types[some](layout, np.arange(300.0)), some))
+    (made,) = [path for path in (folder / "bag.d").iterdir() if path.name != "metadata.yaml"]
+    shutil.move(made, folder / name)
+    shutil.rmtree(folder / "bag.d")
+    if bare:
+        with sqlite3.connect(folder / name) as file:
+            file.execute("DROP TABLE message_definitions")
+            file.execute("PRAGMA page_size = 512")
+        file.execute("VACUUM")
+        file.close()
+
+
+rosbag("bare.db3", CompressionMode.NONE, StoragePlugin.SQLITE3, bare=True)
+rosbag("defined.db3", CompressionMode.NONE, StoragePlugin.SQLITE3)
+rosbag("messages.db3", CompressionMode.MESSAGE, StoragePlugin.SQLITE3)
+rosbag("whole.db3.zstd", CompressionMode.FILE, StoragePlugin.SQLITE3)
+rosbag("whole.mcap.zstd", CompressionMode.FILE, StoragePlugin.MCAP)
 
 with TdmsWriter(folder / "small.tdms") as writer:
     channels = [ChannelObject("g", "t", t, {"unit_string": "s", "wf_increment": 0.5}), ChannelObject("g", "n", count),

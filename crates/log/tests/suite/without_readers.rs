@@ -3,7 +3,7 @@
 use stiction_log::{Kind, ReadOptions, read_table};
 
 /// Whether the reader is there, how its files begin, what they are called.
-const FORMATS: [(bool, &[u8], &str); 9] = [
+const FORMATS: [(bool, &[u8], &str); 10] = [
     (
         cfg!(feature = "matlab"),
         b"MATLAB 5.0 MAT-file, of nothing",
@@ -15,6 +15,7 @@ const FORMATS: [(bool, &[u8], &str); 9] = [
     (cfg!(feature = "json"), b"{\"t\": [0, 1]", "JSON"),
     (cfg!(feature = "arrow"), b"ARROW1\0\0", "Arrow"),
     (cfg!(feature = "mcap"), b"\x89MCAP0\r\n", "MCAP"),
+    (cfg!(feature = "rosbag"), b"SQLite format 3\0", "rosbag2"),
     (cfg!(feature = "tdms"), b"TDSm", "TDMS"),
     (cfg!(feature = "mdf"), b"MDF     4.10    ", "ASAM MDF"),
 ];

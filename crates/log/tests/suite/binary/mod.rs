@@ -6,6 +6,7 @@ mod json;
 mod mapping_recordings;
 mod mdf;
 mod recordings;
+mod rosbag;
 mod roundtrip;
 mod svb;
 mod workbooks;

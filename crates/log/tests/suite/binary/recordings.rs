@@ -200,3 +200,103 @@ fn xl330() {
         assert!(off_grid(&table.columns[0].values, step) < 1e-6);
     }
 }
+
+/// The bits of all samples, rotated by their index and added: what `python/sum_db3.py` has of rosbags.
+fn sum(values: &[f64]) -> u64 {
+    let turned = (0..)
+        .zip(values)
+        .map(|(at, x)| x.to_bits().rotate_left(at % 64));
+    turned.fold(0, u64::wrapping_add)
+}
+
+/// The stamps and each joint's position, velocity and effort, bit for bit as rosbags reads them.
+fn arm<const N: usize>(robot: &str, samples: usize, stamps: u64, joints: [(&str, [u64; 3]); N]) {
+    let Some(folder) = recordings() else { return };
+    let table = table(folder.join(format!("robots/ur10_panda/{robot}.db3")));
+    let signals = |(joint, sums): (&str, [u64; 3])| {
+        let names = ["position", "velocity", "effort"];
+        let names = names.map(|signal| format!("joint_states.{joint}.{signal}"));
+        names.into_iter().zip(sums).collect::<Vec<_>>()
+    };
+    let mut expected = vec![("joint_states.header.stamp".to_owned(), stamps)];
+    expected.extend(joints.into_iter().flat_map(signals));
+    let names: Vec<&str> = expected.iter().map(|(name, _)| name.as_str()).collect();
+    columns(&table, &names, samples);
+    for (column, (name, expected)) in table.columns.iter().zip(&expected) {
+        assert_eq!(sum(&column.values), *expected, "{name}");
+    }
+}
+
+#[test]
+fn ur10() {
+    arm(
+        "ur10",
+        3441,
+        0x1d151df914f28d79,
+        [
+            (
+                "shoulder_pan_joint",
+                [0x89a2c96f5b1ff042, 0x3b162ffcc710252f, 0x7c2c9841ed0122a7],
+            ),
+            (
+                "shoulder_lift_joint",
+                [0xbf8a39c79f83e729, 0xd46a84d1f9bb4554, 0x263c95731ce59e3c],
+            ),
+            (
+                "elbow_joint",
+                [0x6ad978de9fcf3ed9, 0x4f1f73218e572070, 0x88a94516033a66d6],
+            ),
+            (
+                "wrist_1_joint",
+                [0xc6eafaa8668cdee8, 0x978491db7c87694a, 0x91253e7ade073161],
+            ),
+            (
+                "wrist_2_joint",
+                [0x8a1b12eb3718a3aa, 0xb0338f915b82f8b7, 0x521dd995b73ccd27],
+            ),
+            (
+                "wrist_3_joint",
+                [0x3d67673503a8069f, 0xee97e24a619ffa2b, 0xab8d75fbd23b2204],
+            ),
+        ],
+    );
+}
+
+#[test]
+fn panda() {
+    arm(
+        "panda",
+        727,
+        0xa52c8f0fce462aaa,
+        [
+            (
+                "fer_joint1",
+                [0x08137a9adb366b56, 0x5cc321e48afd60ff, 0xea805cf739830180],
+            ),
+            (
+                "fer_joint2",
+                [0xbf2563b511eee2a8, 0xdd5eb1cba06f65be, 0x35b3bec14aae030b],
+            ),
+            (
+                "fer_joint3",
+                [0x5f8c903c985b798b, 0x2d09114d0e728eaa, 0x14f53c5ee82c8b26],
+            ),
+            (
+                "fer_joint4",
+                [0x1cd54d84094b34a6, 0x1f4407b682130f38, 0xe84ba7d56605b100],
+            ),
+            (
+                "fer_joint5",
+                [0x039cfe8a49289423, 0x6344e0ac1c3cb8ea, 0x8fe19a81ec2920e3],
+            ),
+            (
+                "fer_joint6",
+                [0xacbfb90003ab0fe3, 0x599c07310c29f269, 0x74230d25295b09b5],
+            ),
+            (
+                "fer_joint7",
+                [0x5564aec94cf33afe, 0xd3236282e9690b98, 0xbafc7cd89ed48ee4],
+            ),
+        ],
+    );
+}

@@ -132,6 +132,18 @@ fn mcap_comes_back_bit_for_bit() {
 }
 
 #[test]
+fn rosbags_come_back_bit_for_bit() {
+    let tables = come_back("write_db3.py");
+    assert_eq!(tables.len(), 11);
+    for (name, table) in &tables {
+        let assumed = detects(table, "no definition in the recording");
+        let bare = ["humble", "common"];
+        let bare = bare.iter().any(|start| name.starts_with(start));
+        assert_eq!(assumed, bare, "{name}: {:?}", table.detected);
+    }
+}
+
+#[test]
 fn tdms_comes_back_bit_for_bit() {
     let tables = come_back("write_tdms.py");
     assert_eq!(tables.len(), 6);
