@@ -72,6 +72,8 @@ pub use mapping::{
     Assumed, Channel, Detected, Drive, Enable, Mapping, Motion, OwnStamps, Parts, Rests, Role,
     Selector, Understood, Wrap,
 };
+#[cfg(feature = "rosbag")]
+pub use open::bag_of;
 pub use open::{ReadOptions, is_binary_recording, read_table, read_table_with, read_wanted};
 #[cfg(feature = "parquet")]
 pub use parquet::{Cells, read_cells};

@@ -2,9 +2,11 @@
 
 use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::regular::{Irregular, regular};
+#[cfg(feature = "rosbag")]
+use crate::ros::split;
 use crate::sniff::{Format, sniff};
 use crate::text::{self, TextOptions, unit};
 use crate::{Error, Kind, Limits, Table, stamps, watch};
@@ -113,6 +115,10 @@ fn read(
     seen: Bytes<'_>,
     wanted: Wanted,
 ) -> Result<Table, Error> {
+    #[cfg(feature = "rosbag")]
+    let metadata = bag_of(path);
+    #[cfg(feature = "rosbag")]
+    let path = metadata.as_deref().unwrap_or(path);
     let about = regular(path).map_err(|e| not_opened(e, "a recording has to be a regular file"))?;
     let bytes = about.len();
     if bytes == 0 {
@@ -133,6 +139,16 @@ fn read(
             };
             text::read_sized(read, Some(bytes), &options.text, options.limits, wanted)
         }
+        #[cfg(feature = "rosbag")]
+        Format::Split => split::read(path, options.limits).and_then(|(table, parts)| {
+            if let Some(seen) = seen {
+                hand_on(path, &about, seen)?;
+                for (part, about) in &parts {
+                    hand_on(part, about, seen)?;
+                }
+            }
+            whole(table, format)
+        }),
         format => binary(format, file, path, bytes, options.limits, wanted).and_then(|table| {
             if let Some(seen) = seen {
                 hand_on(path, &about, seen)?;
@@ -221,7 +237,7 @@ fn binary(
     wanted: Wanted,
 ) -> Result<Table, Error> {
     let mut table: Table = match format {
-        Format::Text => return Err(io(io::ErrorKind::InvalidInput.into())),
+        Format::Text | Format::Split => return Err(io(io::ErrorKind::InvalidInput.into())),
         Format::Foreign(what, instead) => Err(Error::new(Kind::Format, what, instead)),
         #[cfg(feature = "matlab")]
         Format::Matlab4 => crate::matlab4::read(file, bytes, limits),
@@ -260,6 +276,18 @@ fn binary(
             "build with the feature of that format, or save the recording as text",
         )),
     }?;
+    #[cfg(feature = "rosbag")]
+    if let (Format::Rosbag | Format::Mcap, Some(files)) = (format, split::is_part(path)) {
+        table.detected.push(format!(
+            "one of {files} files of a recording: its {} leads to all of them",
+            split::NAME
+        ));
+    }
+    whole(table, format)
+}
+
+/// The same table with the name of its format, unless it has no column.
+fn whole(mut table: Table, format: Format) -> Result<Table, Error> {
     if table.columns.is_empty() {
         let skipped = match table.skipped.join(", ") {
             text if text.is_empty() => "nothing else".to_owned(),
@@ -273,6 +301,17 @@ fn binary(
     }
     table.detected.insert(0, format.words().to_owned());
     Ok(table)
+}
+
+/// The list of its files in the folder of a recording of rosbag2; `None` of other folders and of files.
+#[cfg(feature = "rosbag")]
+pub fn bag_of(folder: &Path) -> Option<PathBuf> {
+    let metadata = folder.join(split::NAME);
+    let mut file = regular(&metadata)
+        .ok()
+        .and_then(|_| File::open(&metadata).ok())?;
+    let is_split = matches!(sniff(&mut file, 0), Ok(Format::Split));
+    is_split.then_some(metadata)
 }
 
 /// Enough of a long list for one line.

@@ -24,6 +24,9 @@ pub(crate) enum Format {
     Arrow,
     Mcap,
     Rosbag,
+    /// A text that lists the files of a recording.
+    #[cfg_attr(not(feature = "rosbag"), allow(dead_code))]
+    Split,
     Tdms,
     Mdf,
     /// Told from text by reading its header, which its reader does.
@@ -51,6 +54,7 @@ impl Format {
             Format::Arrow => "Arrow IPC",
             Format::Mcap => "MCAP",
             Format::Rosbag => "rosbag2 in SQLite",
+            Format::Split => "rosbag2",
             Format::Tdms => "TDMS",
             Format::Mdf => "ASAM MDF",
             Format::Svb => "TwinCAT Scope SVB",
@@ -153,6 +157,8 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
         _ if is_matlab4(&start) => Format::Matlab4,
         #[cfg(feature = "svb")]
         _ if crate::svb::starts(&start) => Format::Svb,
+        #[cfg(feature = "rosbag")]
+        _ if crate::ros::split::is_metadata(&start) => Format::Split,
         _ if is_json(&start) => Format::Json,
         _ => Format::Text,
     })

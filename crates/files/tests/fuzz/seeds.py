@@ -29,5 +29,7 @@ lines = [f"{n}\t{x}\t{2 * n}\t{f}" for n, (_, x, f) in enumerate(rows)]
 (folder / "scope.txt").write_text(scope + "\n".join(lines) + "\n")
 lines = ["overrun\n" * (n % 7 == 0) + f"{n + 3 * (n // 7)} {x:.3f} {f:.3f} " for n, (_, x, f) in enumerate(rows)]
 (folder / "halsampler.txt").write_text("\n".join(lines) + "\n")
+listed = "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  relative_file_paths:\n    - log\n    - \"b.db3\"\n"
+(folder / "metadata.txt").write_text(listed + "  compression_format: \"\"\n  files:\n    - path: log\n")
 empty = [f"{t},{x if n % 5 else ''},{f if n % 3 else 'NaN'},{'TRUE' if n % 2 else 'FALSE'}" for n, (t, x, f) in enumerate(rows)]
 (folder / "holes.txt").write_text("t [s],x [mm],F [N],enabled\n" + "\n".join(empty) + "\n")

@@ -8,6 +8,8 @@ mod cdr;
 mod common;
 mod definition;
 mod message;
+#[cfg(feature = "rosbag")]
+pub(crate) mod split;
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;

@@ -210,3 +210,20 @@ for name, plugin, mode, version in [("plain.db3", StoragePlugin.SQLITE3, NONE, 8
     bag(name, messages, plugin, mode, version)
     describe(truth, messages)
     truth.write()
+
+# A recording in several files, of which a later one has a topic more.
+truth = Truth("split.bag")
+truth.path.mkdir()
+first, second = rows(ARM, 80), rows(drive[:3] + [("/imu", "sensor_msgs/msg/Imu")], 80)
+shift = first[-1][2] - START
+messages = first + [(topic, kind, time + shift, data) for topic, kind, time, data in second]
+thirds = [messages[:100], messages[100:300], messages[300:]]
+for part, some in enumerate(thirds):
+    humble(truth.path / f"split_{part}.db3", some, 4096)
+listed = "".join(f"    - split_{part}.db3\n" for part in range(3))
+(truth.path / "metadata.yaml").write_text(
+    "rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  relative_file_paths:\n" + listed
+    + "  duration:\n    nanoseconds: 1\n  topics_with_message_count:\n    - topic_metadata:\n        name: /force\n"
+    + "  compression_format: \"\"\n  compression_mode: \"\"\n")
+describe(truth, messages)
+truth.write()

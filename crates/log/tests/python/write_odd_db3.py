@@ -55,3 +55,8 @@ twice[at + second : at + second + 4] = twice[at + first : at + first + 4]
 bag("unknown.db3", kind="a_msgs/msg/Own")
 bag("short.db3", kind="sensor_msgs/msg/JointState")
 bag("large.db3", kind="std_msgs/msg/String", content=b"\0\1\0\0" + struct.pack("<I", 200_000) + bytes(200_000), rows=1)
+for name, listed in (("lost.d", "nowhere.db3"), ("other.d", "note.txt")):
+    (folder / name).mkdir()
+    (folder / name / "note.txt").write_text("no recording\n")
+    text = f"rosbag2_bagfile_information:\n  version: 5\n  storage_identifier: sqlite3\n  relative_file_paths:\n    - {listed}\n"
+    (folder / name / "metadata.yaml").write_text(text)

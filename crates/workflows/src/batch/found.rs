@@ -120,6 +120,12 @@ fn is_outcome(folder: &Path) -> bool {
         .any(|name| stiction_log::is_regular(&folder.join(name)) && begins(name).is_some())
 }
 
+/// Whether a file has messages of a recording of rosbag2, by its name.
+fn has_messages(path: &Path) -> bool {
+    let ending = path.extension().and_then(|end| end.to_str());
+    ending.is_some_and(|end| end.starts_with("db3") || matches!(end, "mcap" | "zstd"))
+}
+
 /// What is in a folder, and in those below it; hidden ones, links to folders, configuration and what was written by a command of
 /// this program are left out.
 fn walk(folder: &Path, out: &Path, all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf>)) {
@@ -134,6 +140,10 @@ fn walk(folder: &Path, out: &Path, all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     paths.sort();
+    // Its files are one log, by the list of them.
+    if stiction_log::bag_of(folder).is_some() {
+        paths.retain(|path| !has_messages(path));
+    }
     for path in paths {
         let hidden = path
             .file_name()
@@ -155,9 +165,9 @@ fn walk(folder: &Path, out: &Path, all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf
 
 /// The recordings in a folder of results, by their names: none of those that commands of this program write.
 fn logs_beside(folder: &Path) -> Vec<PathBuf> {
-    const ENDINGS: [&str; 18] = [
+    const ENDINGS: [&str; 19] = [
         "csv", "tsv", "txt", "dat", "log", "mat", "npz", "npy", "parquet", "arrow", "feather",
-        "h5", "hdf5", "tdms", "mf4", "mcap", "xlsx", "svb",
+        "h5", "hdf5", "tdms", "mf4", "mcap", "db3", "xlsx", "svb",
     ];
     const WRITTEN: [&str; 5] = [
         "fit.csv",
@@ -293,6 +303,14 @@ mod tests {
         beside.clear();
         let all = super::found(&named, &at.join("out"), &mut beside).unwrap();
         assert_eq!((all.len(), beside), (6, vec![at.join("done/run.mat")]));
+        fs::create_dir_all(at.join("bag")).unwrap();
+        for name in ["bag_0.db3", "bag_1.db3", "notes.csv", "metadata.yaml"] {
+            fs::write(at.join("bag").join(name), "rosbag2_bagfile_information:\n").unwrap();
+        }
+        assert_eq!(
+            found(&["bag"]).unwrap(),
+            ["bag/metadata.yaml", "bag/notes.csv"]
+        );
         for (input, said) in [
             ("out", "holds no logs"),
             ("done", "holds what an earlier command has written"),

@@ -134,12 +134,14 @@ fn mcap_comes_back_bit_for_bit() {
 #[test]
 fn rosbags_come_back_bit_for_bit() {
     let tables = come_back("write_db3.py");
-    assert_eq!(tables.len(), 11);
+    assert_eq!(tables.len(), 12);
     for (name, table) in &tables {
         let assumed = detects(table, "no definition in the recording");
-        let bare = ["humble", "common"];
+        let bare = ["humble", "common", "split"];
         let bare = bare.iter().any(|start| name.starts_with(start));
         assert_eq!(assumed, bare, "{name}: {:?}", table.detected);
+        let several = detects(table, "3 files, read as one recording");
+        assert_eq!(several, name == "split.bag", "{name}");
     }
 }
 
