@@ -71,7 +71,10 @@ impl Reader {
     /// A text may be a number, nothing, or a date.
     fn text(&mut self, node: usize) -> Result<(), Error> {
         match classify(self.tokens.text()) {
-            Cell::Number(_, Some(crate::text::Decimal::Comma)) | Cell::Local(_) | Cell::Text => {
+            Cell::Number(_, Some(crate::text::Decimal::Comma))
+            | Cell::Local(_)
+            | Cell::List(_)
+            | Cell::Text => {
                 let row = self.tokens.row();
                 let text = String::from_utf8_lossy(self.tokens.text());
                 let text: String = text.chars().take(20).collect();

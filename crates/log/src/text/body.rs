@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 /// Every sample of a file, and what was seen on the way.
 pub(super) struct Body {
-    /// One for each column of the layout; empty where the column is text or not kept.
+    /// One for each column of the layout, then those of lists; empty where the column is text, of lists or not kept.
     pub columns: Vec<Vec<f64>>,
     /// What was seen of columns that are not kept; one for each column.
     pub passed: Vec<Passed>,
@@ -33,7 +33,7 @@ pub(super) struct Body {
 
 /// Reads all samples; more than are allowed are refused.
 pub(super) fn read(source: &mut Source, layout: &Layout, budget: Budget) -> Result<Body, Error> {
-    let width = layout.state.roles.len();
+    let width = layout.rule.keep.len();
     let mut joint = Joint {
         layout,
         budget,

@@ -17,6 +17,8 @@ pub(crate) enum Cell {
     Moment(Moment),
     /// A date with time whose order of day and month other cells may have to tell.
     Local(Local),
+    /// Several numbers in brackets, and how many.
+    List(usize),
     /// Anything else.
     Text,
 }
@@ -24,7 +26,16 @@ pub(crate) enum Cell {
 impl Cell {
     /// Whether the cell holds a number or a point in time.
     pub(super) fn is_sample(self) -> bool {
-        matches!(self, Cell::Number(..) | Cell::Moment(_) | Cell::Local(_))
+        self.samples() > 0
+    }
+
+    /// How many numbers and points in time the cell holds.
+    pub(super) fn samples(self) -> usize {
+        match self {
+            Cell::Number(..) | Cell::Moment(_) | Cell::Local(_) => 1,
+            Cell::List(length) => length,
+            _ => 0,
+        }
     }
 
     /// Whether the cell holds a point in time without a fraction of a second.
@@ -74,7 +85,58 @@ pub(crate) fn classify(cell: &[u8]) -> Cell {
     if let Some(moment) = clock::moment(cell) {
         return Cell::Moment(moment);
     }
+    if let Some(length) = length_of_list(cell) {
+        return Cell::List(length);
+    }
     local::read(cell).map_or(Cell::Text, Cell::Local)
+}
+
+/// What stands between the brackets of a list: `[0.1, 0.2]` or `(1, 2)` of Python, `[0.1 0.2]` of NumPy.
+fn inside_list(cell: &[u8]) -> Option<&[u8]> {
+    let inside = match cell {
+        [b'[', inside @ .., b']'] | [b'(', inside @ .., b')'] => inside,
+        _ => return None,
+    };
+    let inside = inside.trim_ascii();
+    Some(inside.strip_suffix(b",").unwrap_or(inside))
+}
+
+/// The numbers of a list, in the order of the cell; a missing one is NaN, and `None` is no number. A comma or blanks stand between
+/// them, and the decimal mark is the point.
+pub(super) fn elements(cell: &[u8]) -> Option<impl Iterator<Item = Option<f64>>> {
+    let inside = inside_list(cell.trim_ascii())?;
+    let commas = inside.contains(&b',');
+    let parts = inside.split(move |byte| match commas {
+        true => *byte == b',',
+        false => byte.is_ascii_whitespace(),
+    });
+    let parts = parts.filter(move |part| commas || !part.is_empty());
+    Some(parts.map(|part| {
+        let part = part.trim_ascii();
+        match fast_float2::parse(part) {
+            Ok(value) => Some(value),
+            Err(_) => match word(part) {
+                Some(Cell::Missing) => Some(f64::NAN),
+                Some(Cell::Number(value, _)) => Some(value),
+                _ => None,
+            },
+        }
+    }))
+}
+
+/// The length of a list of two numbers or more: one in brackets may be an index, or a negative amount.
+fn length_of_list(cell: &[u8]) -> Option<usize> {
+    let mut length = 0;
+    for element in elements(cell)? {
+        element?;
+        length += 1;
+    }
+    (length > 1).then_some(length)
+}
+
+/// Whether a list is empty.
+pub(super) fn is_empty_list(cell: &[u8]) -> bool {
+    inside_list(cell.trim_ascii()).is_some_and(<[u8]>::is_empty)
 }
 
 /// The correctly rounded value of a cell written with this decimal mark.
@@ -223,6 +285,31 @@ mod tests {
             assert_eq!(classify(missing.as_bytes()), Cell::Missing, "{missing}");
         }
         for text in ["-true", "hold", "nano", "i", "infinit"] {
+            assert_eq!(classify(text.as_bytes()), Cell::Text, "{text}");
+        }
+    }
+
+    #[test]
+    fn lists() {
+        let list = |text: &str| elements(text.as_bytes()).map(Iterator::collect::<Vec<_>>);
+        for text in ["[1.5, -2,3e2]", "(1.5,-2, 3e2,)", " [ 1.5 -2.\n  3e2] "] {
+            assert_eq!(list(text), Some(vec![Some(1.5), Some(-2.0), Some(300.0)]));
+            assert_eq!(classify(text.as_bytes()), Cell::List(3), "{text}");
+        }
+        assert_eq!(classify(b"[nan, inf, None, True]"), Cell::Text);
+        assert_eq!(classify(b"[nan, inf, None, 0]"), Cell::List(4));
+        assert_eq!(list("[]"), Some(vec![]));
+        assert!(is_empty_list(b" [ ] ") && !is_empty_list(b"[1]"));
+        for text in [
+            "[1]",
+            "(5)",
+            "[1, a]",
+            "[1, , 2]",
+            "[1, 2",
+            "1, 2]",
+            "[[1, 2], [3, 4]]",
+            "[1; 2]",
+        ] {
             assert_eq!(classify(text.as_bytes()), Cell::Text, "{text}");
         }
     }

@@ -53,28 +53,33 @@ impl Layout {
         if self.scope.is_some() {
             return;
         }
-        let titles = self.titles.iter();
-        let heads = titles.map(|title| Column {
-            name: title.name.clone(),
-            unit: title.unit.clone(),
-            ..Column::default()
+        let titles = self.titles.iter().zip(&self.state.roles);
+        let heads = titles.flat_map(|(title, role)| {
+            title.each(*role).map(|name| Column {
+                name,
+                unit: title.unit.clone(),
+                ..Column::default()
+            })
         });
         let heads = Table {
             columns: heads.collect(),
             ..Table::default()
         };
-        let wanted = wanted(&heads);
-        let roles = self.state.roles.iter();
-        let needed = roles.enumerate().map(|(column, role)| {
+        let mut wanted = wanted(&heads).into_iter();
+        let mut next = || wanted.next().unwrap_or(true);
+        for (column, role) in self.state.roles.iter().enumerate() {
+            if let Role::List { first, length } = *role {
+                self.rule.keep[first..first + length].fill_with(&mut next);
+                continue;
+            }
             // Times of day run on over midnight; halsampler numbers its samples.
             let stamps = matches!(
                 role,
                 Role::Moment { .. } | Role::Local(_) | Role::FileTime { .. }
             );
             let numbers = column == 0 && self.rule.overruns;
-            stamps || numbers || wanted.get(column).copied().unwrap_or(true)
-        });
-        self.rule.keep = needed.collect();
+            self.rule.keep[column] = next() || stamps || numbers;
+        }
     }
 }
 
@@ -98,8 +103,9 @@ pub(super) fn layout(source: &Source, options: &TextOptions) -> Result<Layout, E
     }
     let near = lines.iter().take_while(|l| l.start < SAMPLE_BYTES).count();
     let fit = best(&lines[..near], skip, source.row_end, options)?;
-    if fit.width > MAX_COLUMNS {
-        return Err(problem::too_many_columns(fit.width).at_line(first_line(&lines, &fit)));
+    let columns = fit.roles.iter().map(|role| role.columns()).sum();
+    if columns > MAX_COLUMNS {
+        return Err(problem::too_many_columns(columns).at_line(first_line(&lines, &fit)));
     }
     let ends = Ends::new(fit.separator, source.row_end);
     let above = prologue::read(&lines, &fit, &ends, options)?;
@@ -145,7 +151,7 @@ pub(super) fn layout(source: &Source, options: &TextOptions) -> Result<Layout, E
             trailing: fit.trailing,
             run_out: false,
             overruns: fit.separator == Separator::Blanks && !above.named,
-            keep: vec![true; fit.width],
+            keep: vec![true; fit.kept],
         },
         state: State {
             decimal: options.decimal.or(mark.as_ref().map(|m| m.decimal)),

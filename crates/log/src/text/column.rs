@@ -32,12 +32,15 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
     }
     let mut left_out = Vec::new();
     let mut passed = BTreeMap::new();
-    for (c, (title, mut values)) in layout.titles.into_iter().zip(body.columns).enumerate() {
+    let mut columns = body.columns;
+    for (c, title) in layout.titles.into_iter().enumerate() {
+        let mut values = std::mem::take(&mut columns[c]);
+        let number = table.columns.len() + 1;
         let label = match title.name.as_str() {
             "" => format!("column {}", c + 1),
             name => problem::label(name, c),
         };
-        let (mut unit, mut stamps) = (title.unit, false);
+        let (mut unit, mut stamps) = (title.unit.clone(), false);
         match body.state.roles[c] {
             Role::Text => {
                 let seen = body.texts[c].as_ref();
@@ -45,11 +48,11 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
                     format!(" such as {} in line {}", s.text, s.line)
                 });
                 table.skipped.push(format!("{label}: text{example}"));
-                left_out.push(c + 1);
+                left_out.push(number);
             }
             Role::Unknown if layout.scope.is_none() => {
                 table.skipped.push(format!("{label}: no number in any row"));
-                left_out.push(c + 1);
+                left_out.push(number);
             }
             Role::Moment { dated, .. } => {
                 (unit, stamps) = (Some("s".to_owned()), true);
@@ -74,9 +77,26 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
                     dates.said()
                 ));
             }
+            role @ Role::List { first, length } => {
+                table
+                    .detected
+                    .push(format!("{label}: lists of {length} numbers"));
+                for (at, name) in (first..).zip(title.each(role)) {
+                    if !layout.rule.keep[at] {
+                        passed.insert(table.columns.len() - left_out.len(), body.passed[at]);
+                    }
+                    table.columns.push(Column {
+                        name,
+                        unit: unit.clone(),
+                        stamps: false,
+                        values: std::mem::take(&mut columns[at]),
+                    });
+                }
+                continue;
+            }
             _ => {}
         }
-        let is_left_out = left_out.last() == Some(&(c + 1));
+        let is_left_out = left_out.last() == Some(&number);
         let beyond = match layout.rule.keep[c] {
             true => values.iter().any(|x| is_beyond(*x)),
             false => body.passed[c].beyond && !is_left_out,
@@ -87,7 +107,7 @@ pub(super) fn finish(layout: Layout, body: Body) -> Table {
             ));
         }
         if !layout.rule.keep[c] && !is_left_out {
-            passed.insert(c - left_out.len(), body.passed[c]);
+            passed.insert(number - 1 - left_out.len(), body.passed[c]);
         }
         table.columns.push(Column {
             name: title.name,

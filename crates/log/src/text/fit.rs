@@ -37,6 +37,8 @@ pub(super) enum Whole {
 pub(super) struct Fit {
     pub separator: Separator,
     pub width: usize,
+    /// Columns of samples that are kept apart: one for each cell, then those of lists.
+    pub kept: usize,
     /// Whether rows end in a separator.
     pub trailing: bool,
     /// What each column holds.
@@ -87,7 +89,7 @@ impl Fit {
         let roles: Vec<Role> = columns.iter().map(Column::role).collect();
         if !roles
             .iter()
-            .any(|r| matches!(r, Role::Number | Role::Moment { .. } | Role::Local(_)))
+            .any(|r| !matches!(r, Role::Unknown | Role::Text))
         {
             return None;
         }
@@ -102,26 +104,34 @@ impl Fit {
             .filter(|r| r.fits(&roles, trailing) && (mostly_quoted || !r.all_quoted))
             .collect();
         let first = rows.first()?;
+        let mut kept = width;
         let roles = roles
             .into_iter()
             .enumerate()
             .map(|(c, role)| match role {
                 Role::Moment { .. } => first_moment(&rows, c).unwrap_or(role),
+                Role::List { .. } => {
+                    let role = first_list(&rows, c, kept).unwrap_or(role);
+                    kept += role.columns();
+                    role
+                }
                 other => other,
             })
             .collect();
         debug_assert!(first.cells.len() <= width + 1);
         let samples = rows
             .iter()
-            .map(|r| r.cells.iter().filter(|c| c.is_sample()).count())
+            .map(|r| r.cells.iter().map(|c| c.samples()).sum::<usize>())
             .sum();
-        let filled = rows
-            .iter()
-            .map(|r| r.cells.iter().filter(|c| **c != Cell::Empty).count())
+        let filled = rows.iter().flat_map(|r| &r.cells);
+        let filled = filled
+            .filter(|c| **c != Cell::Empty)
+            .map(|c| c.samples().max(1))
             .sum();
         Some(Self {
             separator,
             width,
+            kept,
             trailing,
             roles,
             rows,
@@ -182,6 +192,7 @@ impl Row {
                 Role::Number => cell.is_void() || matches!(cell, Cell::Number(..)),
                 Role::Moment { .. } => cell.is_void() || matches!(cell, Cell::Moment(_)),
                 Role::Local(_) => cell.is_void() || matches!(cell, Cell::Local(_)),
+                Role::List { .. } => cell.is_void() || matches!(cell, Cell::List(_)),
                 _ => true,
             })
     }
@@ -247,6 +258,8 @@ struct Column {
     of_day: usize,
     local: usize,
     first_local: Option<Local>,
+    lists: usize,
+    length: usize,
     filled: usize,
 }
 
@@ -265,6 +278,10 @@ impl Column {
                 Cell::Local(date) => {
                     counts.local += 1;
                     counts.first_local.get_or_insert(date);
+                }
+                Cell::List(length) => {
+                    counts.lists += 1;
+                    counts.length = length;
                 }
                 _ => {}
             }
@@ -292,6 +309,10 @@ impl Column {
                 first_local: Some(first),
                 ..
             } if half(*local) => Role::Local(Dates::from(*first)),
+            Column { lists, length, .. } if half(*lists) => Role::List {
+                first: 0,
+                length: *length,
+            },
             _ => Role::Text,
         }
     }
@@ -302,6 +323,17 @@ fn first_moment(rows: &[Row], column: usize) -> Option<Role> {
         Some(Cell::Moment(m)) => Some(Role::Moment {
             base: m.ns,
             dated: m.dated,
+        }),
+        _ => None,
+    })
+}
+
+/// A column of lists, whose samples are kept from a place on.
+fn first_list(rows: &[Row], column: usize, first: usize) -> Option<Role> {
+    rows.iter().find_map(|r| match r.cells.get(column) {
+        Some(Cell::List(length)) => Some(Role::List {
+            first,
+            length: *length,
         }),
         _ => None,
     })

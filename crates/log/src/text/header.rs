@@ -4,14 +4,26 @@ use super::limits::MAX_COLUMNS;
 use super::lines::Line;
 use super::options::Separator;
 use super::problem;
+use super::row::Role;
 use super::split::{self, Ends};
 use super::unit;
+use crate::binary::Collector;
 
 /// Name and unit of one column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Title {
     pub name: String,
     pub unit: Option<String>,
+}
+
+impl Title {
+    /// The names of the columns that it has: `name(:,1)` and so on of lists.
+    pub(super) fn each(&self, role: Role) -> impl Iterator<Item = String> {
+        (0..role.columns()).map(move |index| match role {
+            Role::List { .. } => Collector::of_matrix(&self.name, index),
+            _ => self.name.clone(),
+        })
+    }
 }
 
 /// The cells of a line above the samples, as text. Where blanks separate, a unit in brackets belongs

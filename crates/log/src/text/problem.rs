@@ -166,6 +166,16 @@ pub(super) fn wrong_moment(text: &[u8], dated: bool) -> Error {
     Error::new(Kind::Format, show(text), allowed)
 }
 
+/// A cell of a column of lists, with another number of elements where that is what is wrong.
+pub(super) fn wrong_list(text: &[u8], length: usize, count: Option<usize>) -> Error {
+    let found = match count {
+        Some(0) | None => show(text),
+        Some(count) => format!("{}, a list of {count}", show(text)),
+    };
+    let allowed = format!("a list of {length} numbers such as [0.5, -1] in every row, or nothing");
+    Error::new(Kind::Format, found, allowed)
+}
+
 /// A date whose order the dates before it do not allow, or leave open.
 pub(super) fn wrong_date(text: &[u8], dates: Dates, wrong: Wrong) -> Error {
     let first = dates.first();

@@ -24,6 +24,18 @@ pub(super) enum Role {
     Local(Dates),
     /// Counts of 100 ns since 1601, as seconds from this one.
     FileTime { base: i64 },
+    /// Lists of so many numbers, whose samples are kept from the place `first` on, behind those of all cells.
+    List { first: usize, length: usize },
+}
+
+impl Role {
+    /// How many columns of the table it makes.
+    pub(super) fn columns(self) -> usize {
+        match self {
+            Role::List { length, .. } => length,
+            _ => 1,
+        }
+    }
 }
 
 /// What rows have shown so far and the rows after them must keep to.
@@ -46,7 +58,8 @@ pub(super) struct Rule {
     pub run_out: bool,
     /// Whether a line `overrun` is the mark of halsampler for samples that are missing.
     pub overruns: bool,
-    /// Of which columns the samples are kept; the cells of others are read and checked all the same.
+    /// Of which columns the samples are kept, one for each cell and then those of lists; the cells of others are read and checked
+    /// all the same.
     pub keep: Vec<bool>,
 }
 
@@ -92,10 +105,10 @@ pub(super) struct Stop {
 
 /// Reads all rows of a block, or those before the first that cannot be read.
 pub(super) fn parse(text: &[u8], rule: &Rule, state: &State, seen: Option<&str>) -> Block {
-    let columns = vec![Vec::new(); state.roles.len()];
+    let columns = vec![Vec::new(); rule.keep.len()];
     let block = Block {
         columns,
-        passed: vec![Passed::default(); state.roles.len()],
+        passed: vec![Passed::default(); rule.keep.len()],
         rows: 0,
         lines: 0,
         state: state.clone(),
@@ -335,6 +348,10 @@ impl Parser<'_> {
         let column = self.cell;
         let value = match self.block.state.roles[column] {
             Role::Text => return Ok(found.end),
+            Role::List { first, length } => {
+                self.list(&found.text, first, length)?;
+                return Ok(found.end);
+            }
             Role::Unknown | Role::Number => self.number(&found)?,
             Role::Moment { base, dated } => match cell::classify(&found.text) {
                 Cell::Moment(m) if m.dated == dated => {
@@ -364,6 +381,27 @@ impl Parser<'_> {
             self.put(column, value);
         }
         Ok(found.end)
+    }
+
+    /// A cell in a column of lists of this length; one without any is missing in all of its columns.
+    fn list(&mut self, cell: &[u8], first: usize, length: usize) -> Result<(), Error> {
+        if cell::classify(cell).is_void() || cell::is_empty_list(cell) {
+            (first..first + length).for_each(|column| self.put(column, f64::NAN));
+            return Ok(());
+        }
+        let mut count = 0;
+        for element in cell::elements(cell).into_iter().flatten() {
+            match element {
+                Some(value) if count < length => self.put(first + count, value),
+                Some(_) => {}
+                None => return Err(problem::wrong_list(cell, length, None)),
+            }
+            count += 1;
+        }
+        match count == length {
+            true => Ok(()),
+            false => Err(problem::wrong_list(cell, length, Some(count))),
+        }
     }
 
     /// A cell in a column of numbers, or in one that has been empty so far.

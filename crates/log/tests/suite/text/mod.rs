@@ -6,6 +6,7 @@ mod dialects;
 mod errors;
 mod halsampler;
 mod hostile;
+mod lists;
 mod python;
 mod recordings;
 mod twincat;
