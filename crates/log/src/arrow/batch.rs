@@ -14,6 +14,8 @@ pub(super) struct Samples {
     pub(super) values: Values,
     pub(super) ticks: Vec<Option<i64>>,
     pub(super) rows: u64,
+    /// Numbers of every list, as far as any has some; and another number of them, where one has it.
+    pub(super) lengths: [Option<u64>; 2],
 }
 
 /// How the buffers of a batch are compressed.
@@ -151,6 +153,12 @@ impl<'a> Batch<'a> {
             }
             return Ok(());
         }
+        if let (Kind::List(width), [child]) = (&field.kind, &field.children[..]) {
+            let Some(samples) = columns.next() else {
+                return Err(broken("more columns than the schema has"));
+            };
+            return self.lists((field, child, *width), first, &rows, samples, collector);
+        }
         let count = collector.reserve(&field.name, &[rows.rows, rows.every])?;
         let Some(samples) = columns.next() else {
             return Err(broken("more columns than the schema has"));
@@ -159,6 +167,94 @@ impl<'a> Batch<'a> {
         let valid = self.validity(first, &rows)?;
         self.values(&field.kind, first + 1, count, valid, samples)
             .map_err(|error| broken(format!("{}: {error}", field.name)))
+    }
+
+    /// Appends the numbers of lists, NaN for those of a row without any, as long as all others have one length.
+    fn lists(
+        &mut self,
+        (field, child, width): (&Field, &Field, usize),
+        buffer: usize,
+        rows: &Rows<'_>,
+        samples: &mut Samples,
+        collector: &mut Collector,
+    ) -> Result<(), Trouble> {
+        let name = &field.name;
+        if rows.every != 1 {
+            return Err(broken("lists within lists"));
+        }
+        let node = self
+            .header
+            .vector(1, 16)
+            .and_then(|nodes| nodes.pair(self.node));
+        let count = node.and_then(|(length, _)| u64::try_from(length).ok());
+        let count = count.ok_or_else(|| broken("a batch without the length of a column"))?;
+        self.node += 1;
+        let inside = self.buffer;
+        self.buffer += child.kind.buffers();
+        // The offsets, then the numbers as they are stored and as they are kept.
+        collector.reserve(name, &[rows.rows])?;
+        collector.reserve(name, &[count])?;
+        let damaged = |error: io::Error| broken(format!("{name}: {error}"));
+        let there = self.validity(buffer, rows)?;
+        let offsets = match rows.rows {
+            0 => Vec::new(),
+            rows => self.offsets(buffer + 1, rows + 1, width).map_err(damaged)?,
+        };
+        let all = Rows {
+            rows: count,
+            every: 1,
+            valid: &None,
+        };
+        let valid = self.validity(inside, &all)?;
+        let mut stored = Samples::default();
+        self.values(&child.kind, inside + 1, count, valid, &mut stored)
+            .map_err(damaged)?;
+        samples.values.rounded |= stored.values.rounded;
+        for (row, pair) in offsets.windows(2).enumerate() {
+            let numbers = stored.values.samples.get(pair[0]..pair[1]);
+            let numbers =
+                numbers.ok_or_else(|| broken(format!("{name}: a list outside of its numbers")))?;
+            let present = there.as_ref().is_none_or(|there| there[row]) && !numbers.is_empty();
+            let length = match samples.lengths[0] {
+                Some(known) => known,
+                None if present => {
+                    // Rows before the first list are missing in all of its columns.
+                    let length = numbers.len() as u64;
+                    samples.lengths[0] = Some(length);
+                    let before = collector.reserve(name, &[samples.rows, length])?;
+                    samples.values.samples.resize(before as usize, f64::NAN);
+                    length
+                }
+                None => 0,
+            };
+            samples.rows += 1;
+            collector.reserve(name, &[length])?;
+            match present {
+                true if numbers.len() as u64 == length => {
+                    samples.values.samples.extend_from_slice(numbers);
+                }
+                true => samples.lengths[1] = Some(numbers.len() as u64),
+                false => {
+                    let end = samples.values.samples.len() + length as usize;
+                    samples.values.samples.resize(end, f64::NAN);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Offsets of this many bytes each, of which there are so many.
+    fn offsets(&mut self, buffer: usize, count: u64, width: usize) -> io::Result<Vec<usize>> {
+        let bytes = count.saturating_mul(width as u64);
+        let mut stream = self.stream(buffer, bytes)?;
+        let mut offsets = Vec::new();
+        for _ in 0..count {
+            let mut bytes = [0; 8];
+            stream.read_exact(&mut bytes[..width])?;
+            let offset = usize::try_from(u64::from_le_bytes(bytes));
+            offsets.push(offset.map_err(|_| io::Error::other("an offset without end"))?);
+        }
+        Ok(offsets)
     }
 
     /// Passes over the buffers of fields that are not read.

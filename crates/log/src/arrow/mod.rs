@@ -1,7 +1,7 @@
 //! Arrow IPC: files (Feather version 2) and streams, uncompressed, or with LZ4 or Zstandard.
 //!
 //! Format: "Arrow Columnar Format", version 1.5, <https://arrow.apache.org/docs/format/Columnar.html>. Fields of structures are
-//! `struct.field`, lists of one fixed length `field(:,1)`, `field(:,2)` ...; a missing value is NaN. Time stamps become seconds
+//! `struct.field`, lists of one length `field(:,1)`, `field(:,2)` ...; a missing value is NaN. Time stamps become seconds
 //! from the first. The metadata `unit` or `units` of a field is its unit. Text, categories, lists and unions are named in
 //! [`Table::skipped`].
 
@@ -213,6 +213,17 @@ fn give(
             };
             let (rows, unit) = (samples.rows, field.unit.clone());
             match *kind {
+                Kind::List(_) => match samples.lengths {
+                    [Some(one), Some(other)] => {
+                        let why = format!("lists of different lengths, {one} and {other}");
+                        collector.skip_column(name, &why);
+                    }
+                    [Some(length), None] => {
+                        let dims = [rows, length];
+                        collector.array(name, unit, &dims, Order::Row, samples.values);
+                    }
+                    [None, _] => collector.skip_column(name, "empty"),
+                },
                 _ if rows == 0 || every == 0 => collector.skip_column(name, "empty"),
                 Kind::Ticks(..) if every > 1 => {
                     collector.skip_column(name, "several time stamps in every row")

@@ -7,6 +7,9 @@ use crate::binary::{ByteOrder, Class, Clock, Collector, Number, Period};
 /// Deepest nesting of fields.
 const MAX_DEPTH: usize = 32;
 
+/// Lists that are not read.
+const LISTS: Kind = Kind::Other("a list in every row", 2, true);
+
 /// Bytes of all names together.
 const MAX_NAMES: usize = 8 << 20;
 
@@ -31,6 +34,8 @@ pub(super) enum Kind {
     Structure,
     /// As many elements in every row.
     Fixed(u64),
+    /// Numbers in every row, as many as offsets of this many bytes say.
+    List(usize),
     /// Not numbers, what it is, how many buffers stand for it, and whether the fields below are stored.
     Other(&'static str, usize, bool),
     /// Text or bytes whose number of buffers is said in every batch.
@@ -42,6 +47,7 @@ impl Kind {
     pub(super) fn buffers(&self) -> usize {
         match self {
             Kind::Number(_) | Kind::Truth | Kind::Ticks(..) | Kind::Decimal(_) | Kind::View(_) => 2,
+            Kind::List(_) => 2,
             Kind::Structure | Kind::Fixed(_) => 1,
             Kind::Other(_, buffers, _) => *buffers,
         }
@@ -111,6 +117,14 @@ impl Below {
                     Err(error) => return Some(Err(error)),
                 },
             };
+            // Of lists those of plain numbers are read.
+            let plain = |field: &Field| {
+                matches!(field.kind, Kind::Number(_) | Kind::Truth | Kind::Decimal(_))
+            };
+            let kind = match kind {
+                Kind::List(_) if inside.len() != 1 || !inside.iter().all(plain) => LISTS,
+                kind => kind,
+            };
             out.push(Field {
                 unit: unit(field)?,
                 name,
@@ -152,7 +166,9 @@ impl Below {
             }
             10 => Kind::Ticks(8, period(of.short(0, 0)?)?, Clock::Epoch),
             11 => Kind::Other("calendar intervals", 2, false),
-            12 | 17 | 21 => Kind::Other("a list in every row", 2, true),
+            12 => Kind::List(4),
+            21 => Kind::List(8),
+            17 => LISTS,
             13 => Kind::Structure,
             14 if of.short(0, 0)? == 0 => Kind::Other("a union", 1, true),
             14 => Kind::Other("a union", 2, true),

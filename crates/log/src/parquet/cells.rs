@@ -174,7 +174,7 @@ fn one(
         }
         let rows = u64::try_from(group.num_rows()).map_err(|_| broken("a negative length"))?;
         total += collector.reserve(name, &[rows])?;
-        let mut chunk = chunk(reader, raw, number, index, collector)?;
+        let (mut chunk, _) = chunk(reader, raw, number, index, collector)?;
         taken
             .append(column.max_def_level(), rows as usize, &mut chunk)
             .map_err(library)?;

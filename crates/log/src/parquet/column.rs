@@ -6,6 +6,7 @@ use parquet::data_type::{DataType, Int96};
 use parquet::errors::ParquetError;
 use parquet::schema::types::ColumnDescriptor;
 
+use super::list::Lists;
 use crate::binary::{Clock, Period, Values, decimal, half};
 
 /// What the stored values of a column are.
@@ -25,9 +26,6 @@ pub(super) enum Meaning {
 impl Meaning {
     pub(super) fn of(column: &ColumnDescriptor) -> Self {
         let other = |what: &str| Meaning::Other(what.to_owned());
-        if column.max_rep_level() > 0 {
-            return other("a list in every row");
-        }
         let converted = column.converted_type();
         match (column.physical_type(), column.logical_type_ref()) {
             (Type::INT96, _) => Meaning::Ticks(NANO, Clock::Epoch),
@@ -107,12 +105,13 @@ impl Samples {
         self.values.samples.len() + self.ticks.len()
     }
 
-    /// Appends the rows of one row group; a value is there at definition level `full`.
+    /// Appends the rows of one row group, or the elements of its lists; a value is there at definition level `full`.
     pub(super) fn append(
         &mut self,
         meaning: &Meaning,
         full: i16,
         rows: usize,
+        lists: Option<&mut Lists>,
         reader: &mut ColumnReader,
     ) -> Result<(), ParquetError> {
         use ColumnReader as R;
@@ -128,48 +127,58 @@ impl Samples {
         let unsigned = *meaning == Meaning::Unsigned;
         match (reader, meaning) {
             (R::Int32ColumnReader(r), Meaning::Ticks(..)) => {
-                each(r, rows, full, |v| tick(v.copied().map(i64::from)))
+                records(r, rows, full, lists, |v| tick(v.copied().map(i64::from)))
             }
             (R::Int64ColumnReader(r), Meaning::Ticks(..)) => {
-                each(r, rows, full, |v| tick(v.copied()))
+                records(r, rows, full, lists, |v| tick(v.copied()))
             }
-            (R::Int96ColumnReader(r), _) => each(r, rows, full, |v| tick(v.map(Int96::to_nanos))),
-            (R::Int32ColumnReader(r), Meaning::Decimal(scale)) => each(r, rows, full, |v| {
-                push(v.map(|&v| decimal(i128::from(v), *scale)));
-            }),
-            (R::Int64ColumnReader(r), Meaning::Decimal(scale)) => each(r, rows, full, |v| {
-                push(v.map(|&v| decimal(i128::from(v), *scale)));
-            }),
+            (R::Int96ColumnReader(r), _) => {
+                records(r, rows, full, lists, |v| tick(v.map(Int96::to_nanos)))
+            }
+            (R::Int32ColumnReader(r), Meaning::Decimal(scale)) => {
+                records(r, rows, full, lists, |v| {
+                    push(v.map(|&v| decimal(i128::from(v), *scale)));
+                })
+            }
+            (R::Int64ColumnReader(r), Meaning::Decimal(scale)) => {
+                records(r, rows, full, lists, |v| {
+                    push(v.map(|&v| decimal(i128::from(v), *scale)));
+                })
+            }
             (R::FixedLenByteArrayColumnReader(r), Meaning::Decimal(scale)) => {
-                each(r, rows, full, |v| {
+                records(r, rows, full, lists, |v| {
                     push(
                         v.and_then(|v| big_endian(v.data()))
                             .map(|v| decimal(v, *scale)),
                     );
                 })
             }
-            (R::FixedLenByteArrayColumnReader(r), _) => each(r, rows, full, |v| {
+            (R::FixedLenByteArrayColumnReader(r), _) => records(r, rows, full, lists, |v| {
                 push(
                     v.and_then(|v| v.data().try_into().ok())
                         .map(u16::from_le_bytes)
                         .map(half),
                 );
             }),
-            (R::BoolColumnReader(r), _) => {
-                each(r, rows, full, |v| push(v.map(|&v| f64::from(u8::from(v)))))
+            (R::BoolColumnReader(r), _) => records(r, rows, full, lists, |v| {
+                push(v.map(|&v| f64::from(u8::from(v))))
+            }),
+            (R::Int32ColumnReader(r), _) if unsigned => records(r, rows, full, lists, |v| {
+                push(v.map(|&v| f64::from(v as u32)))
+            }),
+            (R::Int32ColumnReader(r), _) => {
+                records(r, rows, full, lists, |v| push(v.map(|&v| f64::from(v))))
             }
-            (R::Int32ColumnReader(r), _) if unsigned => {
-                each(r, rows, full, |v| push(v.map(|&v| f64::from(v as u32))))
-            }
-            (R::Int32ColumnReader(r), _) => each(r, rows, full, |v| push(v.map(|&v| f64::from(v)))),
-            (R::Int64ColumnReader(r), _) if unsigned => each(r, rows, full, |v| {
+            (R::Int64ColumnReader(r), _) if unsigned => records(r, rows, full, lists, |v| {
                 push(v.map(|&v| whole(i128::from(v as u64))));
             }),
-            (R::Int64ColumnReader(r), _) => {
-                each(r, rows, full, |v| push(v.map(|&v| whole(i128::from(v)))))
+            (R::Int64ColumnReader(r), _) => records(r, rows, full, lists, |v| {
+                push(v.map(|&v| whole(i128::from(v))))
+            }),
+            (R::FloatColumnReader(r), _) => {
+                records(r, rows, full, lists, |v| push(v.map(|&v| f64::from(v))))
             }
-            (R::FloatColumnReader(r), _) => each(r, rows, full, |v| push(v.map(|&v| f64::from(v)))),
-            (R::DoubleColumnReader(r), _) => each(r, rows, full, |v| push(v.copied())),
+            (R::DoubleColumnReader(r), _) => records(r, rows, full, lists, |v| push(v.copied())),
             (R::ByteArrayColumnReader(_), _) => {
                 Err(ParquetError::General("text is not read".to_owned()))
             }
@@ -182,24 +191,45 @@ pub(super) fn each<T: DataType>(
     reader: &mut ColumnReaderImpl<T>,
     rows: usize,
     full: i16,
+    take: impl FnMut(Option<&T::T>),
+) -> Result<(), ParquetError> {
+    records(reader, rows, full, None, take)
+}
+
+/// The same, of rows that have lists on every element.
+fn records<T: DataType>(
+    reader: &mut ColumnReaderImpl<T>,
+    rows: usize,
+    full: i16,
+    mut lists: Option<&mut Lists>,
     mut take: impl FnMut(Option<&T::T>),
 ) -> Result<(), ParquetError> {
     // As many as the readers of other formats take at once.
     const BATCH_ROWS: usize = 8192;
-    let (mut values, mut present) = (Vec::new(), Vec::new());
+    let (mut values, mut present, mut repeats) = (Vec::new(), Vec::new(), Vec::new());
     let nullable = full > 0;
     let mut left = rows;
     while left > 0 {
         values.clear();
         present.clear();
+        repeats.clear();
         let levels = nullable.then_some(&mut present);
+        let again = lists.is_some().then_some(&mut repeats);
         let (records, _, _) =
-            reader.read_records(left.min(BATCH_ROWS), levels, None, &mut values)?;
+            reader.read_records(left.min(BATCH_ROWS), levels, again, &mut values)?;
         if records == 0 {
             break;
         }
         left = left.saturating_sub(records);
-        if nullable {
+        if let Some(lists) = &mut lists {
+            let mut values = values.iter();
+            for (&level, &repeat) in present.iter().zip(&repeats) {
+                if lists.see(repeat == 0, level) {
+                    take(if level == full { values.next() } else { None });
+                }
+            }
+            lists.end();
+        } else if nullable {
             let mut values = values.iter();
             for &level in &present {
                 take(if level == full { values.next() } else { None });

@@ -2,10 +2,11 @@
 //!
 //! Numbers of every type are read; a missing value is NaN. Time stamps become seconds from the first
 //! one, which [`Table::detected`] names. Fields of structs are `struct.field`; text, raw bytes and
-//! lists are named in [`Table::skipped`].
+//! lists of several lengths are named in [`Table::skipped`]; those of one length are `field(:,1)`, `field(:,2)` ...
 
 mod cells;
 mod column;
+mod list;
 mod pages;
 mod scan;
 mod thrift;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 
 pub use cells::{Cells, read_cells};
 use column::{Meaning, Samples};
+use list::Lists;
 use pages::{Packing, Pages};
 use parquet::basic::Compression;
 use parquet::column::reader::{ColumnReader, get_column_reader};
@@ -52,14 +54,14 @@ fn library(error: ParquetError) -> Error {
     broken(format!("broken or unsupported Parquet ({error})"))
 }
 
-/// A column of a row group; refused where it is packed as nothing here unpacks, or its pages ask for too much memory.
+/// A column of a row group, and how many values its pages claim; refused where it is packed as nothing here unpacks, or its pages ask for too much memory.
 fn chunk(
     reader: &SerializedFileReader<File>,
     raw: &mut File,
     group: usize,
     index: usize,
     collector: &Collector,
-) -> Result<ColumnReader, Error> {
+) -> Result<(ColumnReader, u64), Error> {
     let group = reader.get_row_group(group).map_err(library)?;
     let about = group.metadata();
     let chunk = about.columns().get(index);
@@ -86,14 +88,16 @@ fn chunk(
         None => packed.saturating_mul(22) + 64,
         Some(_) => u64::MAX,
     };
-    let largest = scan::pages(raw, start, end, most).map_err(broken)?;
+    let (largest, values) = scan::pages(raw, start, end, most).map_err(broken)?;
     collector.holds("a page", largest)?;
     let Some(packing) = packing else {
-        return group.get_column_reader(index).map_err(library);
+        let reader = group.get_column_reader(index).map_err(library)?;
+        return Ok((reader, values));
     };
     let file = raw.try_clone().map_err(|error| broken(error.to_string()))?;
     let pages = Pages::new(file, start, end, packing, largest);
-    Ok(get_column_reader(chunk.column_descr_ptr(), Box::new(pages)))
+    let reader = get_column_reader(chunk.column_descr_ptr(), Box::new(pages));
+    Ok((reader, values))
 }
 
 /// Reads one column from all row groups.
@@ -104,12 +108,14 @@ fn one(
     name: &str,
     collector: &mut Collector,
 ) -> Result<(), Error> {
-    let descriptor: Arc<_> = reader
-        .metadata()
-        .file_metadata()
-        .schema_descr()
-        .column(index);
-    let meaning = Meaning::of(&descriptor);
+    let schema = reader.metadata().file_metadata().schema_descr();
+    let descriptor: Arc<_> = schema.column(index);
+    let mut lists = Lists::of(schema, &descriptor);
+    let name = &lists.as_ref().map_or(name.to_owned(), |l| l.name.clone());
+    let meaning = match lists {
+        None if descriptor.max_rep_level() > 0 => Meaning::Other("a list in every row".to_owned()),
+        _ => Meaning::of(&descriptor),
+    };
     if let Meaning::Other(what) = &meaning {
         collector.skip_column(name, what);
         return Ok(());
@@ -118,23 +124,33 @@ fn one(
     let mut total = 0;
     for (number, group) in reader.metadata().row_groups().iter().enumerate() {
         let rows = u64::try_from(group.num_rows()).map_err(|_| broken("a negative length"))?;
-        total += collector.reserve(name, &[rows])?;
-        let mut chunk = chunk(reader, raw, number, index, collector)?;
+        if lists.is_none() {
+            collector.reserve(name, &[rows])?;
+        }
+        total += rows;
+        let (mut chunk, values) = chunk(reader, raw, number, index, collector)?;
+        if lists.is_some() {
+            collector.reserve(name, &[values])?;
+        }
         samples
             .append(
                 &meaning,
                 descriptor.max_def_level(),
                 rows as usize,
+                lists.as_mut(),
                 &mut chunk,
             )
             .map_err(library)?;
-        if samples.len() as u64 != total {
+        let read = lists.as_ref().map_or(samples.len(), |lists| lists.rows);
+        if read as u64 != total {
             return Err(broken(format!(
-                "row group {} ends after {} of {total} rows",
-                number + 1,
-                samples.len()
+                "row group {} ends after {read} of {total} rows",
+                number + 1
             )));
         }
+    }
+    if let Some(lists) = lists {
+        return lists.give(&meaning, samples, collector);
     }
     match meaning {
         _ if total == 0 => collector.skip_column(name, "empty"),

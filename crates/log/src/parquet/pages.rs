@@ -214,4 +214,9 @@ impl PageReader for Pages {
     fn skip_next_page(&mut self) -> Result<(), ParquetError> {
         self.get_next_page().map(drop)
     }
+
+    /// Whether the list of a row may not go on in the next page.
+    fn at_record_boundary(&mut self) -> Result<bool, ParquetError> {
+        Ok(self.at >= self.end)
+    }
 }

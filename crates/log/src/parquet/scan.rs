@@ -88,16 +88,16 @@ fn tree(children: &[i64]) -> Option<()> {
     missing.iter().all(|&left| left == 0).then_some(())
 }
 
-/// Checks the pages between two offsets of the file, and gives the bytes of the largest, unpacked. `most` is how many a packed
-/// number can become.
+/// Checks the pages between two offsets of the file, and gives the bytes of the largest, unpacked, and how many values all of them
+/// claim to have. `most` is how many bytes a packed number of them can become.
 pub(super) fn pages(
     file: &mut File,
     start: u64,
     end: u64,
     most: impl Fn(u64) -> u64,
-) -> Result<u64, String> {
+) -> Result<(u64, u64), String> {
     let mut at = start;
-    let mut largest = 0;
+    let (mut largest, mut values) = (0, 0u64);
     let mut window = Vec::new();
     while at < end {
         let page = header(file, at, end, &mut window)?;
@@ -111,10 +111,13 @@ pub(super) fn pages(
         if is_dictionary && page.values > i64::try_from(unpacked).unwrap_or(i64::MAX) {
             return Err(format!("a dictionary at byte {at} of impossible length"));
         }
+        if let Kind::Data { .. } | Kind::Data2 { .. } = page.kind {
+            values = values.saturating_add(u64::try_from(page.values).unwrap_or(u64::MAX));
+        }
         at += page.bytes + packed;
         largest = largest.max(unpacked);
     }
-    Ok(largest)
+    Ok((largest, values))
 }
 
 /// The header of a page.

@@ -31,7 +31,9 @@ def table():
         columns["i_" + np.dtype(dtype).name] = pa.array(whole(dtype, N))
     columns |= {
         "flag": pa.array(rng.integers(0, 2, size=N).astype(bool), mask=late),
-        "list": pa.array([[1.0, 2.0], None] * (N // 2)),
+        "list": pa.array([None, [1.0, 2.0], []] * (N // 3) + [[3.0, None]] * (N % 3)),
+        "long_list": pa.array([[i, 7 - i, 2] for i in range(N)], pa.large_list(pa.int32())),
+        "ragged": pa.array([[1.0] * (1 + i % 3) for i in range(N)]),
         "lists": pa.array([[["a"]], []] * (N // 2), pa.list_(pa.list_(pa.string_view()))),
         "map": pa.array([[("a", 1.0)]] * N, pa.map_(pa.string(), pa.float64())),
         "kinds": pa.array(["x", "y"] * (N // 2)).dictionary_encode(),
@@ -68,6 +70,10 @@ def number(truth, name, array):
         flat[array.is_null().to_numpy(zero_copy_only=False)] = np.nan
         assert np.array_equal(flat, np.array(rows), equal_nan=True)
         truth.matrix(name, flat)
+    elif name in ("list", "long_list"):
+        size = 3 if name == "long_list" else 2
+        rows = [[np.nan if x is None else x for x in row or [None] * size] for row in array.to_pylist()]
+        truth.matrix(name, np.array(rows, dtype=float))
     elif pa.types.is_timestamp(kind) or pa.types.is_duration(kind) or pa.types.is_time(kind):
         over = {"s": 1, "ms": 10**3, "us": 10**6, "ns": 10**9}[kind.unit]
         wide = pa.int32() if pa.types.is_time32(kind) else pa.int64()

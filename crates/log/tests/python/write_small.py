@@ -86,7 +86,7 @@ with h5py.File(folder / "refused_loop.h5", "w") as file:
 table = pa.table({
     "t": t, "n": count, "flag": count > 9, "holes": pa.array([None, 1.0] * 20),
     "stamp": pa.array(np.arange(40) + 10**15, pa.timestamp("us")),
-    "words": pa.array(["a", "b"] * 20), "list": pa.array([[1.0, None], None] * 20),
+    "words": pa.array(["a", "b"] * 20), "list": pa.array([[1.0]] * 40),
     "pose": pa.StructArray.from_arrays([pa.array(q)], ["x"]),
 })
 pq.write_table(table, folder / "snappy.parquet", row_group_size=17)
