@@ -2,7 +2,7 @@
 
 use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::regular::{Irregular, regular};
 #[cfg(feature = "rosbag")]
@@ -227,7 +227,7 @@ pub(crate) fn hand_on(
     ))
 }
 
-#[cfg_attr(not(feature = "all"), allow(unused_variables))]
+#[cfg_attr(not(feature = "all"), allow(unused_variables, unused_mut))]
 fn binary(
     format: Format,
     file: File,
@@ -305,7 +305,7 @@ fn whole(mut table: Table, format: Format) -> Result<Table, Error> {
 
 /// The list of its files in the folder of a recording of rosbag2; `None` of other folders and of files.
 #[cfg(feature = "rosbag")]
-pub fn bag_of(folder: &Path) -> Option<PathBuf> {
+pub fn bag_of(folder: &Path) -> Option<std::path::PathBuf> {
     let metadata = folder.join(split::NAME);
     let mut file = regular(&metadata)
         .ok()
