@@ -18,8 +18,8 @@ pub struct Standing {
     /// BIC above the least of all laws.
     pub bic: Option<f64>,
     /// Whether this is the law to take: of those whose held-out error is within its noise (or 5 %)
-    /// of the least, the one with the fewest parameters. Where one of the laws has no held-out error,
-    /// because too few samples would be left to fit it, the one with the least BIC.
+    /// of the least, the one with the fewest parameters. A law without a held-out error, because too few
+    /// samples would be left to fit it, is not taken beside others; where none has one, the law with the least BIC.
     pub best: bool,
     /// Whether its held-out error is within its noise (or 5 %) of the least.
     pub as_good: bool,
@@ -57,7 +57,7 @@ pub fn choose(scores: &[LawScore]) -> Vec<Standing> {
         .iter()
         .map(|own| own.is_some_and(is_as_good))
         .collect();
-    let best = if excess.iter().all(Option::is_some) {
+    let best = if excess.iter().any(Option::is_some) {
         simplest(scores, &excess, &as_good)
     } else {
         bic.iter().position(|above| *above == Some(0.0))
