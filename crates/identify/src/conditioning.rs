@@ -57,6 +57,8 @@ pub struct Conditioning {
     pub source_cutoff: Cutoff,
     /// Low-pass on the force and every regressor.
     pub common_cutoff: Cutoff,
+    /// Whether the force passed this low-pass before it was logged, so that only the regressors have to.
+    pub force_is_filtered: bool,
     /// The regression uses every n-th sample; `None` follows from the common cut-off.
     pub decimate: Option<usize>,
     /// Smallest displacement that the log resolves, m or rad.
@@ -76,6 +78,7 @@ impl Default for Conditioning {
             source: None,
             source_cutoff: Cutoff::Auto,
             common_cutoff: Cutoff::Auto,
+            force_is_filtered: false,
             decimate: None,
             resolution: None,
             min_speed: 0.0,
@@ -187,9 +190,12 @@ pub(crate) fn condition_as(
         (None, None) => 1,
     };
     if let Some(f) = common_hz {
+        let what = match conditioning.force_is_filtered {
+            true => "every regressor, as the force before it was logged: a",
+            false => "force and every regressor: the same",
+        };
         notes.push(format!(
-            "force and every regressor: the same zero-phase Butterworth low-pass, order {ORDER}, \
-             {} Hz, then one sample in {decimate}",
+            "{what} zero-phase Butterworth low-pass, order {ORDER}, {} Hz, then one sample in {decimate}",
             cutoff(f)
         ));
     }
@@ -215,6 +221,7 @@ pub(crate) fn condition_as(
         source: source_filter,
         thinning: thinning(common.as_ref(), decimate, longest),
         common,
+        force_is_filtered: conditioning.force_is_filtered,
         trim,
         decimate,
         reach: common_hz.map_or(0, |f| (0.5 * rate / f) as usize),
@@ -266,6 +273,7 @@ pub(crate) fn condition_as(
         source: Some(source),
         source_cutoff: fixed(source_hz),
         common_cutoff: fixed(common_hz),
+        force_is_filtered: conditioning.force_is_filtered,
         decimate: Some(decimate),
         resolution: conditioning.resolution,
         min_speed: 0.0,
@@ -274,6 +282,7 @@ pub(crate) fn condition_as(
     Ok(Record {
         segments,
         common: filters.common,
+        force_is_filtered: filters.force_is_filtered,
         decimate,
         position_noise,
         timing_noise: 0.0,
@@ -406,6 +415,8 @@ struct Filters {
     common: Option<Sos>,
     /// The same where it is worth computing at the thinned samples alone.
     thinning: Option<Thinning>,
+    /// Whether the force has passed the common filter already.
+    force_is_filtered: bool,
     trim: usize,
     decimate: usize,
     /// Samples to each side that the common filter mixes into one.
@@ -425,7 +436,7 @@ impl Filters {
     /// The force after the common filter, every n-th sample of it.
     fn thinned_force(&self, drive: &[f64]) -> Option<Vec<f64>> {
         let every = || (0..drive.len()).step_by(self.decimate);
-        let Some(common) = &self.common else {
+        let Some(common) = self.common.as_ref().filter(|_| !self.force_is_filtered) else {
             return Some(every().map(|i| drive[i]).collect());
         };
         if drive.iter().any(|x| !x.is_finite()) {
@@ -532,6 +543,7 @@ impl Filters {
                 load: samples.load.as_ref().map_or_else(Vec::new, on_grid),
                 temperature: samples.temperature.as_ref().map_or_else(Vec::new, on_grid),
                 external: samples.external.as_ref().map_or_else(Vec::new, on_grid),
+                external_deviations: samples.external_deviations.iter().map(on_grid).collect(),
                 acceleration: match &samples.acceleration {
                     Some(measured) => smooth(on_grid(measured), &self.source)?,
                     None => Vec::new(),

@@ -21,6 +21,7 @@ mod waves;
 use self::beside::Beside;
 use self::held_out::{HeldOut, Score};
 use self::measures::Measures;
+use crate::conditioning::record::Segment;
 use crate::conditioning::record::extent;
 use crate::law::terms::{ColumnKind, Terms};
 use crate::scatter::strokes::Strokes;
@@ -131,6 +132,14 @@ impl Effect {
         matches!(self, Effect::SpringForce(_) | Effect::Resonance { .. })
     }
 
+    /// Whether an error of a model of gravity, inertia and coupling looks alike.
+    fn may_be_of_a_rigid_body(&self) -> bool {
+        matches!(
+            self,
+            Effect::SpringForce(_) | Effect::Resonance { .. } | Effect::Dynamics(_)
+        )
+    }
+
     /// Whether two are of one kind.
     fn is_like(&self, other: &Effect) -> bool {
         std::mem::discriminant(self) == std::mem::discriminant(other)
@@ -220,6 +229,8 @@ pub(crate) fn sought(
     };
     let mut beside = Beside::new(&at.jacobian(), residual);
     let mut found: Vec<Found> = Vec::new();
+    let modelled = |s: &Segment| !s.channels.external_deviations.is_empty();
+    let beside_a_model = objective.record().segments.iter().any(modelled);
     let all = held_out.left();
     let fixed = single::candidates(&fitted).into_iter();
     let fixed = fixed.chain(levels::candidates(&fitted));
@@ -236,7 +247,9 @@ pub(crate) fn sought(
             let apart =
                 |column: &Vec<f64>| beside.part_outside(column) >= effect::MIN_INDEPENDENT_PART;
             let is_apart = !effect.goes_with_the_mass() || candidate.columns.iter().all(apart);
-            (is_new && is_sure(&score, all) && is_apart).then_some((candidate, score, effect))
+            let may_be = !(beside_a_model && effect.may_be_of_a_rigid_body());
+            (is_new && is_sure(&score, all) && is_apart && may_be)
+                .then_some((candidate, score, effect))
         });
         let judged: Vec<_> = judged.collect();
         let most = |general: bool| {

@@ -5,6 +5,7 @@
 //! look for it along their cost ([`crate::gms::delay`]). What is open of it is counted in the intervals of what is fitted beside it.
 
 use crate::estimate::Estimate;
+use crate::known_force::moved;
 use crate::law::terms::{Delay, DelayFrom, Terms};
 use crate::law::{Law, LawKind};
 use crate::parameter::physical::Physical;
@@ -73,16 +74,9 @@ pub(crate) fn spread(
         return None;
     }
     let column = column(objective, terms, (p, at), delay, deviation);
-    let along = at.slopes.iter().map(|s| s.as_slice());
-    let along = along.chain(at.columns.iter().map(|c| c.as_slice()));
-    let product = |x: &[f64]| x.iter().zip(&column).map(|(x, y)| x * y).sum::<f64>();
-    let products: Vec<f64> = along.map(product).collect();
-    let n = products.len();
-    let moved: Vec<f64> = (0..n)
-        .map(|i| -(0..n).map(|j| bread[(i, j)] * products[j]).sum::<f64>())
-        .collect();
-    let finite = moved.iter().all(|x| x.is_finite());
-    finite.then(|| DMatrix::from_fn(n, n, |i, j| moved[i] * moved[j]))
+    let moved = moved(at, bread, &column)?;
+    let n = moved.len();
+    Some(DMatrix::from_fn(n, n, |i, j| moved[i] * moved[j]))
 }
 
 /// Half of what the model has more with the delay, s, `by` later than `by` earlier, all else as it is.

@@ -72,6 +72,7 @@ mod friction_curve;
 mod gms;
 mod held_delay;
 mod identify;
+mod known_force;
 mod lag;
 mod lateness;
 mod law;
@@ -82,6 +83,7 @@ pub mod procedure;
 mod reaction;
 mod refit;
 mod replica;
+mod rigid;
 mod scatter;
 mod separable;
 mod shifts;
@@ -128,6 +130,9 @@ pub use output_error::unseen::{Unseen, simulate_unseen};
 pub use output_error::{Simulation, output_error};
 pub use parameter::covariance::Covariance;
 pub use parameter::{IntervalKind, Parameter};
+pub use rigid::{
+    Machine, Prior, RigidFit, RigidForce, RobotJoint, pseudo_inverse, rigid_fit, torque_cutoff,
+};
 pub use scatter::HalfWidths;
 pub use separable::objective::{Evaluation, Objective};
 pub use separable::optimum::Optimum;

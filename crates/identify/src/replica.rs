@@ -255,6 +255,10 @@ impl<'a> Axis<'a> {
             self.drive
                 .sample(&commands, self.substeps, &mut behind, acts);
         }
+        if let Some(common) = record.common.as_ref().filter(|_| record.force_is_filtered) {
+            force = common.zero_phase(&force).ok()?;
+            quiet = common.zero_phase(&quiet).ok()?;
+        }
         let samples = Samples {
             time: (0..n).map(|k| k as f64 * h).collect(),
             position: Some(position),

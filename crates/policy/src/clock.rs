@@ -20,5 +20,8 @@ thresholds! {
     PLAUSIBLE_SPACING: std::ops::RangeInclusive<f64> = 1e-6..=0.2, "s", "Median spacing with which a time column without a unit is in seconds.", "choice: 5 Hz to 1 MHz";
     MAX_RATE_ERROR: f64 = 0.01, "1", "Relative difference of a given rate and that of the time stamps.", "choice";
     MIN_REPEATED_SHARE: f64 = 0.05, "1", "Part of the rows from which on repeated stamps are those of a coarse clock.", "choice";
+    MIN_REPEATED_ROWS: usize = 3, "rows", "Rows that repeat the one before from which on they were sent again.", "choice: fewer move no clock";
+    MAX_REPEATED_SHARE: f64 = 0.2, "1", "Part of the rows that may be such repeats; more are an axis at rest or a held reading.", "choice";
+    MAX_REPEATED_SLIP: f64 = 0.25, "1", "Mean square of logged velocity less slope of the position without the repeats over that with them.", "choice: half of the difference; the Panda of the tests has a fortieth";
     MIN_LOST_ROW: f64 = 0.6, "rows", "How much later stamps go on from which on a row is missing.", "choice";
 }

@@ -38,7 +38,7 @@ mod same;
 
 pub use same::{SAME, Same};
 
-tables! { agreement, choice, clock, comparison, conditioning, delay, drift, effect, encoder, export, force, interval, join, motion, plan, position, procedure, rest, signal, simulation, tracking, verdict }
+tables! { agreement, choice, clock, comparison, conditioning, delay, drift, effect, encoder, export, force, interval, join, motion, plan, position, procedure, rest, robot, signal, simulation, tracking, verdict }
 
 /// A threshold, to be printed.
 #[derive(Clone, Copy, Debug, PartialEq)]

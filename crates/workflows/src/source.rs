@@ -33,6 +33,9 @@ pub struct Source {
     pub joined: Vec<JoinedEntry>,
     /// Whether the axis file lists the log, and fits nothing of it.
     pub never_fitted: bool,
+    /// By how much the external force may be wrong: of each of some independent errors one standard deviation, a value for each
+    /// sample of the log.
+    pub external_deviations: Vec<Vec<f64>>,
 }
 
 /// Reads the columns of a file, without mapping them.
@@ -84,6 +87,13 @@ fn hashed(path: &Path, axis: &Axis) -> Result<(Table, String), Error> {
     };
     stiction_files::refuse_as_log(path)?;
     hashed_of(path, axis, &wanted).map_err(|e| at_entry(path, axis, e))
+}
+
+/// All columns of a log, with the SHA-256 of exactly the bytes that they were read from.
+pub(crate) fn whole(path: &Path, axis: &Axis) -> Result<(Table, String), Error> {
+    stiction_files::refuse_as_log(path)?;
+    let all = |heads: &Table| vec![true; heads.columns.len()];
+    hashed_of(path, axis, &all).map_err(|e| at_entry(path, axis, e))
 }
 
 /// The same of the columns of a file that are wanted.
@@ -188,7 +198,7 @@ pub fn in_memory(name: &str, columns: Vec<Column>, axis: &Axis) -> Result<Source
     )
 }
 
-fn mapped(
+pub(crate) fn mapped(
     path: &Path,
     sha256: String,
     table: Cow<'_, Table>,
@@ -226,6 +236,7 @@ fn mapped(
         log,
         joined,
         never_fitted: listed.is_some_and(|log| log.mapping(Use::Fitted).is_none()),
+        external_deviations: Vec::new(),
     })
 }
 
@@ -541,6 +552,7 @@ impl Source {
             load: self.log.load.clone(),
             temperature: self.log.temperature.clone(),
             external: self.log.external.clone(),
+            external_deviations: self.external_deviations.clone(),
             valid: self.log.valid(),
             at_rest: Vec::new(),
             breaks: self.log.segments.iter().skip(1).map(|s| s.start).collect(),

@@ -12,6 +12,8 @@ pub struct Channels {
     pub temperature: Vec<f64>,
     /// What acts on the axis from outside, in the unit of the force.
     pub external: Vec<f64>,
+    /// By how much that may be wrong: of each of some independent errors one standard deviation.
+    pub external_deviations: Vec<Vec<f64>>,
     /// Acceleration as it was measured (source filter passed), m/s^2 or rad/s^2.
     pub acceleration: Vec<f64>,
 }
@@ -25,6 +27,7 @@ impl Channels {
             load: pick(&self.load),
             temperature: pick(&self.temperature),
             external: pick(&self.external),
+            external_deviations: self.external_deviations.iter().map(|x| pick(x)).collect(),
             acceleration: pick(&self.acceleration),
         }
     }

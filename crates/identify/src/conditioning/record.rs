@@ -28,6 +28,8 @@ pub struct Samples {
     /// The part of the force that does not come from the motor, in its unit, for friction that depends on what the
     /// transmission passes on.
     pub external: Option<Vec<f64>>,
+    /// By how much `external` may be wrong: of each of some independent errors one standard deviation.
+    pub external_deviations: Vec<Vec<f64>>,
     /// Which samples may be used; empty means all.
     pub valid: Vec<bool>,
     /// Which samples are at rest: filters and laws go on through them, and they are not fitted, since the force of an axis
@@ -54,6 +56,7 @@ impl Samples {
             &mut self.external,
         ];
         let of_each = [&mut self.time, &mut self.force].into_iter();
+        let of_each = of_each.chain(&mut self.external_deviations);
         for values in of_each.chain(others.into_iter().flatten()) {
             cut(values, &range);
         }
@@ -109,6 +112,8 @@ pub struct Record {
     pub segments: Vec<Segment>,
     /// The common filter, at the full rate, if any.
     pub common: Option<Sos>,
+    /// Whether the force passed that filter before it was logged.
+    pub(crate) force_is_filtered: bool,
     /// Every how many samples the regression uses.
     pub decimate: usize,
     /// Standard deviation of the noise of the position as logged, its encoder steps included, m or rad.
@@ -473,6 +478,7 @@ impl Record {
         Some(Self {
             segments: segments.collect(),
             common: None,
+            force_is_filtered: false,
             decimate: self.decimate / every,
             position_noise: self.position_noise,
             timing_noise: self.timing_noise,
@@ -523,6 +529,7 @@ impl Record {
         Some(Self {
             segments,
             common: None,
+            force_is_filtered: false,
             decimate: 1,
             position_noise: self.position_noise,
             timing_noise: self.timing_noise,
@@ -592,6 +599,7 @@ pub(crate) mod tests {
         Record {
             segments,
             common: None,
+            force_is_filtered: false,
             decimate: 1,
             position_noise: 0.0,
             timing_noise: 0.0,

@@ -9,6 +9,7 @@ use crate::estimate::informed::{flag_what_an_end_holds, flag_what_says_no_more_t
 use crate::estimate::sliding::{self, flag_what_the_motion_hides};
 use crate::estimate::{Estimate, advice, levels, optimal, pressed, uncertainty};
 use crate::held_delay;
+use crate::known_force;
 use crate::lag;
 use crate::law::physical::physical;
 use crate::law::transmitted::flag_parts_of_an_open_weight;
@@ -200,6 +201,11 @@ fn conditioned(
     }
     let bread = &estimate.unknowns.bread;
     if let Some(unknowns) = held_delay::spread(objective, &estimate.terms, &optimum.p, at, bread) {
+        for p in raw {
+            more.add(p.name, p.variance(&unknowns));
+        }
+    }
+    if let Some(unknowns) = known_force::spread(objective, at, bread) {
         for p in raw {
             more.add(p.name, p.variance(&unknowns));
         }

@@ -251,6 +251,7 @@ fn conditioning() -> impl Strategy<Value = Conditioning> {
                     source,
                     source_cutoff,
                     common_cutoff,
+                    force_is_filtered: decimate.is_some_and(|n| n % 2 == 1),
                     decimate,
                     resolution,
                     min_speed,

@@ -157,7 +157,9 @@ pub(super) fn auto(
         let laws: Vec<Candidate> = laws.iter().map(|law| ladder.usual(*law)).collect();
         ladder.climb(&laws, &[], settings, observer)
     };
-    let mut climb = fitted(&[linear, linear.asymmetric()], observer);
+    let both = [linear, linear.asymmetric()];
+    let directions = if ladder.symmetric { &both[..1] } else { &both };
+    let mut climb = fitted(directions, observer);
     if !climb.stopped {
         let directed = directions_differ(&climb);
         let next = bristles.iter().map(|law| match directed {
@@ -208,7 +210,7 @@ pub(super) fn auto(
     laws[at].reported = true;
     let simpler = climb.simpler_than(laws[at].parameters);
     let Climb { mut rungs, stopped } = climb;
-    let held_out = laws.iter().all(|law| law.held_out_error_percent.is_some());
+    let held_out = laws.iter().any(|law| law.held_out_error_percent.is_some());
     // Too few samples may be left to hold some out.
     let by = if held_out { "cross-validation" } else { "bic" };
     let as_good: Vec<bool> = (laws.iter())
@@ -338,7 +340,7 @@ fn second<'a>(climb: &Climb, ladder: &'a Ladder) -> Vec<Candidate<'a>> {
     let symmetric = climb
         .rungs
         .iter()
-        .filter(|rung| !rung.estimate.law.asymmetric);
+        .filter(|rung| !rung.estimate.law.asymmetric && !ladder.symmetric);
     for rung in symmetric.filter(wanted) {
         let candidate = ladder.as_beside(rung.estimate.law.asymmetric(), rung);
         next.push(candidate.from(&[rung]));

@@ -76,6 +76,7 @@ fn ladder<'a>(asked: Asked, conditioned: &'a Conditioned) -> Ladder<'a> {
         bent: (!conditioned.terms.symmetric.quadratic_viscous).then(|| conditioned.terms.bent()),
         held_delay: None,
         low_speed: conditioned.low_speed,
+        symmetric: asked.options.symmetric,
         exponent_is_open: asked.axis.leaves_exponent_open(),
     }
 }

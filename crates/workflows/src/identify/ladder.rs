@@ -25,6 +25,8 @@ pub(super) struct Ladder<'a> {
     /// Those beside a law that begins to look for the delay of the force, where that is asked for, at what another finds.
     pub held_delay: Option<LinearTerms>,
     pub low_speed: f64,
+    /// Whether only laws with the same parameters in both directions are chosen from.
+    pub symmetric: bool,
     /// Whether the Stribeck exponent is assumed, and may be fitted where the data ask for it.
     pub exponent_is_open: bool,
 }

@@ -36,6 +36,8 @@ pub struct Options {
     pub law: Option<LawKind>,
     /// Whether each direction has parameters of its own.
     pub asymmetric: bool,
+    /// Whether the data choose among laws alone that have the same parameters in both directions.
+    pub symmetric: bool,
     /// Fit the first part of the samples (0 to 1) and validate on the rest.
     pub split: Option<f64>,
     /// Seed of the search; the same seed gives the same bits.
@@ -54,6 +56,7 @@ impl Default for Options {
         Self {
             law: None,
             asymmetric: false,
+            symmetric: false,
             split: None,
             seed: 0,
             compare_laws: true,

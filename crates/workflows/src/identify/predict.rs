@@ -43,6 +43,12 @@ pub fn predict(outcome: &Outcome, log: &Source) -> Result<Prediction, Error> {
         check_together(std::slice::from_ref(first), std::slice::from_ref(log))?;
     }
     log.check_channels(&fitted.estimate.terms)?;
+    if first.log.external.is_some() && log.log.external.is_none() {
+        return Err(Error::usage(
+            format!("{}: no force from outside, and the fit has one", log.name()),
+            "a log with a column of what acts from outside; a joint of a robot is predicted with the whole robot: stiction robot --validate",
+        ));
+    }
     check_rate(&fitted.conditioning, log)?;
     let record = conditioned(std::slice::from_ref(log), &fitted.conditioning)?;
     // A law with elements depends on past motion: it is judged from where the start no longer has an effect.

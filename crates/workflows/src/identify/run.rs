@@ -231,7 +231,8 @@ fn fit_force(asked: Asked, loaded: Loaded, observer: &mut dyn Observer) -> Resul
     }
     let weight = match heard.stopped {
         true => None,
-        false => weight::taken(asked, &loaded, &mut conditioned, heard),
+        false => weight::taken(asked, &loaded, &mut conditioned, heard)
+            .or_else(|| weight::load_taken(asked, &loaded, &mut conditioned, heard)),
     };
     let ranges = asked.axis.search_box(&loaded.sources[0].log)?;
     let fitted = fit(asked, &loaded, &conditioned, heard);
