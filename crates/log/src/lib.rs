@@ -46,6 +46,7 @@ mod open;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod regular;
+mod republished;
 #[cfg(feature = "mcap")]
 mod ros;
 #[cfg(feature = "rosbag")]
@@ -78,6 +79,7 @@ pub use open::{ReadOptions, is_binary_recording, read_table, read_table_with, re
 #[cfg(feature = "parquet")]
 pub use parquet::{Cells, read_cells};
 pub use regular::{Irregular, is_of_kernel, is_regular, regular};
+pub use republished::{Republished, republished};
 pub use stiction_codes::Code;
 pub use table::{Column, Passed, Scalar, Table};
 pub use unit::{Dimension, Unit, Value};

@@ -167,7 +167,7 @@ pub(super) fn columns(
         refused.push(e);
         is_known = false;
     }
-    if given.force.is_none() {
+    if given.force.is_none() && !given.absent.contains(&Role::Force) {
         match scan.force_column(&out.mapping) {
             Ok(Some(column)) => out.mapping.force = Some(scan.take(column)),
             Ok(None) => out.findings.push(scan.no_force()),

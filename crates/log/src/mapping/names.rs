@@ -59,6 +59,12 @@ fn any_of(words: &[String], list: &str) -> bool {
     words.iter().any(|word| among(word, list))
 }
 
+/// Whether a name says that its values are asked for and not measured.
+pub fn is_commanded(name: &str) -> bool {
+    let words = words(name);
+    any_of(&words, COMMANDED) && !any_of(&words, MEASURED)
+}
+
 /// What a name says; `None` where it says nothing, or names something that is passed over.
 pub(super) fn hint(name: &str) -> Option<Hint> {
     let words = words(name);
