@@ -223,6 +223,11 @@ impl Warning {
     pub fn kind(&self) -> Option<&Notice> {
         self.kind.as_deref()
     }
+
+    /// Whether it says no more than what was done or assumed; after it was read from a file, nothing is known of that.
+    pub fn is_note(&self) -> bool {
+        matches!(self.kind(), Some(Notice::Robot(own)) if own.is_note())
+    }
 }
 
 impl PartialEq for Warning {

@@ -8,6 +8,7 @@
 //!   `reproduce.json`.
 //! - [`batch`]: lists of logs, `results.parquet` and `batch.json`.
 //! - [`DriftFile`](drift_file::DriftFile): `drift.json`.
+//! - [`Robot`]: `robot.toml`, what is known of a robot and its logs.
 //! - [`Bundle`]: files that are written together, whole or not at all.
 //!
 //! Begin with [`Axis::read`] or [`ModelFile::read`]. An error names file, line, column, key, what was found and what is allowed:
@@ -34,6 +35,7 @@ mod output;
 pub mod plan;
 pub mod reproduce_file;
 pub mod result;
+pub mod robot;
 pub mod shell;
 pub mod study;
 pub mod symbols;
@@ -48,3 +50,4 @@ pub use output::{
     Bundle, Journal, Kept, Runs, Work, check_apart, check_folder, check_folder_of, check_inputs,
     check_writable, has_runs, write_atomic, write_folder, write_keeping,
 };
+pub use robot::Robot;

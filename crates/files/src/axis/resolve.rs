@@ -2,6 +2,7 @@
 
 mod columns;
 mod drive;
+mod joint;
 mod limits;
 mod log;
 mod resolver;
@@ -124,6 +125,7 @@ impl Resolver {
             source,
             source_cutoff: self.cutoff(table.get("source_cutoff"))?,
             common_cutoff: self.cutoff(table.get("common_cutoff"))?,
+            force_is_filtered: false,
             decimate: table
                 .count("decimate", 1, MAX_DECIMATE)?
                 .map(|n| n as usize),

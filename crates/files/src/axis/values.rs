@@ -247,11 +247,13 @@ impl Axis {
         each(self.named_in(error), |error| self.at_own_key(error))
     }
 
-    /// A text that speaks of `axis.toml`, with the name that the file has.
+    /// A text that speaks of `axis.toml` and its `[columns]`, with the names that they have.
     pub fn named(&self, text: &str) -> String {
+        let columns = format!("[{}]", self.places.columns());
+        let text = text.replace("[columns]", &columns);
         match self.file.file_name() {
             Some(name) => text.replace("axis.toml", &name.to_string_lossy()),
-            None => text.to_string(),
+            None => text,
         }
     }
 

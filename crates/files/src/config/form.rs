@@ -17,19 +17,22 @@ pub(crate) enum Form {
     Study,
     /// `plan.toml`.
     Plan,
+    /// `robot.toml`.
+    Robot,
 }
 
 /// So much of a file tells what it is, characters or bytes.
 const HEAD: usize = 4096;
 
 /// What a file is that is none to type, by the schema that it begins with.
-const WRITTEN: [(&str, &str); 6] = [
+const WRITTEN: [(&str, &str); 7] = [
     ("result", "the result of an identification"),
     ("study", "the result of a study"),
     ("compare", "a comparison of searches"),
     ("reproduce", "the result of published experiments"),
     ("batch", "the summary of a batch"),
     ("drift", "the alarms of a fleet"),
+    ("robot", "the result of an identification of a robot"),
 ];
 
 /// What a text is called whose lines have as many cells as each other.
@@ -50,6 +53,8 @@ pub enum Looks {
     Study,
     /// `plan.toml`.
     Plan,
+    /// `robot.toml`.
+    Robot,
     /// `result.json`.
     Result,
 }
@@ -63,6 +68,7 @@ impl Looks {
             Looks::Model => Form::Model.what(),
             Looks::Study => Form::Study.what(),
             Looks::Plan => Form::Plan.what(),
+            Looks::Robot => Form::Robot.what(),
             Looks::Result => "the result of an identification (result.json)",
         }
     }
@@ -85,6 +91,7 @@ pub fn looks(file: &Path) -> Option<Looks> {
         Form::Model => Looks::Model,
         Form::Study => Looks::Study,
         Form::Plan => Looks::Plan,
+        Form::Robot => Looks::Robot,
     })
 }
 
@@ -153,6 +160,7 @@ impl Form {
             Form::Model => "a model file as an identification writes it",
             Form::Study => "a study file",
             Form::Plan => "a plan.toml as stiction plan writes it",
+            Form::Robot => "a robot file",
         }
     }
 
@@ -163,6 +171,7 @@ impl Form {
             Form::Model => "docs/result.md",
             Form::Study => "docs/study.md",
             Form::Plan => "docs/plan.md",
+            Form::Robot => "docs/robot.md",
         }
     }
 
@@ -173,6 +182,7 @@ impl Form {
             Form::Model => Some("model.toml"),
             Form::Study => Some("study.toml"),
             Form::Plan => Some("plan.toml"),
+            Form::Robot => Some("robot.toml"),
         }
     }
 
@@ -204,6 +214,8 @@ pub(super) fn of_tables(entries: &DeTable<'_>) -> Option<Form> {
     match schema {
         Some("model") => Some(Form::Model),
         Some("plan") => Some(Form::Plan),
+        Some("robot") => Some(Form::Robot),
+        _ if is_table("joint") || is_table("tool") || get("urdf").is_some() => Some(Form::Robot),
         _ if is_list("parameter") && get("law").is_some() => Some(Form::Model),
         _ if is_table("axis") && (is_list("path") || is_table("path")) => Some(Form::Study),
         _ if is_list("log")

@@ -3,6 +3,7 @@
 use super::form::Form;
 use super::source::Source;
 use crate::error::Error;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use toml::de::{DeTable, DeValue};
@@ -12,6 +13,8 @@ use toml::de::{DeTable, DeValue};
 pub(crate) struct Places {
     file: PathBuf,
     form: Form,
+    /// The table that stands for `[columns]`, such as `joint.elbow`; `None` for that itself.
+    columns: Option<String>,
     /// The text and where in it each key stands; `None` for values that are in no file.
     text: Option<(String, BTreeMap<String, usize>)>,
 }
@@ -22,6 +25,7 @@ impl Places {
         Places {
             file: name.into(),
             form,
+            columns: None,
             text: None,
         }
     }
@@ -33,6 +37,7 @@ impl Places {
         Places {
             file: source.file.to_path_buf(),
             form: source.form,
+            columns: None,
             text: Some((source.text.into(), bytes)),
         }
     }
@@ -42,8 +47,37 @@ impl Places {
         &self.file
     }
 
+    /// The same places for one of several axes, whose columns and encoder step stand in a table of their own.
+    pub fn with_columns_in(&self, table: String) -> Self {
+        Places {
+            columns: Some(table),
+            ..self.clone()
+        }
+    }
+
+    /// The table that has the columns.
+    pub fn columns(&self) -> &str {
+        self.columns.as_deref().unwrap_or("columns")
+    }
+
+    /// A key as this file has it.
+    fn own<'a>(&self, key: &'a str) -> Cow<'a, str> {
+        let Some(table) = &self.columns else {
+            return key.into();
+        };
+        let parts = ["columns.", "log.resolution", "log.wrap", "log.force_limit"];
+        let is_own = parts.iter().any(|part| key.starts_with(part))
+            && !key.starts_with("columns.time")
+            && !key.starts_with("columns.enable");
+        match key.split_once('.') {
+            Some((_, rest)) if is_own => format!("{table}.{rest}").into(),
+            _ => key.into(),
+        }
+    }
+
     /// Whether the file gives a key.
     pub fn has(&self, key: &str) -> bool {
+        let key = &*self.own(key);
         let bytes = self.text.as_ref().map(|(_, bytes)| bytes);
         bytes.is_some_and(|bytes| bytes.contains_key(key))
     }
@@ -56,6 +90,7 @@ impl Places {
     /// The place of a key or, where it is missing, of the table (or file) that lacks it, as errors begin:
     /// `line 3, column 8, mass: `.
     pub fn place(&self, key: &str) -> String {
+        let key = &*self.own(key);
         let Some((_, bytes)) = &self.text else {
             return format!("{key}: ");
         };

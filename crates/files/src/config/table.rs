@@ -193,6 +193,18 @@ impl<'a> Table<'a> {
         self.get(key).map(|given| given.flag()).transpose()
     }
 
+    /// Every entry, in the order of the file, of a table whose keys are names that the user chose.
+    pub fn named(&self) -> Vec<(&'a str, Given<'a>)> {
+        let mut entries: Vec<_> = self.entries.iter().collect();
+        entries.sort_by_key(|(name, _)| name.span().start);
+        let given = |(name, value): (&'a toml::Spanned<_>, &'a toml::Spanned<_>)| {
+            let name: &'a std::borrow::Cow<'a, str> = name.get_ref();
+            let key = format!("{}{name}", self.prefix);
+            (name.as_ref(), Given::new(self.source, key, value))
+        };
+        entries.into_iter().map(given).collect()
+    }
+
     /// What was asked for, or that it is missing; `example` completes "give".
     pub fn required<T>(
         &self,

@@ -8,7 +8,7 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 /// Files that mark a folder as one that stiction wrote and may replace, each written last.
-pub(super) const MARKS: [&str; 7] = [
+pub(super) const MARKS: [&str; 8] = [
     "result.json",
     "compare.json",
     "study.json",
@@ -16,10 +16,11 @@ pub(super) const MARKS: [&str; 7] = [
     "plan.toml",
     "batch.json",
     "drift.json",
+    "robot.json",
 ];
 
 /// Names of the files that are written.
-const WRITTEN: [&str; 14] = [
+const WRITTEN: [&str; 16] = [
     "result.json",
     "compare.json",
     "model.toml",
@@ -34,6 +35,8 @@ const WRITTEN: [&str; 14] = [
     "batch.json",
     "results.parquet",
     "drift.json",
+    "robot.json",
+    "robot.toml",
 ];
 
 /// Refuses an output folder whose files would take the place of an input, or of a file that is going to be

@@ -3,3 +3,4 @@
 mod axis;
 mod model;
 mod pending;
+mod robot;

@@ -10,16 +10,35 @@ use stiction_log::{
     Channel, Dimension, Elsewhere, Enable, Mapping, Offset, Role, Selector, Unit, Value,
 };
 
+/// The names under which the force may stand.
+const FORCE_KEYS: [&str; 3] = ["force", "torque", "current"];
+
 /// The columns of the log, and those of other files, which are named from a folder.
 pub(super) fn columns(
     root: &Table<'_>,
     mapping: &mut Mapping,
     folder: &Path,
 ) -> Result<Vec<JoinedColumn>, Error> {
-    let mut joined = Vec::new();
     let Some(table) = root.table("columns")? else {
-        return Ok(joined);
+        return Ok(Vec::new());
     };
+    let joined = roles(&table, &Role::ALL, mapping, folder)?;
+    mapping.enable = table
+        .get("enable")
+        .map(|given| enable(&given))
+        .transpose()?;
+    table.end()?;
+    Ok(joined)
+}
+
+/// The columns of these roles in a table; those of other files are named from a folder.
+pub(in crate::axis) fn roles(
+    table: &Table<'_>,
+    roles: &[Role],
+    mapping: &mut Mapping,
+    folder: &Path,
+) -> Result<Vec<JoinedColumn>, Error> {
+    let mut joined = Vec::new();
     let mut read = |given: &Given<'_>, role| -> Result<(), Error> {
         if given.as_text() == Some("none") && Role::OPTIONAL.contains(&role) {
             mapping.absent.push(role);
@@ -30,15 +49,16 @@ pub(super) fn columns(
         mapping.set(role, channel);
         Ok(())
     };
-    let others = Role::ALL.into_iter().filter(|role| *role != Role::Force);
-    for role in others {
+    let others = roles.iter().filter(|role| **role != Role::Force);
+    for &role in others {
         if let Some(given) = table.get(role.name()) {
             read(&given, role)?;
         }
     }
     // One column under any of three names.
     let mut taken: Option<Given<'_>> = None;
-    for key in ["force", "torque", "current"] {
+    let force = roles.contains(&Role::Force).then_some(FORCE_KEYS);
+    for key in force.into_iter().flatten() {
         let Some(given) = table.get(key) else {
             continue;
         };
@@ -49,11 +69,6 @@ pub(super) fn columns(
         read(&given, Role::Force)?;
         taken = Some(given);
     }
-    mapping.enable = table
-        .get("enable")
-        .map(|given| enable(&given))
-        .transpose()?;
-    table.end()?;
     Ok(joined)
 }
 

@@ -53,7 +53,7 @@ impl Resolver {
     }
 
     /// Keys that may stand in `[log]` and in any `[[log]]`.
-    fn every_log(&self, log: &Table<'_>, mapping: &mut Mapping) -> Result<(), Error> {
+    pub(super) fn every_log(&self, log: &Table<'_>, mapping: &mut Mapping) -> Result<(), Error> {
         let within = |given: Option<Given<'_>>, dimensions: &[Dimension], range| {
             given
                 .map(|given| self.within(&given, dimensions, range))
