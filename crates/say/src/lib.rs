@@ -13,6 +13,7 @@ mod effect;
 mod found;
 mod notice;
 mod reason;
+mod robot;
 mod unplanned;
 
 pub use effect::{Effect, Explained, Extent, Remedy, What};
@@ -25,4 +26,5 @@ pub use notice::{
     Unsteady, Whole, Whose,
 };
 pub use reason::{On, Reason};
+pub use robot::OfRobot;
 pub use unplanned::Unplanned;

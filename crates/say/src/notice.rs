@@ -1,6 +1,6 @@
 //! What to beware of in a result.
 
-use crate::{Effect, Found, Reason, Unplanned, Value};
+use crate::{Effect, Found, OfRobot, Reason, Unplanned, Value};
 use std::fmt;
 use stiction_codes::Code;
 use stiction_number::{Percent, counted, four_digits, full, quantity, short};
@@ -300,6 +300,8 @@ pub enum Notice {
     LoadNotLearnt { path: String, controller: String, compensator: String, seconds: f64, needed: f64, acceleration: f64 },
     /// A run was not made; the value of a sweep.
     NotRun { path: String, controller: String, schemes: Vec<String>, point: Option<(String, Value)>, why: NoRun, gains: Option<String> },
+    /// Something about a robot.
+    Robot(OfRobot),
     /// Drawn axes give no figures.
     NotPromised { path: String, controller: String, schemes: Vec<String>, why: NoRun, axes: Vec<DrawnAxis>, modelled: bool },
 }
@@ -352,6 +354,7 @@ impl Notice {
                 Stated::Exponent => Code::ExponentDisagrees,
             },
             Self::LimitsMass { .. } => Code::MassDisagrees,
+            Self::Robot(of_robot) => of_robot.code(),
             Self::Unplanned(_) => Code::NotPlanned,
             Self::PlannedFrom { .. } => Code::ModelInDoubt,
             Self::NotFriction { .. } => Code::ExportAdaptation,
@@ -506,6 +509,7 @@ impl fmt::Display for Notice {
             Self::AtReference { each, lines } => write!(f, "friction depends on inputs that the code does not see; it uses their reference ({}). Where the axis works elsewhere it is off by that much: identify the axis as it works{}", each.join("; "), if lines.is_empty() { String::new() } else { format!(". With the range of the log in the model file the code has it: {}", lines.join("; ")) }),
             Self::Lowered { each, limited } => write!(f, "the code gives the least force that the log supports: {}{}. A log that determines them gives more: stiction check LOG names the motion", list(each, ", ", |(name, to, unit, from)| format!("{name} = {} {unit} instead of {}", four_digits(*to), four_digits(*from))), if *limited { ", and its limit is the largest friction up to the speeds of the log" } else { "" }),
             Self::WrappedPosition { travel, unit, names, range: [low, high] } => write!(f, "the position of the log wraps after {} {unit}, and {} depend on it without that period. Feed an unwrapped position, {} to {} {unit} as identified (outside that range its end counts)", short(*travel), names.join(", "), short(*low), short(*high)),
+            Self::Robot(of_robot) => write!(f, "{of_robot}"),
             Self::SourceOnly => f.write_str("no C compiler of this machine makes a binary: the FMUs have C source only. A tool that runs them has to compile it, or install gcc and export again"),
             Self::ShortName { identifier, title } => write!(f, "the names in the code begin with {identifier}, only a part of the axis name '{title}': another axis may get the same; give a name"),
             Self::ExportedNotRun { path, controller, why } => write!(f, "{path}, {controller} was not run with the exported C: {why}"),

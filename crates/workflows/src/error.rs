@@ -65,6 +65,14 @@ pub enum Error {
         /// What of it there is.
         instead: Vec<&'static str>,
     },
+    /// A URDF was refused.
+    #[error("{}: {source}", .file.display())]
+    Urdf {
+        /// The file.
+        file: PathBuf,
+        /// Why.
+        source: Box<stiction_rigid::Error>,
+    },
     /// The options do not go together with each other or with the logs.
     #[error("{found}; {allowed}")]
     Usage {
@@ -111,6 +119,7 @@ impl Error {
             Error::Export(_) | Error::ExportModel { .. } | Error::NotFed { .. } => {
                 Code::NotExported
             }
+            Error::Urdf { .. } => Code::BadUrdf,
             Error::Usage { .. } | Error::SameLog { .. } => Code::Usage,
         }
     }

@@ -51,6 +51,7 @@ pub mod export;
 pub mod identify;
 pub mod plan;
 pub mod reproduce;
+pub mod robot;
 pub mod source;
 mod spread;
 pub mod study;

@@ -1,10 +1,11 @@
 //! What the outcome of a workflow is worth, in one word.
 
 use crate::check::Check;
-use crate::export::Exported;
+use crate::export::{Exported, ExportedRobot};
 use crate::identify::Outcome;
 use crate::plan::Planned;
 use crate::reproduce::Reproduction;
+use crate::robot::RobotOutcome;
 use crate::study::StudyOutcome;
 use serde::Serialize;
 use stiction_files::batch::BatchFile;
@@ -41,6 +42,20 @@ impl Outcome {
     }
 }
 
+impl RobotOutcome {
+    /// Whether the model predicts the torque of every joint.
+    pub fn verdict(&self) -> Verdict {
+        let found = self
+            .joints
+            .iter()
+            .filter_map(|own| own.outcome.as_ref().ok());
+        let interrupted = found
+            .map(Outcome::verdict)
+            .any(|v| v == Verdict::Interrupted);
+        Verdict::new(interrupted, self.result.trust.trustworthy)
+    }
+}
+
 impl Check {
     /// Whether each log determines a law that may be trusted, and no log follows its reference worse than the first.
     pub fn verdict(&self) -> Verdict {
@@ -72,6 +87,13 @@ impl Reproduction {
     /// Whether all numbers are there and within their tolerance.
     pub fn verdict(&self) -> Verdict {
         Verdict::new(self.file.status == "interrupted", self.file.all_within)
+    }
+}
+
+impl ExportedRobot {
+    /// Whether the identification trusts the friction law of every joint.
+    pub fn verdict(&self) -> Verdict {
+        Verdict::new(false, self.trustworthy)
     }
 }
 

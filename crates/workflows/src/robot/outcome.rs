@@ -1,0 +1,91 @@
+//! Everything that came out of an identification of a robot, in memory.
+
+use super::load::{JointLogs, Urdf};
+use super::motion::read;
+use crate::error::Error;
+use crate::identify::Outcome;
+use crate::source::Source;
+use stiction_files::robot::result::RobotFile;
+use stiction_identify::{RigidFit, Series};
+
+/// Everything that came out, in memory.
+#[derive(Debug)]
+pub struct RobotOutcome {
+    /// What goes into `robot.json`.
+    pub result: RobotFile,
+    /// The URDF.
+    pub urdf: Urdf,
+    /// The rigid body.
+    pub rigid: RigidFit,
+    /// The joints whose friction was to be fitted, in the order of the robot.
+    pub joints: Vec<JointOutcome>,
+}
+
+/// What came out of one joint.
+#[derive(Debug)]
+pub struct JointOutcome {
+    /// Its name in the URDF.
+    pub name: String,
+    /// Its friction, identified as that of one axis; the force of the rigid body acts from outside.
+    pub outcome: Result<Outcome, Error>,
+    /// Torque of the rigid body at the samples of the fit, N m or N: what is measured and modelled there is less by this much.
+    pub rigid: Vec<f64>,
+    /// The same at the samples of each validation.
+    pub rigid_held_out: Vec<Vec<f64>>,
+    /// What the model leaves of the torque on the fitted logs, and on those that were not, N m or N; torque and model have passed the
+    /// filters of the rigid body.
+    pub left: [Vec<f64>; 2],
+    /// Root mean square of the error of the rigid torque on the fitted logs by its covariance, N m or N.
+    pub rigid_deviation: f64,
+}
+
+impl JointOutcome {
+    /// What came out of a joint with these logs.
+    pub(super) fn new(name: String, outcome: Result<Outcome, Error>, logs: &JointLogs) -> Self {
+        let (rigid, rigid_held_out) = match &outcome {
+            Ok(outcome) => (
+                rigid_at(&outcome.law().series, &logs.fitted),
+                outcome
+                    .validation
+                    .iter()
+                    .zip(&logs.held_out)
+                    .map(|((_, series), log)| rigid_at(series, std::slice::from_ref(log)))
+                    .collect(),
+            ),
+            Err(_) => (Vec::new(), Vec::new()),
+        };
+        let deviations = logs.fitted.iter().flat_map(|log| &log.external_deviations);
+        let square: f64 = deviations.flatten().map(|x| x * x).sum();
+        let samples: usize = logs.fitted.iter().map(|log| log.log.time.len()).sum();
+        Self {
+            name,
+            outcome,
+            rigid,
+            rigid_held_out,
+            left: [Vec::new(), Vec::new()],
+            rigid_deviation: (square / samples.max(1) as f64).sqrt(),
+        }
+    }
+}
+
+/// Torque of the rigid body at the samples of a series.
+fn rigid_at(series: &Series, logs: &[Source]) -> Vec<f64> {
+    let samples = series.log.iter().zip(&series.time);
+    samples
+        .map(|(log, t)| {
+            let log = logs.get(*log).map(|source| &source.log);
+            let external = log.and_then(|log| Some((log, log.external.as_ref()?)));
+            external.map_or(0.0, |(log, external)| {
+                let after = log.time.partition_point(|own| own < t);
+                let before = after.saturating_sub(1);
+                let width = log.time.get(after).unwrap_or(t) - log.time[before];
+                let part = if width > 0.0 {
+                    (t - log.time[before]) / width
+                } else {
+                    0.0
+                };
+                -read(external, before as f64 + part)
+            })
+        })
+        .collect()
+}
