@@ -1,6 +1,6 @@
 //! For tests only: where measured recordings are, what must hold on them, an interpreter and a compiler of Structured Text, other
 //! programs of the set-up, LinuxCNC, the plain midpoint step, simulated logs of worlds that an identification does, or does not,
-//! assume ([`worlds`]), and joints behind gears ([`geared`]).
+//! assume ([`worlds`]), joints behind gears ([`geared`]), and whole robots ([`robots`]).
 //!
 //! Start with [`recordings`] for a test on measured data, and with [`st::Library`] for one that runs Structured Text:
 //!
@@ -25,6 +25,7 @@ mod mean_of_ends;
 mod pages;
 pub mod programs;
 mod random;
+pub mod robots;
 pub mod st;
 pub mod worlds;
 
