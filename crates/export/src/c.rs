@@ -15,13 +15,13 @@ const SELFTEST: &str = include_str!("../templates/c/selftest.c.in");
 /// A number type of C.
 pub(crate) struct Precision {
     /// What is appended to the model's identifier.
-    suffix: &'static str,
+    pub(crate) suffix: &'static str,
     pub(crate) real: &'static str,
     /// Suffix of a number.
-    literal: &'static str,
+    pub(crate) literal: &'static str,
     /// Suffix of a function of `math.h`.
-    function: &'static str,
-    max: &'static str,
+    pub(crate) function: &'static str,
+    pub(crate) max: &'static str,
     /// Largest error of the self-test, relative to [`Vectors::scale`].
     pub(crate) tolerance: f64,
 }

@@ -90,6 +90,40 @@ pub enum Error {
         /// Unit that the target takes.
         allowed: &'static str,
     },
+    /// A target that takes one joint only.
+    #[error(
+        "target {target} takes no robot; allowed: {}; or export the model.toml of a joint by itself",
+        crate::robot::TARGETS
+    )]
+    NoRobot {
+        /// The target.
+        target: &'static str,
+    },
+    /// A target that has no feedforward of a rigid body.
+    #[error("target {target} has no feedforward of the rigid body; allowed: c")]
+    RobotFeedforward {
+        /// The target.
+        target: &'static str,
+    },
+    /// A joint that the robot does not have as it should.
+    #[error("joint \"{joint}\": {reason}")]
+    RobotJoint {
+        /// Name of the joint.
+        joint: String,
+        /// What is wrong.
+        reason: &'static str,
+    },
+    /// A joint whose model a target cannot express.
+    #[error("joint \"{joint}\": {source}")]
+    OfJoint {
+        /// Name of the joint.
+        joint: String,
+        /// Why.
+        source: Box<Error>,
+    },
+    /// The URDF of a robot.
+    #[error("URDF: {0}")]
+    Urdf(#[from] stiction_rigid::Error),
     /// An archive that could not be written.
     #[error("archive: {found}")]
     Archive {

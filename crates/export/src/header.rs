@@ -127,7 +127,7 @@ fn other_unit(model: &Model) -> Option<String> {
     ))
 }
 
-/// The lines, each after a prefix.
+/// Lines with inputs and outputs, each after a prefix.
 pub(crate) fn comment(model: &Model, prefix: &str) -> String {
     joined(&lines(model, true), prefix)
 }
@@ -137,7 +137,8 @@ pub(crate) fn table_comment(model: &Model, prefix: &str) -> String {
     joined(&lines(model, false), prefix)
 }
 
-fn joined(lines: &[String], prefix: &str) -> String {
+/// The lines, each after a prefix.
+pub(crate) fn joined(lines: &[String], prefix: &str) -> String {
     let lines: Vec<String> = lines
         .iter()
         .map(|line| format!("{prefix}{line}").trim_end().to_string())

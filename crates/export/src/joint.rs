@@ -147,7 +147,7 @@ impl Difference {
 }
 
 /// Static friction of a law, the mean of the directions, N (N m).
-fn at_rest(law: &Friction<f64>) -> f64 {
+pub(crate) fn at_rest(law: &Friction<f64>) -> f64 {
     let levels = match law.curve() {
         Some(curve) => [curve.positive(), curve.negative()].map(|side| side.static_friction),
         None => law.coulomb(),

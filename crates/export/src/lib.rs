@@ -1,6 +1,6 @@
 //! The compensator of `stiction-friction` as code for a target: C, Structured Text and other forms.
 //!
-//! Start with a [`Model`] and [`export`]; [`advice`] tells what to know before the code runs.
+//! Start with a [`Model`] and [`export`], or a [`Robot`] and [`export_robot`]; [`advice`] tells what to know before the code runs.
 //!
 //! [`export`] returns relative paths with their bytes and writes no file. The compensator in
 //! [`stiction_friction::compensator`] is the definition; every target comes with test vectors computed with it, and a
@@ -52,6 +52,7 @@ mod modelica;
 mod mujoco;
 mod number;
 mod range;
+mod robot;
 mod ros2;
 mod rust;
 mod st;
@@ -66,5 +67,6 @@ pub use error::Error;
 pub use fmu::{Platform, fmu};
 pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier, is_whole};
 pub use model::{Model, Parameter, Provenance};
+pub use robot::{Load, Robot, RobotJoint, export_robot, joint_identifiers};
 pub use target::{File, Target, export};
 pub use tf5200::largest_force as largest_force_in_table;

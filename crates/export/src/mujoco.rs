@@ -39,6 +39,9 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
     fill.set("name", name.clone())
         .set("v_unit", model.speed_unit())
         .set("x_unit", model.length_unit())
+        .set("joint", format!("{name}_joint"))
+        .set("input", "")
+        .flag("offset", true)
         .set("f_unit", model.force_unit())
         .set("type", if model.rotary { "hinge" } else { "slide" })
         .set("axis", if model.rotary { "0 0 1" } else { "1 0 0" })
@@ -133,7 +136,7 @@ pub(crate) fn simplified(model: &Model) -> Option<Advice> {
 }
 
 /// The bristle of the law, if MuJoCo has one with its steady friction.
-fn simple(model: &Model) -> Result<LuGre<f64>, Error> {
+pub(crate) fn simple(model: &Model) -> Result<LuGre<f64>, Error> {
     let refuse = |law: String| Error::Law {
         target: "mujoco",
         law,

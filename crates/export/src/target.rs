@@ -119,7 +119,7 @@ impl Target {
     }
 
     /// The name of its number type with the smallest range.
-    fn narrowest(self) -> &'static str {
+    pub(crate) fn narrowest(self) -> &'static str {
         match self {
             Target::C | Target::Cpp => "float",
             Target::St | Target::TcPou | Target::PlcOpen => "REAL",

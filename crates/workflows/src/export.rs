@@ -5,6 +5,7 @@ mod asked;
 mod doubts;
 mod law;
 mod reserve;
+mod robot;
 mod settings;
 mod terms;
 mod wrapped;
@@ -27,6 +28,7 @@ use law::{Unfit, bent, friction, quadratic};
 use settings::{asked, settings_of_law};
 
 pub(crate) use asked::check;
+pub use robot::{ExportedJoint, ExportedRobot, export_robot_file};
 pub use stiction_export::{Error as ExportError, File, Platform, Target};
 pub use terms::Feedforward;
 
@@ -238,6 +240,12 @@ fn names<S: serde::Serializer>(platforms: &[Platform], serializer: S) -> Result<
 }
 
 fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warning>), Error> {
+    if options.feedforward.rigid {
+        return Err(Error::usage(
+            "a feedforward of the rigid body for the model of one axis",
+            "the robot.toml of a robot; of one axis mass and gravity",
+        ));
+    }
     let file = &read.model;
     let (friction, lowered) = friction(file, options.cycle_time).map_err(|e| match e {
         Unfit::Law => read.refuse("law", file.law.as_str(), "a law that stiction identifies"),

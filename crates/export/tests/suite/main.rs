@@ -11,6 +11,7 @@ mod matiec;
 mod matlab;
 mod modelica;
 mod mujoco;
+mod robot;
 mod ros2;
 mod rust;
 mod st;

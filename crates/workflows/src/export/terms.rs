@@ -17,10 +17,12 @@ pub struct Feedforward {
     pub gravity: bool,
     /// Waves of the force along the position.
     pub cogging: bool,
+    /// Gravity, inertia and Coriolis forces of the rigid body of a robot.
+    pub rigid: bool,
 }
 
 /// The names of all that can be fed forward beside friction, in their order.
-const BESIDE: [&str; 3] = ["mass", "gravity", "cogging"];
+const BESIDE: [&str; 4] = ["mass", "gravity", "cogging", "rigid"];
 
 impl Feedforward {
     /// From the names of its parts, of which one is `friction`.
@@ -36,11 +38,12 @@ impl Feedforward {
                 "mass" => feedforward.mass = true,
                 "gravity" => feedforward.gravity = true,
                 "cogging" => feedforward.cogging = true,
+                "rigid" => feedforward.rigid = true,
                 other => {
                     let short: String = other.chars().take(60).collect();
                     return Err(Error::usage(
                         format!("a feedforward of {short:?}"),
-                        "friction, and of mass, gravity and cogging what the model has",
+                        "friction, and of mass, gravity and cogging what the model has, or rigid for a robot",
                     ));
                 }
             }
@@ -56,7 +59,7 @@ impl Feedforward {
 
     /// The names of its parts.
     pub fn names(self) -> Vec<&'static str> {
-        let own = [self.mass, self.gravity, self.cogging];
+        let own = [self.mass, self.gravity, self.cogging, self.rigid];
         let beside = BESIDE.into_iter().zip(own).filter(|(_, own)| *own);
         let beside = beside.map(|(name, _)| name);
         std::iter::once("friction").chain(beside).collect()

@@ -149,6 +149,7 @@ impl Settled {
             mass: source.feeds("mass"),
             gravity: source.feeds("gravity"),
             cogging: source.feeds("cogging"),
+            rigid: false,
         };
         options
     }
