@@ -18,6 +18,7 @@ from ._log import Check, Finding, Log, allow_memory, check, read_log, write_demo
 from ._native import __version__
 from ._parameters import Parameter, Parameters
 from ._plan import Plan, plan
+from ._robot import Joint, Robot, robot
 from ._study import Study, simulate
 from ._types import Progress
 
@@ -33,6 +34,7 @@ __all__ = [
     "Finding",
     "Fit",
     "Friction",
+    "Joint",
     "Law",
     "Log",
     "Parameter",
@@ -40,6 +42,7 @@ __all__ = [
     "Plan",
     "Prediction",
     "Progress",
+    "Robot",
     "StictionError",
     "StictionWarning",
     "Study",
@@ -52,6 +55,7 @@ __all__ = [
     "load",
     "plan",
     "read_log",
+    "robot",
     "simulate",
     "write_demo_log",
     "write_procedure_logs",

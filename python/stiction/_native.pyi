@@ -16,6 +16,7 @@ __all__ = [
     "Law",
     "Log",
     "Plan",
+    "Robot",
     "Study",
     "__version__",
     "allow_memory",
@@ -33,6 +34,7 @@ __all__ = [
     "keep_rows",
     "plan",
     "read_rows",
+    "robot",
     "seconds_of",
     "simulate",
     "unread_row",
@@ -158,6 +160,16 @@ class Plan:
     def setpoints(self) -> list[tuple[str, str | None, _Array]]: ...
     def save(self, folder: _Path, force: bool) -> list[Path]: ...
 
+@final
+class Robot:
+    @property
+    def verdict(self) -> _Verdict: ...
+    def result_json(self) -> str: ...
+    def text(self) -> str: ...
+    def report(self) -> str: ...
+    def fit(self, name: str) -> Fit | None: ...
+    def write(self, folder: _Path, force: bool) -> list[Path]: ...
+
 def check(
     logs: list[Log], axis: Axis, progress: _Tell, threads: int | None
 ) -> tuple[str, str, bool]: ...
@@ -194,6 +206,16 @@ def seconds_of(text: str) -> float | None: ...
 def read_rows(table: _Path) -> list[tuple[str, str, str | None, bool | None, _Label]]: ...
 def write_rows(table: _Path, rows: list[str]) -> None: ...
 def keep_rows(table: _Path, out: _Path, without: set[str], labels: dict[str, _Label]) -> int: ...
+def robot(
+    logs: list[_Path],
+    urdf: _Path | None,
+    robot: _Path | None,
+    validate: list[_Path],
+    split: float | None,
+    seed: int,
+    progress: _Tell,
+    threads: int | None,
+) -> tuple[Robot, bool]: ...
 def simulate(
     study: _Path, max_samples: int | None, progress: _Tell, threads: int | None
 ) -> tuple[Study, bool]: ...

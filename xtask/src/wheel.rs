@@ -21,6 +21,7 @@ const FREE_THREADED: &[&str] = &[
     "test_fit.py",
     "test_guide.py",
     "test_package.py",
+    "test_robot.py",
     "test_running.py",
     "test_same_bits.py",
     "test_threads.py",

@@ -46,6 +46,8 @@ pub enum Command {
     Check(Check),
     /// Identify a friction law from logs of one axis.
     Identify(Identify),
+    /// Identify a robot: its rigid body and the friction of every joint, from logs of all joints and a URDF.
+    Robot(Robot),
     /// Identify every log of a folder or a list by itself, on all cores, into one table.
     Batch(Batch),
     /// Friction over time: what changed on which machine, from the table of a batch; exit code 1 if something did.
@@ -150,6 +152,7 @@ pub const COMMANDS: &[&str] = &[
     "demo",
     "check",
     "identify",
+    "robot",
     "batch",
     "drift",
     "plan",
@@ -254,6 +257,36 @@ pub struct Identify {
     #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
     pub seed: u64,
     /// Folder for result.json, model.toml, report.html and fit.csv.
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write into a folder that holds something else; files of the same names are replaced.
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Robot {
+    /// Logs of one robot with positions and torques or currents of its joints, fitted together: ROS 2 bags, text, MATLAB, HDF5,
+    /// Parquet, JSON and others.
+    #[arg(required = true, value_name = "LOG")]
+    pub logs: Vec<PathBuf>,
+    /// The URDF of the robot [default: that of the robot file].
+    #[arg(long, value_name = "ARM.urdf", required_unless_present = "axis")]
+    pub urdf: Option<PathBuf>,
+    /// What is known of the robot, its joints and their columns.
+    #[arg(long, value_name = "ROBOT.toml")]
+    pub axis: Option<PathBuf>,
+    /// Logs to validate on; they are not fitted.
+    #[arg(long, value_name = "LOG", num_args = 1.., conflicts_with = "split")]
+    pub validate: Vec<PathBuf>,
+    /// Fit the first part of the time of each log and validate on the rest: a share between 0 and 1, such as 0.5 for the first
+    /// half [default: all is fitted].
+    #[arg(long, value_name = "PART", allow_negative_numbers = true, value_parser = number)]
+    pub split: Option<f64>,
+    /// Seed of the searches.
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true, value_parser = whole)]
+    pub seed: u64,
+    /// Folder for robot.json, robot.toml, report.html and a folder for each joint.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
     /// Write into a folder that holds something else; files of the same names are replaced.
@@ -682,7 +715,7 @@ pub enum Publication {
 
 #[derive(Clone, Debug, Args)]
 pub struct Export {
-    /// Model as written by stiction identify.
+    /// Model as written by stiction identify, or robot.toml as written by stiction robot.
     #[arg(value_name = "MODEL.toml")]
     pub model: PathBuf,
     /// What to write.
@@ -724,7 +757,7 @@ pub struct Export {
     /// Levels of friction that follow the machine while it runs, from the force of the drive.
     #[arg(long)]
     pub adapt: bool,
-    /// What is fed forward: friction, and of mass, gravity and cogging what the model has.
+    /// What is fed forward: friction, and of mass, gravity and cogging what the model has; of a robot friction and rigid.
     #[arg(
         long,
         value_name = "PARTS",
@@ -735,6 +768,9 @@ pub struct Export {
     /// Rated force of the motor, in the unit of the model's force; for tf5200.
     #[arg(long, value_name = "FORCE", allow_negative_numbers = true, value_parser = number)]
     pub rated_force: Option<f64>,
+    /// URDF in place of the one that robot.toml names.
+    #[arg(long, value_name = "FILE")]
+    pub urdf: Option<PathBuf>,
     /// What the names in the code begin with [default: from the name of the axis].
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,

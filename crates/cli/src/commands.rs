@@ -9,6 +9,7 @@ mod export;
 mod identify;
 mod plan;
 mod reproduce;
+mod robot;
 mod simulate;
 #[cfg(feature = "studio")]
 mod studio;
@@ -47,6 +48,7 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Demo(typed) => demo::run(typed, common),
         Command::Check(typed) => check::run(typed, common),
         Command::Identify(typed) => identify::run(typed, common),
+        Command::Robot(typed) => robot::run(typed, common),
         Command::Batch(typed) => batch::run(typed, common),
         Command::Drift(typed) => drift::run(typed, common),
         Command::Plan(typed) => plan::run(typed, common),

@@ -39,6 +39,10 @@ pub fn of(error: &Error, command: &Command) -> Option<String> {
             let once = is_read(&kept).then(|| next(&pasted(kept)));
             once.or_else(|| Some(given.check()))
         }
+        Error::Urdf { file, .. } => {
+            let first = format!("correct {}, then", quoted_path(file));
+            Some(after(&first, &again()))
+        }
         Error::Usage { found, allowed } => given.of_usage(found, allowed),
         Error::Checkpoint { file, .. } if is_regular(file) => {
             let anew = without("resume");
@@ -136,6 +140,7 @@ impl<'a> Given<'a> {
         let (logs, axis) = match command {
             Command::Check(own) => (all(&own.logs), own.axis.as_deref()),
             Command::Identify(own) => (all(&own.logs), own.axis.as_deref()),
+            Command::Robot(own) => (all(&own.logs), own.axis.as_deref()),
             Command::Compare(own) => (all(&own.logs), own.axis.as_deref()),
             Command::Plan(own) => (own.log.as_deref().into_iter().collect(), Some(&*own.axis)),
             _ => (Vec::new(), None),
@@ -212,6 +217,10 @@ impl<'a> Given<'a> {
                 Command::Plan(own) if own.model.is_some() => Some(next(&pasted(without("model")))),
                 Command::Drift(drift) if !drift.limit.is_empty() => {
                     Some(next(&pasted(without("limit"))))
+                }
+                Command::Robot(robot) => {
+                    let urdf = robot.urdf.as_ref();
+                    shown(urdf.filter(|urdf| !is_regular(urdf))?)
                 }
                 Command::Batch(batch) => {
                     self.of_other(batch.inputs.iter().find(|input| input.is_dir())?)
@@ -305,6 +314,13 @@ impl<'a> Given<'a> {
         if !self.logs.contains(&file) {
             return None;
         }
+        if matches!(self.command, Command::Robot(_)) && (is_unclear || e.is_settled_by_line()) {
+            let axis = self.axis.unwrap_or(Path::new("robot.toml"));
+            return Some(after(
+                &format!("with what is said above in {}:", quoted_path(axis)),
+                &with_value("axis", &path_text(axis)),
+            ));
+        }
         if e.is_settled_by_line() {
             let axis = self
                 .axis
@@ -333,7 +349,7 @@ impl<'a> Given<'a> {
                         format!("stiction check {} --axis {own}", quoted_path(file)),
                     ),
                 };
-                Some(after(first, &command))
+                Some(format!("{}{}", of_robot(e, file), after(first, &command)))
             }
         }
     }
@@ -341,6 +357,11 @@ impl<'a> Given<'a> {
     /// What leads on from a file that is missing, or something else than what the command takes: the one that is meant in a folder, what
     /// that file is good for, or a look at the folder.
     fn of_other(&self, file: &Path) -> Option<String> {
+        if self.axis == Some(file)
+            && let Command::Robot(own) = self.command
+        {
+            return own.urdf.is_some().then(|| next(&pasted(without("axis"))));
+        }
         if self.axis == Some(file) && !matches!(self.command, Command::Plan(_)) && file.exists() {
             return Some(after(
                 "for an axis file of that log:",
@@ -366,7 +387,7 @@ impl<'a> Given<'a> {
         let wanted = match self.command {
             Command::Simulate(_) => of(Looks::Study),
             Command::Plan(own) if own.axis == file => of(Looks::Axis),
-            Command::Export(_) => of(Looks::Model),
+            Command::Export(_) => of(Looks::Model).or_else(|| of(Looks::Robot)),
             _ => None,
         };
         if let Some(wanted) = wanted {
@@ -376,9 +397,15 @@ impl<'a> Given<'a> {
             return Some(next(&use_of));
         }
         // A batch leaves out what an earlier command has written.
-        let is_written = ["result.json", "batch.json", "study.json", "drift.json"]
-            .iter()
-            .any(|name| file.join(name).is_file());
+        let is_written = [
+            "result.json",
+            "batch.json",
+            "study.json",
+            "drift.json",
+            "robot.json",
+        ]
+        .iter()
+        .any(|name| file.join(name).is_file());
         if !is_written && of(Looks::Log).is_some() {
             let axis = self.axis.filter(|axis| *axis != file);
             let axis = axis.map_or(String::new(), |axis| {
@@ -437,6 +464,10 @@ impl<'a> Given<'a> {
                 let lists = Axis::read(file).is_ok_and(|axis| !axis.logs.is_empty());
                 let log = if lists { "" } else { "log.csv " };
                 format!("stiction check {log}--axis {path}")
+            }
+            (Looks::Robot, _) => {
+                let out = quoted_path(&free_folder(&file.with_file_name("robot")));
+                format!("stiction robot log.csv --axis {path} --out {out}")
             }
             (Looks::Plan, _) => return None,
         })
@@ -498,6 +529,22 @@ fn folder(path: &Path) -> &Path {
     let folder = path.parent().filter(|dir| !dir.as_os_str().is_empty());
     folder.unwrap_or(Path::new("."))
 }
+
+/// The line that says how all joints of a robot are identified, where a bag of ROS 2 has several; else empty.
+fn of_robot(e: &LogError, log: &Path) -> String {
+    let ending = log.extension().and_then(|ending| ending.to_str());
+    if e.kind != Kind::Ambiguous || !ending.is_some_and(|own| BAGS.contains(&own)) {
+        return String::new();
+    }
+    let out = quoted_path(&free_folder(Path::new("robot")));
+    format!(
+        "for all joints of a robot at once: stiction robot {} --urdf ARM.urdf --out {out}\n",
+        quoted_path(log)
+    )
+}
+
+/// Endings of bags of ROS 2, in which the joints of a robot are logged together.
+const BAGS: [&str; 2] = ["db3", "mcap"];
 
 /// The command that begins an axis file of a log.
 fn begun(log: &Path) -> String {

@@ -27,5 +27,6 @@ mod more_logs;
 mod names;
 mod next;
 pub mod report;
+mod robot;
 pub mod text;
 mod trust;

@@ -10,6 +10,7 @@ mod ladder;
 mod plan;
 mod procedure;
 mod reproduction;
+mod robot;
 mod searched;
 mod sign;
 mod simulation;
@@ -30,6 +31,7 @@ use stiction_workflows::drift::DriftOutcome;
 use stiction_workflows::identify::Outcome;
 use stiction_workflows::plan::Planned;
 use stiction_workflows::reproduce::Reproduction;
+use stiction_workflows::robot::RobotOutcome;
 use stiction_workflows::study::StudyOutcome;
 
 /// The report of one identification.
@@ -65,6 +67,11 @@ pub fn plan(planned: &Planned) -> Document {
 /// The report of reproduced experiments.
 pub fn reproduction(outcome: &Reproduction) -> Document {
     explained(reproduction::reproduction(outcome))
+}
+
+/// The report of a robot whose files go into a folder, by which its commands call those that follow.
+pub fn robot(outcome: &RobotOutcome, folder: &Path) -> Document {
+    explained(robot::robot(outcome, folder))
 }
 
 /// An identification, section by section.

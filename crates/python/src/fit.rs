@@ -40,6 +40,14 @@ impl Fit {
         }
     }
 
+    /// One that was identified in this process, to the end.
+    pub fn of(fit: stiction::Fit) -> Self {
+        Self {
+            content: Content::Made(Box::new(fit)),
+            stopped: false,
+        }
+    }
+
     /// The model.
     pub fn model(&self) -> ModelFile {
         match &self.content {
@@ -65,11 +73,11 @@ impl Fit {
     }
 
     /// Its files with their names.
-    fn files<'py>(&self, py: Python<'py>) -> Vec<(&'static str, Bound<'py, PyBytes>)> {
+    fn files<'py>(&self, py: Python<'py>) -> Vec<(String, Bound<'py, PyBytes>)> {
         let bundle = py.detach(|| self.bundle());
         let files = bundle.files().iter();
         files
-            .map(|(name, bytes)| (*name, PyBytes::new(py, bytes)))
+            .map(|(name, bytes)| (name.to_string(), PyBytes::new(py, bytes)))
             .collect()
     }
 

@@ -13,6 +13,7 @@ mod law;
 mod log;
 mod motion;
 mod options;
+mod robot;
 mod run;
 mod study;
 
@@ -44,6 +45,8 @@ mod _native {
     use crate::motion::{Plan, plan};
     #[pymodule_export]
     use crate::options::choices;
+    #[pymodule_export]
+    use crate::robot::{Robot, robot};
     #[pymodule_export]
     use crate::study::{Study, simulate};
 

@@ -16,8 +16,8 @@ pub fn bundled(names: &[&'static str], files: Vec<(String, Vec<u8>)>) -> Bundle 
     let mut bundle = Bundle::default();
     for name in names {
         match files.iter().find(|(own, _)| own == name) {
-            Some((_, content)) => bundle.add(name, content.clone()),
-            None => bundle.lacks(name),
+            Some((_, content)) => bundle.add(*name, content.clone()),
+            None => bundle.lacks(*name),
         }
     }
     bundle
@@ -27,7 +27,7 @@ pub fn bundled(names: &[&'static str], files: Vec<(String, Vec<u8>)>) -> Bundle 
 pub fn unbundled(bundle: &Bundle) -> Vec<(String, Vec<u8>)> {
     let files = bundle.files().iter();
     files
-        .map(|(name, content)| ((*name).to_string(), content.clone()))
+        .map(|(name, content)| (name.to_string(), content.clone()))
         .collect()
 }
 

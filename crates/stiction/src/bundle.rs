@@ -3,15 +3,17 @@
 use crate::fit_csv::fit_csv;
 use serde::Serialize;
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use stiction_files::compare_file::CompareFile;
+use stiction_files::robot::model;
 use stiction_files::study::template::{Shown, template};
-use stiction_files::{Bundle, ModelFile, check_folder_of, visible};
+use stiction_files::{Bundle, ModelFile, check_folder_of, shell, visible};
 use stiction_pages::report;
 use stiction_workflows::drift::DriftOutcome;
 use stiction_workflows::identify::Outcome;
 use stiction_workflows::plan::{Carrier, Planned};
 use stiction_workflows::reproduce::Reproduction;
+use stiction_workflows::robot::{RobotOutcome, folder_of};
 use stiction_workflows::study::StudyOutcome;
 
 /// The files of an identification: `result.json`, `model.toml`, `report.html`, `fit.csv`, and where a study takes the law
@@ -30,8 +32,7 @@ pub fn identification_in(outcome: &Outcome, folder: &Path) -> Bundle {
 
 fn with_report(outcome: &Outcome, report: String) -> Bundle {
     let mut bundle = Bundle::default();
-    let model = ModelFile::from_result(&outcome.result);
-    bundle.add("model.toml", model.to_toml());
+    bundle.add("model.toml", model_of(outcome));
     bundle.add("fit.csv", fit_csv(outcome));
     bundle.add("report.html", report);
     match study_of(outcome) {
@@ -40,6 +41,50 @@ fn with_report(outcome: &Outcome, report: String) -> Bundle {
     }
     bundle.add("result.json", json(&outcome.result));
     bundle
+}
+
+fn model_of(outcome: &Outcome) -> String {
+    ModelFile::from_result(&outcome.result).to_toml()
+}
+
+/// The files of a robot: `robot.json`, `robot.toml`, `report.html`, and of each joint that was fitted `result.json`, `model.toml` and
+/// `fit.csv` in `joints/NAME`. The folder is the one that they are for: by it the robot file names the URDF, and the commands in the
+/// report those that follow.
+pub fn robot(outcome: &RobotOutcome, folder: &Path) -> Bundle {
+    let mut bundle = Bundle::default();
+    for joint in &outcome.joints {
+        let file = |name: &str| format!("joints/{}/{name}", folder_of(&joint.name));
+        match &joint.outcome {
+            Ok(outcome) => {
+                bundle.add(file("model.toml"), model_of(outcome));
+                bundle.add(file("fit.csv"), fit_csv(outcome));
+                bundle.add(file("result.json"), json(&outcome.result));
+            }
+            Err(_) => ["model.toml", "fit.csv", "result.json"]
+                .into_iter()
+                .for_each(|name| bundle.lacks(file(name))),
+        }
+    }
+    let urdf = shell::text(&seen_from(folder, &outcome.urdf.path));
+    let text = model::text(&outcome.result, &urdf);
+    bundle.add("robot.toml", visible::toml(text));
+    bundle.add("report.html", report::robot(outcome, folder).to_html());
+    bundle.add("robot.json", json(&outcome.result));
+    bundle
+}
+
+/// A path from a folder instead of from where the program runs.
+fn seen_from(folder: &Path, path: &Path) -> PathBuf {
+    let is_plain = |part: Component| matches!(part, Component::Normal(_));
+    let down: Vec<Component> = folder
+        .components()
+        .filter(|part| *part != Component::CurDir)
+        .collect();
+    if path.is_absolute() || down.iter().all(|part| is_plain(*part)) {
+        let up = down.iter().map(|_| "..");
+        return up.collect::<PathBuf>().join(path);
+    }
+    std::path::absolute(path).unwrap_or_else(|_| path.into())
 }
 
 /// A study of what was identified, on motion like that of its logs.
@@ -120,7 +165,7 @@ pub fn beside_complete(
     stopped: bool,
 ) -> Option<PathBuf> {
     let file = file_of(schema);
-    let (_, content) = bundle.files().iter().find(|(name, _)| **name == file)?;
+    let (_, content) = bundle.files().iter().find(|(name, _)| *name == file)?;
     let early = stopped || says_early(&file, content);
     if !early || !holds_complete(dir, schema) {
         return None;

@@ -96,6 +96,7 @@
 //! | a folder with a result | [`SavedFit`] | [`SavedFit::read`] |
 //! | a fit | law, prediction, compensator, files | [`Fit::law`], [`Fit::predict`], [`Fit::compensator`], [`Fit::write`] |
 //! | a model | code for a controller | [`export()`] |
+//! | logs of a robot and its URDF | its rigid body and a fit of each joint | [`robot`] |
 //! | a study file | tracking errors with and without compensation | [`Study::read`], [`simulate`] |
 //!
 //! SI throughout; a force that the log has in A or V stays in it. Results do not depend on the number of threads. A result
@@ -110,6 +111,7 @@ mod fit_csv;
 mod identify;
 mod log;
 mod parameter;
+pub mod robot;
 mod saved;
 mod stepped;
 
@@ -130,7 +132,8 @@ pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage}
 pub use stiction_log::{Reading, allow_memory, allowed_memory, watch};
 pub use stiction_parameters::FrictionLaw;
 pub use stiction_workflows::export::{
-    ExportOptions, Exported, Feedforward, Safety, Target, export, export_file,
+    ExportOptions, Exported, ExportedRobot, Feedforward, Safety, Target, export, export_file,
+    export_robot_file,
 };
 pub use stiction_workflows::identify::{CostKind, Method, Prediction, Procedures, Searching};
 pub use stiction_workflows::study::{StudyOutcome, simulate};

@@ -5,6 +5,7 @@ use crate::exit::Exit;
 use crate::next::with_value;
 use crate::output;
 use clap::ValueEnum;
+use stiction::commands::{Looks, looks};
 use stiction::{Error, ExportOptions, Feedforward, Target};
 
 /// Writes the code.
@@ -25,12 +26,40 @@ pub fn run(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     options.adapt = export.adapt;
     let parts = export.feedforward.iter().map(String::as_str);
     options.feedforward = Feedforward::from_names(parts).map_err(fed_line)?;
+    if looks(&export.model) == Some(Looks::Robot) {
+        return robot(export, &options, common);
+    }
+    if export.urdf.is_some() {
+        return Err(Error::Usage {
+            found: "a URDF for the model of one axis".into(),
+            allowed: "the robot.toml of a robot takes one".into(),
+        });
+    }
     let exported = stiction::export_file(&export.model, &options).map_err(fed_line)?;
     exported.write(&export.out, export.force)?;
     if common.json {
         output::json(&exported)?;
     } else if !common.quiet {
         output::print(&stiction::commands::text::exported(&exported, &export.out))?;
+    }
+    Ok(exported.verdict().into())
+}
+
+/// Writes the files of all joints of a robot.
+fn robot(
+    export: &arguments::Export,
+    options: &ExportOptions,
+    common: &Common,
+) -> Result<Exit, Error> {
+    let exported = stiction::export_robot_file(&export.model, export.urdf.as_deref(), options)?;
+    exported.write(&export.out, export.force)?;
+    if common.json {
+        output::json(&exported)?;
+    } else if !common.quiet {
+        output::print(&stiction::commands::text::exported_robot(
+            &exported,
+            &export.out,
+        ))?;
     }
     Ok(exported.verdict().into())
 }

@@ -23,6 +23,7 @@ mod plan;
 mod procedures;
 #[cfg(unix)]
 mod resumed;
+mod robot;
 mod rows;
 mod searches;
 #[cfg(all(unix, feature = "studio"))]

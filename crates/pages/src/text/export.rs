@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 use stiction_number::{Percent, four_digits as short};
-use stiction_workflows::export::{Exported, Platform, Reserve};
+use stiction_workflows::export::{Exported, ExportedRobot, Platform, Reserve};
 
 /// The files of an export, what it assumed, and what to know before it runs.
 pub fn exported(exported: &Exported, dir: &Path) -> String {
@@ -45,6 +45,45 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
     if exported.target == "fmu" {
         let _ = writeln!(out, "{}", binaries(&exported.binaries));
     }
+    out
+}
+
+/// The files of a robot, the law of each joint, and what to know before they run.
+pub fn exported_robot(exported: &ExportedRobot, dir: &Path) -> String {
+    let mut out = String::new();
+    for warning in &exported.warnings {
+        let _ = writeln!(out, "warning [{}]: {}", warning.code, warning.message);
+    }
+    let is_code = matches!(exported.target, "c" | "ros2");
+    for joint in &exported.joints {
+        let _ = write!(out, "joint {}: {}", joint.joint, joint.law);
+        let _ = match is_code {
+            true => writeln!(
+                out,
+                ", at most {} {}",
+                short(joint.limit),
+                stiction_number::unit(&joint.force_unit)
+            ),
+            false => writeln!(out),
+        };
+    }
+    let cycle = match is_code {
+        true => format!(" for a cycle of {} s", exported.cycle_time),
+        false => String::new(),
+    };
+    let _ = writeln!(
+        out,
+        "{} joints of `{}`{cycle}; put into operation as in docs/deploy/{}.md",
+        exported.joints.len(),
+        exported.name,
+        exported.target
+    );
+    let _ = writeln!(
+        out,
+        "written to {}: {}",
+        dir.display(),
+        listed(&exported.written).join(", ")
+    );
     out
 }
 

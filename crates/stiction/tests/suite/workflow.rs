@@ -161,7 +161,7 @@ fn poor_logs_are_refused_or_flagged() {
 /// Every file of an outcome can be read by what it is for, whatever the log was.
 fn whole(outcome: &Outcome) {
     let bundle = stiction::bundle::identification(outcome);
-    let names: Vec<&str> = bundle.files().iter().map(|(name, _)| *name).collect();
+    let names: Vec<&str> = bundle.files().iter().map(|(name, _)| &**name).collect();
     let mut sorted = names.clone();
     // Where a study takes the law there is one.
     sorted.retain(|name| *name != "study.toml");
@@ -172,7 +172,7 @@ fn whole(outcome: &Outcome) {
     );
     for (name, bytes) in bundle.files() {
         let text = std::str::from_utf8(bytes).unwrap();
-        match *name {
+        match &**name {
             "result.json" => {
                 let back: ResultFile = serde_json::from_str(text).unwrap();
                 assert_eq!(back, outcome.result);
@@ -329,7 +329,7 @@ fn the_folder_is_whole_or_untouched() {
     let four = ["fit.csv", "model.toml", "report.html", "result.json"];
     assert_eq!(names(&out), four);
     for (name, bytes) in bundle.files() {
-        assert_eq!(&std::fs::read(out.join(name)).unwrap(), bytes);
+        assert_eq!(&std::fs::read(out.join(&**name)).unwrap(), bytes);
     }
     // Its own folder may be written again.
     check_folder(&out, false).unwrap();
