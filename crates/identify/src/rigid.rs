@@ -86,7 +86,7 @@ pub fn rigid_fit(
     let columns = Columns::of(machine, joints);
     let samples: usize = columns.iter().map(|own| own.force.len()).sum();
     let bodies = machine.robot.len();
-    let unknowns = 11 * bodies + 3 * joints.len();
+    let unknowns = 11 * bodies + columns::FRICTION * joints.len();
     if samples < unknowns {
         return Err(Error::TooFewSamples {
             found: samples,
@@ -199,8 +199,8 @@ impl RigidFit {
         let covariance =
             DMatrix::from_fn(count, count, |i, j| self.covariance[(places[i], places[j])]);
         let root = solve::root(covariance);
-        let force = columns.matrix.columns(0, count) * &root;
-        let gram = force.transpose() * &force;
+        let force = columns.matrix.columns(0, count).transpose().tr_mul(&root);
+        let gram = force.tr_mul(&force);
         let total = gram.trace();
         let eigen = gram.symmetric_eigen();
         let mut order: Vec<usize> = (0..count).collect();

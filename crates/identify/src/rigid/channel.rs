@@ -19,8 +19,8 @@ pub fn torque_cutoff(machine: Machine, joints: &[RobotJoint], prior: &Prior) -> 
     let common = record.common_hz?;
     let left = |channel: Option<&Sos>| -> Option<f64> {
         let fit = rigid_fit(Machine { channel, ..machine }, joints, prior).ok()?;
-        let logs = fit.residual.iter().map(|r| r.ln());
-        Some((logs.sum::<f64>() / fit.residual.len() as f64).exp())
+        let logs = fit.residual.iter().map(|r| libm::log(*r));
+        Some(libm::exp(logs.sum::<f64>() / fit.residual.len() as f64))
     };
     let with = |hertz: f64| -> Option<f64> {
         let filter = Sos::butterworth_low_pass(ORDER, hertz, rate).ok()?;

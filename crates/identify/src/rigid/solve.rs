@@ -72,6 +72,9 @@ impl Normal {
 }
 
 /// The inverse of a symmetric matrix, 0 in directions that it does not determine.
+///
+/// Products here and beside are those with a transpose, whose sums do not depend on the instruction set; others go through kernels that
+/// are chosen by the processor.
 pub fn inverse(matrix: DMatrix<f64>) -> DMatrix<f64> {
     let scale: DVector<f64> = matrix
         .diagonal()
@@ -81,19 +84,21 @@ pub fn inverse(matrix: DMatrix<f64>) -> DMatrix<f64> {
     });
     let eigen = SymmetricEigen::new(scaled);
     let least = LEAST_EIGENVALUE * eigen.eigenvalues.max();
-    let inverse = eigen
+    let roots = eigen
         .eigenvalues
-        .map(|x| if x > least { 1.0 / x } else { 0.0 });
-    let mut vectors = eigen.eigenvectors;
-    for (i, scale) in scale.iter().enumerate() {
-        vectors.row_mut(i).scale_mut(*scale);
-    }
-    &vectors * DMatrix::from_diagonal(&inverse) * vectors.transpose()
+        .map(|x| if x > least { 1.0 / x.sqrt() } else { 0.0 });
+    let scaled = DMatrix::from_fn(scale.len(), scale.len(), |i, j| {
+        eigen.eigenvectors[(j, i)] * roots[i] * scale[j]
+    });
+    scaled.tr_mul(&scaled)
 }
 
 /// A root of a covariance: its product with its transpose is the covariance.
 pub(super) fn root(covariance: DMatrix<f64>) -> DMatrix<f64> {
     let eigen = SymmetricEigen::new(covariance);
-    let roots = eigen.eigenvalues.map(|x| x.max(0.0).sqrt());
-    eigen.eigenvectors * DMatrix::from_diagonal(&roots)
+    let mut root = eigen.eigenvectors;
+    for (i, value) in eigen.eigenvalues.iter().enumerate() {
+        root.column_mut(i).scale_mut(value.max(0.0).sqrt());
+    }
+    root
 }

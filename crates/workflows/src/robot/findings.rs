@@ -95,8 +95,9 @@ pub(super) fn payload(robot: &Robot, prior: &Prior, rigid: &RigidFit) -> Option<
         .map(|(nominal, own)| own - nominal)
         .collect::<Vec<f64>>();
     let free = prior.information.columns(10 * body, 4);
-    let left = free.rows(10 * body, 4) - free.transpose() * covariance * free;
-    let right = free.transpose() * nalgebra::DVector::from_vec(changed);
+    // The covariance is symmetric.
+    let left = free.rows(10 * body, 4) - free.tr_mul(&covariance.tr_mul(&free));
+    let right = free.tr_mul(&nalgebra::DVector::from_vec(changed));
     let covariance = pseudo_inverse(left);
     let mass = (covariance.row(0) * right)[0];
     let deviation = covariance[(0, 0)].max(0.0).sqrt();
