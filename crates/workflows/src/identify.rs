@@ -45,7 +45,8 @@ mod turn;
 mod verdict;
 mod weight;
 
-pub(crate) use condition::record_of;
+pub(crate) use compensation::rms;
+pub(crate) use condition::{check_share, record_of};
 pub(crate) use load::Asked;
 pub use method::Method;
 pub use options::{CostKind, Files, Options, Procedures, Searching};

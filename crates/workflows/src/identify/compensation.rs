@@ -91,7 +91,8 @@ fn friction_rms(series: &Series) -> Option<f64> {
     Some(rms(&friction)).filter(|rms| *rms > 0.0 && rms.is_finite())
 }
 
-pub(super) fn rms(x: &[f64]) -> f64 {
+/// Root mean square.
+pub(crate) fn rms(x: &[f64]) -> f64 {
     (x.iter().map(|x| x * x).sum::<f64>() / x.len().max(1) as f64).sqrt()
 }
 

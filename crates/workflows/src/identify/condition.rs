@@ -158,7 +158,7 @@ pub(crate) fn record_of(
 }
 
 /// Refuses what is no share of the samples.
-pub(super) fn check_share(part: f64) -> Result<(), Error> {
+pub(crate) fn check_share(part: f64) -> Result<(), Error> {
     if part > 0.0 && part < 1.0 {
         return Ok(());
     }

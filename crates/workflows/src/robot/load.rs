@@ -1,15 +1,15 @@
 //! URDF and logs to the logs of each joint.
 
-use super::assemble;
 use super::coupled;
 use super::filters::Filters;
 use super::options::{Files, Options};
 use crate::error::Error;
+use crate::identify::check_share;
 use crate::source::{Source, mapped, whole};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use stiction_files::Robot;
-use stiction_files::axis::Use;
+use stiction_files::axis::{Use, entry};
 use stiction_identify::Machine;
 use stiction_log::mapping::{JointColumns, Parts, assume_units, joints};
 use stiction_log::{Found, Motion, Role, Selector, Table, republished};
@@ -76,6 +76,9 @@ impl Loaded {
 
 /// Reads what an identification of a robot starts from.
 pub(super) fn load(files: &Files, options: &Options) -> Result<Loaded, Error> {
+    if let Some(part) = options.split {
+        check_share(part)?;
+    }
     let file = match &files.robot {
         Some(path) => Robot::read(path)?,
         None => Robot::default(),
@@ -181,14 +184,10 @@ pub(super) fn load(files: &Files, options: &Options) -> Result<Loaded, Error> {
         let joint_of = &robot.joints()[*joint];
         let stated = file.joint(&joint_of.name).and_then(|own| own.at);
         let limit = joint_of.limit;
-        let low = limit.lower.unwrap_or(f64::NEG_INFINITY);
-        let high = limit.upper.unwrap_or(f64::INFINITY);
-        let middle = if low <= 0.0 && 0.0 <= high {
-            0.0
-        } else {
-            low.max(-high.abs())
-        };
-        at[*joint] = stated.map_or(middle, |(at, _)| at);
+        let within = 0.0_f64
+            .max(limit.lower.unwrap_or(f64::NEG_INFINITY))
+            .min(limit.upper.unwrap_or(f64::INFINITY));
+        at[*joint] = stated.map_or(within, |(at, _)| at);
         if stated.is_none() {
             notices.push(OfRobot::NotLogged {
                 joint: joint_of.name.clone(),
@@ -275,10 +274,11 @@ fn check_units(robot: &rigid::Robot, joints: &[JointLogs]) -> Result<(), Error> 
         }
         let joint = &robot.joints()[own.joint].name;
         let channel = log.mapping.force.as_ref();
-        let column = channel.map_or_else(String::new, |c| assemble::selector(&c.column));
+        let column = channel.map_or_else(String::new, entry);
         let (unit, quoted) = (&log.force_unit, stiction_files::robot::model::quoted(joint));
         lines.push(format!(
-            "[joint.{quoted}]\ntorque = {{ column = {column}, unit = \"{unit}\", scale = \"GAIN {torque}/{unit}\" }}"
+            "[joint.{quoted}]\ntorque = {}, scale = \"GAIN {torque}/{unit}\" }}",
+            column.trim_end_matches(" }")
         ));
         units.push(format!("{joint} ({unit})"));
     }
