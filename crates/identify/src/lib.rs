@@ -128,6 +128,7 @@ pub use output_error::run::{Hold, Recording};
 pub use output_error::signals::Signals;
 pub use output_error::unseen::{Unseen, simulate_unseen};
 pub use output_error::{Simulation, output_error};
+pub use parameter::NORMAL_Q95;
 pub use parameter::covariance::Covariance;
 pub use parameter::{IntervalKind, Parameter};
 pub use rigid::{

@@ -6,7 +6,8 @@ mod quantile;
 
 use crate::scatter::{HalfWidths, Variances};
 use physical::Physical;
-pub(crate) use quantile::{NORMAL_Q95, quantile};
+pub use quantile::NORMAL_Q95;
+pub(crate) use quantile::quantile;
 use stiction_number::{LARGEST_PERCENT, Percent};
 use stiction_parameters::{Dimension, Name, Quantity};
 use stiction_policy::interval;

@@ -23,6 +23,7 @@ use crate::names::{chosen_by, is_of_the_counts, law_of, without_offset};
 use crate::next;
 use crate::trust::{compensation, constants, why_not};
 use std::path::Path;
+use stiction_files::Warning;
 use stiction_files::compare_file::CompareFile;
 use stiction_files::result::{Action, Input, ResultFile};
 use stiction_number::Percent;
@@ -125,12 +126,7 @@ fn sections(outcome: &Outcome, folder: &Path) -> Document {
     if !result.warnings.is_empty() {
         document = document.heading(2, "Warnings");
         for warning in &result.warnings {
-            document = document.block(Callout {
-                severity: Severity::Warning,
-                code: warning.code.to_string(),
-                text: Text::of_message(&warning.message),
-                link: String::new(),
-            });
+            document = document.block(callout(warning));
         }
     }
     if !result.laws.is_empty() {
@@ -218,6 +214,16 @@ fn how_sure(document: Document, outcome: &Outcome) -> Document {
     document
         .block(Block::Columns(side_by_side))
         .block(figures::correlation(outcome))
+}
+
+/// A warning as a page shows it.
+fn callout(warning: &Warning) -> Callout {
+    Callout {
+        severity: Severity::Warning,
+        code: warning.code.to_string(),
+        text: Text::of_message(&warning.message),
+        link: String::new(),
+    }
 }
 
 /// What has to be known of a log before its results.

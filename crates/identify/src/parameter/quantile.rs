@@ -1,7 +1,7 @@
 //! Quantiles of normal errors with a bias.
 
 /// Two-sided 95 % quantile of the normal distribution.
-pub(crate) const NORMAL_Q95: f64 = 1.959_963_984_540_054;
+pub const NORMAL_Q95: f64 = 1.959_963_984_540_054;
 
 /// Half-width of a 95 % interval about an estimate with this bias and standard deviation, in
 /// deviations: the 95 % quantile of |N(bias/std, 1)|, which is 1.96 without bias. An estimate that

@@ -2,16 +2,16 @@
 
 use nalgebra::{DMatrix, DVector, Matrix4};
 use std::array::from_fn;
-use stiction_rigid::Robot;
+use stiction_rigid::{Robot, consistency};
 
 /// Standard deviation of what a URDF has, as a distance of mass distributions: about the part by which a mass or an extent is
 /// off. Source: chosen on the UR10 and the Panda, flat from .3 to 2.
 const DEVIATION: f64 = 0.5;
-/// Part of the mass of a robot that a body has at least, where its URDF has less: such a mass is none that anybody measured.
+/// Least mass of a body, as a part of the robot's, where its URDF has less: a placeholder that nobody measured. Source: choice.
 const LEAST_MASS: f64 = 0.01;
-/// Extent of a body at least, as a part of the length of its link.
+/// Least extent of a body, as a part of the length of its link. Source: choice.
 const LEAST_EXTENT: f64 = 0.1;
-/// Length of a link at least, as a part of the mean of those that have one.
+/// Least length of a link, as a part of the mean of those that have one. Source: choice.
 const LEAST_LENGTH: f64 = 0.2;
 
 /// Inertial parameters with the inverse of their covariance.
@@ -74,28 +74,10 @@ fn lengths(robot: &Robot) -> Vec<f64> {
     lengths.iter().map(|x| x.max(LEAST_LENGTH * mean)).collect()
 }
 
-/// The pseudo-inertia of ten parameters (Wensing, Kim and Slotine 2018, doi 10.1109/LRA.2017.2729659, equation 5).
+/// The pseudo-inertia of ten parameters.
 fn pseudo_inertia(p: &[f64; 10]) -> Matrix4<f64> {
-    let [m, x, y, z, xx, xy, yy, xz, yz, zz] = *p;
-    let half = 0.5 * (xx + yy + zz);
-    Matrix4::new(
-        half - xx,
-        -xy,
-        -xz,
-        x,
-        -xy,
-        half - yy,
-        -yz,
-        y,
-        -xz,
-        -yz,
-        half - zz,
-        z,
-        x,
-        y,
-        z,
-        m,
-    )
+    let rows = consistency::pseudo_inertia(p);
+    Matrix4::from_fn(|i, j| rows[i][j])
 }
 
 /// The metric at a pseudo-inertia by the ten parameters: half the trace of the product of relative changes. Where the inertia is

@@ -1,5 +1,6 @@
 //! The report of a planned motion.
 
+use super::callout;
 use crate::text::plan::start;
 use stiction_files::plan::{ComparedEntry, PlanFile};
 use stiction_files::symbols;
@@ -7,8 +8,7 @@ use stiction_log::Motion;
 use stiction_number::{Percent, four_digits as short, unit};
 use stiction_parameters::Name;
 use stiction_report::{
-    Align, Axis, Block, Callout, Document, Figure, KeyFigure, Layer, Panel, Severity, Table, Text,
-    number,
+    Align, Axis, Block, Callout, Document, Figure, KeyFigure, Layer, Panel, Table, number,
 };
 use stiction_workflows::plan::Planned;
 
@@ -79,12 +79,7 @@ pub fn plan(planned: &Planned) -> Document {
 
 /// What is not planned for, each by its name.
 fn not_planned(file: &PlanFile) -> Vec<Callout> {
-    let each = file.warning.iter().map(|warning| Callout {
-        severity: Severity::Warning,
-        code: warning.code.to_string(),
-        text: Text::of_message(&warning.message),
-        link: String::new(),
-    });
+    let each = file.warning.iter().map(|warning| callout(warning));
     each.collect()
 }
 

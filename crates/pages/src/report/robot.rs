@@ -1,5 +1,6 @@
 //! The report of a robot: the torque of each joint and what it is made of, then joint by joint.
 
+use super::callout;
 use super::{figures, tables};
 use crate::robot::{Joints, joints, logs, next, part, rigid_body, rounded};
 use std::path::Path;
@@ -43,12 +44,7 @@ pub fn robot(outcome: &RobotOutcome, folder: &Path) -> Document {
         document = document.heading(2, "Warnings");
     }
     for warning in &result.warnings {
-        document = document.block(Callout {
-            severity: Severity::Warning,
-            code: warning.code.to_string(),
-            text: Text::of_message(&warning.message),
-            link: String::new(),
-        });
+        document = document.block(callout(warning));
     }
     document = document
         .heading(2, "Rigid body")

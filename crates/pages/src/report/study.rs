@@ -9,6 +9,7 @@ pub(crate) mod rates;
 pub(crate) mod rows;
 pub(crate) mod sweep;
 
+use super::callout;
 use axis::{axis, mass_unit, motion, parameters};
 use rows::{COLORS, believed, drawn, is_worse, judged, left_out, less, tabled};
 use stiction_files::study::result::{MetricEntry, ResultRow, StudyFile};
@@ -49,12 +50,7 @@ pub fn study(outcome: &StudyOutcome) -> Document {
         .fold(document, |d, block| d.block(block));
     document = document.block(verdict(file));
     for warning in &file.warnings {
-        document = document.block(Callout {
-            severity: Severity::Warning,
-            code: warning.code.to_string(),
-            text: Text::of_message(&warning.message),
-            link: String::new(),
-        });
+        document = document.block(callout(warning));
     }
     let rows = tabled(&file.results);
     let cells: Vec<&[ResultRow]> = rows

@@ -5,15 +5,16 @@ use super::load::Loaded;
 use super::outcome::JointOutcome;
 use super::verdict::JointFacts;
 use crate::error::Error;
-use crate::identify::Outcome;
+use crate::identify::{Outcome, rms};
 use crate::source::Source;
 use stiction_files::Warning;
+use stiction_files::axis::entry;
 use stiction_files::result::{Action, ParameterEntry};
 use stiction_files::robot::result::{
     BaseEntry, BodyEntry, Estimated, FileEntry, JointColumn, JointEntry, JointFit, RobotFile,
     RobotInput, RobotTrust, SCHEMA,
 };
-use stiction_identify::{RigidFit, Status};
+use stiction_identify::{NORMAL_Q95, RigidFit, Status};
 use stiction_log::Motion;
 use stiction_number::short;
 use stiction_parameters::Quantity;
@@ -21,8 +22,6 @@ use stiction_rigid::base::{Base, Parameter, Scope};
 use stiction_rigid::project;
 use stiction_say::{Notice, OfRobot};
 
-/// Half width of a 95 % interval over the standard deviation.
-const NORMAL_Q95: f64 = 1.96;
 /// Weight of the URDF where the log says nothing of an inertia, beside which one sample counts as 1.
 const URDF_WEIGHT: f64 = 1e-3;
 
@@ -142,32 +141,14 @@ fn columns(source: &Source) -> Vec<JointColumn> {
             .role
             .filter(|role| *role != stiction_log::Role::Time)?;
         let channel = source.log.mapping.channel(role)?;
-        let mut line = format!("{role} = {{ column = {}", selector(&channel.column));
-        if let Some(unit) = &channel.unit {
-            line.push_str(&format!(", unit = \"{unit}\""));
-        }
-        if let Some(scale) = &channel.scale {
-            line.push_str(&format!(", scale = \"{scale}\""));
-        }
-        if channel.invert {
-            line.push_str(", invert = true");
-        }
         Some(JointColumn {
             role: role.to_string(),
             column: column.column.clone(),
             unit: column.unit.clone(),
-            line: format!("{line} }}"),
+            line: format!("{role} = {}", entry(channel)),
         })
     })
     .collect()
-}
-
-/// A column as a value of TOML.
-pub(super) fn selector(column: &stiction_log::Selector) -> String {
-    match column {
-        stiction_log::Selector::Name(name) => stiction_files::robot::model::quoted(name),
-        stiction_log::Selector::Index(number) => number.to_string(),
-    }
 }
 
 /// What a verdict depends on.
@@ -195,18 +176,10 @@ fn facts(joint: &JointOutcome) -> JointFacts {
 /// Root mean square of the measured torque about its mean, N m or N.
 fn torque(outcome: &Outcome) -> f64 {
     let forces = outcome.sources.iter().filter_map(|s| s.log.force.as_ref());
-    let all: Vec<f64> = forces.flatten().copied().collect();
+    let mut all: Vec<f64> = forces.flatten().copied().collect();
     let mean = all.iter().sum::<f64>() / all.len().max(1) as f64;
-    rms(all.iter().map(|x| x - mean))
-}
-
-fn rms(values: impl Iterator<Item = f64>) -> f64 {
-    let (mut sum, mut count) = (0.0, 0.0_f64);
-    for x in values {
-        sum += x * x;
-        count += 1.0;
-    }
-    (sum / count.max(1.0)).sqrt()
+    all.iter_mut().for_each(|x| *x -= mean);
+    rms(&all)
 }
 
 /// Root mean square of what the model leaves on samples that were not fitted, and which those are. Blocks of the fitted logs were
@@ -214,18 +187,18 @@ fn rms(values: impl Iterator<Item = f64>) -> f64 {
 fn held_out(joint: &JointOutcome, outcome: &Outcome) -> (f64, &'static str) {
     let [_, unseen] = &joint.left;
     if !unseen.is_empty() {
-        return (rms(unseen.iter().copied()), "validation");
+        return (rms(unseen), "validation");
     }
     let series = &outcome.law().series;
     let own = outcome.result.laws.iter().find(|law| law.reported);
     let percent = own.and_then(|law| law.held_out_error_percent);
     match percent {
         Some(percent) => {
-            let friction = percent / 100.0 * rms(series.measured.iter().copied());
-            (friction.hypot(joint.rigid_deviation), "held-out")
+            let friction = percent / 100.0 * rms(&series.measured);
+            (libm::hypot(friction, joint.rigid_deviation), "held-out")
         }
         None => (
-            outcome.law().fit.rmse.hypot(joint.rigid_deviation),
+            libm::hypot(outcome.law().fit.rmse, joint.rigid_deviation),
             "fitted",
         ),
     }
@@ -264,7 +237,7 @@ fn fit(joint: &JointOutcome, facts: &JointFacts) -> Option<JointFit> {
         }),
         simulators: line.map(|line| [line.coulomb, line.viscous]),
         torque_rms: torque(outcome),
-        fit_rms: rms(joint.left[0].iter().copied()),
+        fit_rms: rms(&joint.left[0]),
         held_out_rms,
         judged_on: judged_on.into(),
         rigid_deviation: joint.rigid_deviation,

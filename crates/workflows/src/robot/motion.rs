@@ -91,7 +91,8 @@ fn moves(log: &Log) -> bool {
     log.force.is_some() && !log.finds(|found| matches!(found, Found::NoMotion { .. }))
 }
 
-fn refused(joints: &[JointLogs], part: Part, source: engine::Error) -> Error {
+/// An error of the engine about these logs.
+pub(super) fn refused(joints: &[JointLogs], part: Part, source: engine::Error) -> Error {
     let logs = part.of(&joints[0]).iter();
     let names: Vec<String> = logs.map(|log| log.path.display().to_string()).collect();
     Error::identify(names.join(", "), source)
@@ -218,7 +219,7 @@ pub(super) fn give_force(
 }
 
 /// A value between samples, those at the ends beyond them.
-pub(super) fn read(values: &[f64], at: f64) -> f64 {
+fn read(values: &[f64], at: f64) -> f64 {
     let last = values.len().saturating_sub(1);
     let before = (at.max(0.0) as usize).min(last);
     let part = (at - before as f64).clamp(0.0, 1.0);

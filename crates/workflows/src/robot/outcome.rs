@@ -1,12 +1,12 @@
 //! Everything that came out of an identification of a robot, in memory.
 
 use super::load::{JointLogs, Urdf};
-use super::motion::read;
 use crate::error::Error;
 use crate::identify::Outcome;
 use crate::source::Source;
 use stiction_files::robot::result::RobotFile;
 use stiction_identify::{RigidFit, Series};
+use stiction_signal::interpolate;
 
 /// Everything that came out, in memory.
 #[derive(Debug)]
@@ -70,22 +70,17 @@ impl JointOutcome {
 
 /// Torque of the rigid body at the samples of a series.
 fn rigid_at(series: &Series, logs: &[Source]) -> Vec<f64> {
-    let samples = series.log.iter().zip(&series.time);
-    samples
-        .map(|(log, t)| {
-            let log = logs.get(*log).map(|source| &source.log);
-            let external = log.and_then(|log| Some((log, log.external.as_ref()?)));
-            external.map_or(0.0, |(log, external)| {
-                let after = log.time.partition_point(|own| own < t);
-                let before = after.saturating_sub(1);
-                let width = log.time.get(after).unwrap_or(t) - log.time[before];
-                let part = if width > 0.0 {
-                    (t - log.time[before]) / width
-                } else {
-                    0.0
-                };
-                -read(external, before as f64 + part)
-            })
-        })
-        .collect()
+    let mut out = vec![0.0; series.time.len()];
+    for (number, source) in logs.iter().enumerate() {
+        let rows: Vec<usize> = (0..out.len())
+            .filter(|row| series.log[*row] == number)
+            .collect();
+        let at: Vec<f64> = rows.iter().map(|row| series.time[*row]).collect();
+        let external = source.log.external.as_deref().unwrap_or_default();
+        let read = interpolate(&source.log.time, external, &at).unwrap_or_default();
+        for (row, external) in rows.into_iter().zip(read) {
+            out[row] = -external;
+        }
+    }
+    out
 }

@@ -4,7 +4,7 @@ use super::assemble::{self, Parts};
 use super::filters::Filters;
 use super::findings;
 use super::load::{Loaded, load};
-use super::motion::{Part, Records, give_force};
+use super::motion::{Part, Records, give_force, refused};
 use super::options::{Files, Options};
 use super::outcome::{JointOutcome, RobotOutcome};
 use crate::error::Error;
@@ -61,7 +61,7 @@ pub fn robot(
         true => Some(of_rigid_body(Part::HeldOut, &loaded)?),
         false => None,
     };
-    let mut rigid = fit(&loaded, &records, &[])?;
+    let mut rigid = fit(&loaded, &records, &[], &prior)?;
     let mut joints = Vec::new();
     for round in 0..ROUNDS {
         if round > 0 {
@@ -70,7 +70,7 @@ pub fn robot(
                 parts.map(|(model, other)| model - other).collect()
             };
             let frictions = models(&loaded, &records, &joints, friction);
-            rigid = fit(&loaded, &records, &frictions)?;
+            rigid = fit(&loaded, &records, &frictions, &prior)?;
         }
         give_force(&mut loaded, Part::Fitted, &filters, &mut records, &rigid);
         if let Some(held_out) = &mut held_out {
@@ -162,12 +162,13 @@ fn left(
     .collect()
 }
 
-fn fit(loaded: &Loaded, records: &Records, frictions: &[Vec<f64>]) -> Result<RigidFit, Error> {
+fn fit(
+    loaded: &Loaded,
+    records: &Records,
+    frictions: &[Vec<f64>],
+    prior: &Prior,
+) -> Result<RigidFit, Error> {
     let joints = records.joints(loaded, frictions);
-    let prior = Prior::of(&loaded.robot);
-    engine::rigid_fit(loaded.machine(), &joints, &prior).map_err(|source| {
-        let logs = loaded.joints[0].fitted.iter();
-        let names: Vec<String> = logs.map(|log| log.path.display().to_string()).collect();
-        Error::identify(names.join(", "), source)
-    })
+    let found = engine::rigid_fit(loaded.machine(), &joints, prior);
+    found.map_err(|e| refused(&loaded.joints, Part::Fitted, e))
 }
