@@ -79,8 +79,7 @@ pub fn plan(planned: &Planned) -> Document {
 
 /// What is not planned for, each by its name.
 fn not_planned(file: &PlanFile) -> Vec<Callout> {
-    let each = file.warning.iter().map(|warning| callout(warning));
-    each.collect()
+    file.warning.iter().map(callout).collect()
 }
 
 fn within(percent: f64) -> String {
