@@ -24,6 +24,8 @@ use stiction_signal::{Sos, effective_sample_size};
 
 /// Rounds in which the weights of the joints follow from what the round before left.
 const ROUNDS: usize = 3;
+/// Part of the prior in the rounds that the weights follow from.
+const WEIGHING_PRIOR: f64 = 1e-6;
 /// Part of a record over which its residual is taken to be correlated at most.
 const LONGEST_CORRELATION: usize = 4;
 
@@ -103,7 +105,13 @@ pub fn rigid_fit(
         .collect();
     let mut round = 0;
     loop {
-        let mut normal = Normal::new(unknowns, prior);
+        // A fit that the prior holds leaves smooth residuals, by which the log counts less and the prior more.
+        let part = if round + 1 < ROUNDS {
+            WEIGHING_PRIOR
+        } else {
+            1.0
+        };
+        let mut normal = Normal::new(unknowns, prior, part);
         for (own, variance) in columns.iter().zip(&variance) {
             normal.add(&own.matrix, &own.places, &own.force, *variance);
         }

@@ -14,17 +14,17 @@ pub(super) struct Normal {
 }
 
 impl Normal {
-    /// Of so many unknowns, the first of which a prior knows.
-    pub fn new(unknowns: usize, prior: &Prior) -> Self {
+    /// Of so many unknowns, the first of which a prior knows, with so much of its information.
+    pub fn new(unknowns: usize, prior: &Prior, part: f64) -> Self {
         let known = prior.parameters.len();
         let mut matrix = DMatrix::zeros(unknowns, unknowns);
         let mut right = DVector::zeros(unknowns);
         matrix
             .view_mut((0, 0), (known, known))
-            .copy_from(&prior.information);
+            .copy_from(&(part * &prior.information));
         right
             .rows_mut(0, known)
-            .copy_from(&(&prior.information * &prior.parameters));
+            .copy_from(&(part * &prior.information * &prior.parameters));
         Self { matrix, right }
     }
 
