@@ -81,7 +81,7 @@ fn range(values: &[f64]) -> Option<(f64, f64)> {
 
 /// A load on the last body that the URDF does not have, where there is one beyond doubt.
 ///
-/// Mass and first moments of the load are free, while all bodies are those of the URDF within their prior. With posterior mean m and
+/// The load may be any body, while all bodies are those of the URDF within their prior. With posterior mean m and
 /// covariance C of the parameters, P the inverse of the covariance of the prior and m0 its mean, and E the columns of the load's
 /// parameters, the load is `(E' (P - P C P) E)^-1 E' P (m - m0)`.
 pub(super) fn payload(robot: &Robot, prior: &Prior, rigid: &RigidFit) -> Option<OfRobot> {
@@ -94,9 +94,9 @@ pub(super) fn payload(robot: &Robot, prior: &Prior, rigid: &RigidFit) -> Option<
         .zip(&rigid.parameters)
         .map(|(nominal, own)| own - nominal)
         .collect::<Vec<f64>>();
-    let free = prior.information.columns(10 * body, 4);
+    let free = prior.information.columns(10 * body, 10);
     // The covariance is symmetric.
-    let left = free.rows(10 * body, 4) - free.tr_mul(&covariance.tr_mul(&free));
+    let left = free.rows(10 * body, 10) - free.tr_mul(&covariance.tr_mul(&free));
     let right = free.tr_mul(&nalgebra::DVector::from_vec(changed));
     let covariance = pseudo_inverse(left);
     let mass = (covariance.row(0) * right)[0];
