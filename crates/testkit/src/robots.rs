@@ -234,6 +234,10 @@ impl Arm {
         let follows = 1.0 - (-h / self.lag.max(f64::MIN_POSITIVE)).exp();
         for k in 0..(seconds / PERIOD) as usize {
             let t = k as f64 * PERIOD;
+            let is_logged = k % (1000 / self.rate) == 0;
+            if is_logged {
+                out.time.push(t);
+            }
             let read: Vec<f64> = q
                 .iter()
                 .zip(&self.encoder)
@@ -252,17 +256,15 @@ impl Arm {
                 })
                 .collect();
             let torque = torque.get_or_insert_with(|| asked.clone());
-            if k % (1000 / self.rate) == 0 {
-                out.time.push(t);
-                for i in 0..n {
-                    out.position[i].push(read[i]);
-                    out.torque[i].push(torque[i] + self.noise[i] * random.normal());
-                    out.commanded[i].push(asked[i]);
-                }
-            }
-            for _ in 0..FINE {
+            for step in 0..FINE {
                 for i in 0..n {
                     torque[i] += follows * (asked[i] - torque[i]);
+                    // The torque of the first step makes the second difference of the positions about the one that was read.
+                    if is_logged && step == 0 {
+                        out.position[i].push(read[i]);
+                        out.torque[i].push(torque[i] + self.noise[i] * random.normal());
+                        out.commanded[i].push(asked[i]);
+                    }
                     sum[i] = torque[i] - self.friction[i].step(v[i], link[i], &mut eta[i], h);
                 }
                 let motion = [&q[..], &v, &sum];
