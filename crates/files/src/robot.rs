@@ -70,7 +70,7 @@ pub struct Tool {
 }
 
 /// Positions of joints from those of their motors.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Coupling {
     /// The joints, in the order of the matrix.
     pub joints: Vec<String>,

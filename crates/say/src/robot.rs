@@ -35,6 +35,8 @@ pub enum OfRobot {
     UnitsAssumed,
     /// Rows that repeat the one before were left out; the rate of what they come from, Hz.
     Republished { repeats: usize, hertz: f64 },
+    /// The motors of joints move several of them.
+    Coupled { joints: Vec<String> },
     /// The URDF is not the one of the identification.
     OtherUrdf { path: String },
     /// The friction of a joint could not be fitted.
@@ -61,6 +63,7 @@ impl OfRobot {
             | Self::OtherUrdf { .. }
             | Self::Payload { .. } => Code::UrdfInertia,
             Self::Republished { .. } => Code::DuplicateTime,
+            Self::Coupled { .. } => Code::ExportTerms,
             Self::NotConverged { .. } => Code::NotConverged,
             Self::TorqueLeft { .. } => Code::PoorFit,
             Self::UnitsAssumed | Self::BeyondLimits { .. } => Code::UnitAssumed,
@@ -99,6 +102,7 @@ impl fmt::Display for OfRobot {
             Self::Republished { repeats, hertz } => write!(f, "{} repeat the row before: the readings come at {} Hz and were published again at a higher rate. The repeats are left out, and the rows are spaced evenly at the rate of the readings", counted(*repeats, "row"), four_digits(*hertz)),
             Self::NotConverged { joint } => write!(f, "joint {joint}: the search for its friction ended early"),
             Self::TorqueLeft { joint, left, most } => write!(f, "joint {joint}: the model leaves {} of the torque on samples that were not fitted; a feedforward needs at most {}. Record a motion that moves all joints at once through their range, both ways and at several speeds", Percent::error(100.0 * left).decimals(0), Percent::error(100.0 * most).decimals(0)),
+            Self::Coupled { joints } => write!(f, "the motors of {} are coupled: speeds and torques here are those of the joints. Turn them by the matrix of [[coupling]] in robot.toml, joints = C motors: the torques of the motors are its transpose times those of the joints", joints.join(", ")),
             Self::OtherUrdf { path } => write!(f, "{path} is not the URDF that the robot was identified with: its SHA-256 is another. Frames and joints have to be the same"),
             Self::NotFitted { joint, why } => write!(f, "joint {joint}: {why}"),
         }

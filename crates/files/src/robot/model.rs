@@ -25,6 +25,15 @@ pub fn text(robot: &RobotFile, urdf: &str) -> String {
             tool.center
         );
     }
+    for coupling in &robot.couplings {
+        let joints: Vec<String> = coupling.joints.iter().map(|own| quoted(own)).collect();
+        let _ = writeln!(
+            out,
+            "\n[[coupling]]\njoints = [{}]\nmatrix = {:?}",
+            joints.join(", "),
+            coupling.matrix
+        );
+    }
     for joint in &robot.joints {
         let _ = writeln!(out, "\n[joint.{}]", quoted(&joint.name));
         for column in &joint.columns {

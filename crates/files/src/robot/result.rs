@@ -28,6 +28,9 @@ pub struct RobotFile {
     /// What the robot carried; not part of the inertias.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tool: Option<super::Tool>,
+    /// Joints whose motors move several of them; friction and inertia are those of the joints.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub couplings: Vec<super::Coupling>,
     /// The logs.
     pub inputs: Vec<RobotInput>,
     /// How motion and torque were filtered.

@@ -7,7 +7,7 @@ use stiction_files::robot::result::{
     BodyEntry, Estimated, FileEntry, FilterEntry, JointColumn, JointEntry, JointFit, RobotFile,
     RobotTrust, SCHEMA,
 };
-use stiction_files::robot::{IdentifiedBody, IdentifiedJoint, Tool};
+use stiction_files::robot::{Coupling, IdentifiedBody, IdentifiedJoint, Tool};
 
 /// Numbers whose text is long, small, or without a point.
 const AWKWARD: [f64; 6] = [0.1 + 0.2, 5e-324, 1e15, -1e-7, 1.0 / 3.0, -0.0];
@@ -73,6 +73,10 @@ fn robot() -> RobotFile {
             mass: AWKWARD[0],
             center: [AWKWARD[4], AWKWARD[3], 0.0],
         }),
+        couplings: vec![Coupling {
+            joints: vec!["wrist".into(), "elbow.\"\u{1}\u{e4}".into()],
+            matrix: vec![vec![1.0, AWKWARD[3]], vec![AWKWARD[4], 1.0]],
+        }],
         inputs: vec![],
         conditioning: FilterEntry {
             source_cutoff_hz: 10.0,
@@ -142,6 +146,7 @@ fn what_was_identified_is_read_back() {
     assert_eq!(read.urdf.as_deref(), Some("../arm.urdf".as_ref()));
     assert_eq!(bits(&read.gravity.unwrap()), bits(&robot().gravity));
     assert_eq!(read.tool, robot().tool);
+    assert_eq!(read.couplings, robot().couplings);
     assert!(read.joint("a").is_some());
 }
 

@@ -97,6 +97,11 @@ pub fn export_robot_file(
         let path = path.display().to_string();
         warnings.push(Notice::Robot(OfRobot::OtherUrdf { path }).into());
     }
+    if !options.target.is_simulated() {
+        let coupled = robot.couplings.iter().map(|own| own.joints.clone());
+        let coupled = coupled.map(|joints| Notice::Robot(OfRobot::Coupled { joints }).into());
+        warnings.extend(coupled);
+    }
     let title = robot.name.clone().unwrap_or_else(|| "robot".into());
     let identifier = match &options.name {
         Some(name) => name.clone(),
@@ -353,6 +358,22 @@ mod tests {
             panic!("{:?}", exported.warnings)
         };
         assert!(warning.message.contains("other.urdf is not the URDF"));
+    }
+
+    #[test]
+    fn coupled_motors_are_told_where_torques_leave() {
+        let coupling =
+            "[[coupling]]\njoints = [\"shoulder\", \"elbow\"]\nmatrix = [[1, 0], [1, 1]]\n";
+        let (_dir, file) = folder(&(whole() + coupling));
+        for (target, due) in [(Target::C, 1), (Target::Ros2, 1), (Target::Urdf, 0)] {
+            let exported =
+                export_robot_file(&file, None, &ExportOptions::new(target, 1e-3)).unwrap();
+            let told = exported
+                .warnings
+                .iter()
+                .filter(|w| w.message.contains("shoulder, elbow are coupled"));
+            assert_eq!(told.count(), due, "{target:?}");
+        }
     }
 
     #[test]

@@ -99,6 +99,7 @@ pub(super) fn result(parts: Parts) -> Result<RobotFile, Error> {
         }),
         gravity: loaded.robot.gravity(),
         tool: loaded.file.tool.clone(),
+        couplings: loaded.file.couplings.clone(),
         inputs: inputs(loaded),
         conditioning: filters.entry,
         trust: RobotTrust {
