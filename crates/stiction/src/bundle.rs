@@ -13,7 +13,7 @@ use stiction_workflows::drift::DriftOutcome;
 use stiction_workflows::identify::Outcome;
 use stiction_workflows::plan::{Carrier, Planned};
 use stiction_workflows::reproduce::Reproduction;
-use stiction_workflows::robot::{RobotOutcome, folder_of};
+use stiction_workflows::robot::RobotOutcome;
 use stiction_workflows::study::StudyOutcome;
 
 /// The files of an identification: `result.json`, `model.toml`, `report.html`, `fit.csv`, and where a study takes the law
@@ -53,7 +53,7 @@ fn model_of(outcome: &Outcome) -> String {
 pub fn robot(outcome: &RobotOutcome, folder: &Path) -> Bundle {
     let mut bundle = Bundle::default();
     for joint in &outcome.joints {
-        let file = |name: &str| format!("joints/{}/{name}", folder_of(&joint.name));
+        let file = |name: &str| format!("{}/{name}", joint.folder);
         match &joint.outcome {
             Ok(outcome) => {
                 bundle.add(file("model.toml"), model_of(outcome));

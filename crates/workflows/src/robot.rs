@@ -11,7 +11,6 @@ mod outcome;
 mod run;
 mod verdict;
 
-pub use assemble::folder_of;
 pub use load::Urdf;
 pub(crate) use load::read_urdf;
 pub use options::{Files, Options};

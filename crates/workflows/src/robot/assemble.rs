@@ -224,7 +224,7 @@ fn fit(joint: &JointOutcome, facts: &JointFacts) -> Option<JointFit> {
     let curve = result.friction_curve.as_ref();
     let line = curve.and_then(|curve| curve.line.as_ref());
     Some(JointFit {
-        folder: format!("joints/{}", folder_of(&joint.name)),
+        folder: joint.folder.clone(),
         law: result.law.clone(),
         asymmetric: result.asymmetric,
         coulomb: of(Quantity::Coulomb),
@@ -263,22 +263,6 @@ fn mean(each: &[&ParameterEntry]) -> Option<Estimated> {
         half_width: halves.map(|halves| halves.iter().sum::<f64>() / count),
         identifiable: each.iter().all(|p| p.identifiable),
     })
-}
-
-/// The folder of a joint: its name with what no file name may have replaced.
-pub fn folder_of(name: &str) -> String {
-    let safe = |c: char| {
-        if c.is_alphanumeric() || "-_.".contains(c) {
-            c
-        } else {
-            '_'
-        }
-    };
-    let safe: String = name.chars().map(safe).collect();
-    match safe.trim_start_matches('.') {
-        "" => "joint".into(),
-        name => name.into(),
-    }
 }
 
 /// The combinations of inertial parameters that motion of the logged joints can determine.

@@ -26,6 +26,8 @@ pub struct RobotOutcome {
 pub struct JointOutcome {
     /// Its name in the URDF.
     pub name: String,
+    /// Folder of its files, from that of the robot.
+    pub folder: String,
     /// Its friction, identified as that of one axis; the force of the rigid body acts from outside.
     pub outcome: Result<Outcome, Error>,
     /// Torque of the rigid body at the samples of the fit, N m or N: what is measured and modelled there is less by this much.
@@ -41,7 +43,12 @@ pub struct JointOutcome {
 
 impl JointOutcome {
     /// What came out of a joint with these logs.
-    pub(super) fn new(name: String, outcome: Result<Outcome, Error>, logs: &JointLogs) -> Self {
+    pub(super) fn new(
+        name: String,
+        folder: String,
+        outcome: Result<Outcome, Error>,
+        logs: &JointLogs,
+    ) -> Self {
         let (rigid, rigid_held_out) = match &outcome {
             Ok(outcome) => (
                 rigid_at(&outcome.law().series, &logs.fitted),
@@ -59,6 +66,7 @@ impl JointOutcome {
         let samples: usize = logs.fitted.iter().map(|log| log.log.time.len()).sum();
         Self {
             name,
+            folder,
             outcome,
             rigid,
             rigid_held_out,
@@ -66,6 +74,30 @@ impl JointOutcome {
             rigid_deviation: (square / samples.max(1) as f64).sqrt(),
         }
     }
+}
+
+/// Folders of joints: their names with what no file name may have replaced, no two of them the same on any file system.
+pub(super) fn folders<'a>(names: impl Iterator<Item = &'a str>) -> Vec<String> {
+    let allowed = |c: char| match c.is_alphanumeric() || "-_.".contains(c) {
+        true => c,
+        false => '_',
+    };
+    let mut out: Vec<String> = Vec::new();
+    for name in names {
+        let own: String = name.chars().map(allowed).collect();
+        let own = match own.trim_start_matches('.') {
+            "" => "joint",
+            own => own,
+        };
+        let numbered = (2..).map(|n| format!("joints/{own}-{n}"));
+        let mut free = std::iter::once(format!("joints/{own}")).chain(numbered);
+        let is_free = |folder: &String| {
+            let same = |other: &String| other.to_lowercase() == folder.to_lowercase();
+            !out.iter().any(same)
+        };
+        out.extend(free.find(is_free));
+    }
+    out
 }
 
 /// Torque of the rigid body at the samples of a series.
@@ -83,4 +115,19 @@ fn rigid_at(series: &Series, logs: &[Source]) -> Vec<f64> {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::folders;
+
+    #[test]
+    fn no_two_joints_share_a_folder() {
+        let names = ["a b", "a_b", "A_B", "..", "joint", "../x", "schulter"];
+        let due = [
+            "a_b", "a_b-2", "A_B-3", "joint", "joint-2", "_x", "schulter",
+        ];
+        let due: Vec<String> = due.iter().map(|name| format!("joints/{name}")).collect();
+        assert_eq!(folders(names.into_iter()), due);
+    }
 }

@@ -6,7 +6,7 @@ use super::findings;
 use super::load::{Loaded, load};
 use super::motion::{Part, Records, give_force, refused};
 use super::options::{Files, Options};
-use super::outcome::{JointOutcome, RobotOutcome};
+use super::outcome::{self, JointOutcome, RobotOutcome};
 use crate::error::Error;
 use crate::identify::{self, Asked, Found, identify_asked};
 use std::time::Instant;
@@ -62,6 +62,9 @@ pub fn robot(
         false => None,
     };
     let mut rigid = fit(&loaded, &records, &[], &prior)?;
+    let names = loaded.joints.iter().filter(|joint| joint.fit);
+    let names = names.map(|joint| loaded.robot.joints()[joint.joint].name.as_str());
+    let folders = outcome::folders(names);
     let mut joints = Vec::new();
     for round in 0..ROUNDS {
         if round > 0 {
@@ -77,7 +80,8 @@ pub fn robot(
             give_force(&mut loaded, Part::HeldOut, &filters, held_out, &rigid);
         }
         joints.clear();
-        for joint in loaded.joints.iter().filter(|joint| joint.fit) {
+        let each = loaded.joints.iter().filter(|joint| joint.fit);
+        for (joint, folder) in each.zip(&folders) {
             let asked = Asked {
                 options: if round + 1 < ROUNDS { &first } else { &own },
                 axis: &joint.axis,
@@ -86,7 +90,7 @@ pub fn robot(
             let (fitted, held_out) = (joint.fitted.clone(), joint.held_out.clone());
             let outcome = identify_asked(asked, fitted, held_out, observer);
             let name = loaded.robot.joints()[joint.joint].name.clone();
-            joints.push(JointOutcome::new(name, outcome, joint));
+            joints.push(JointOutcome::new(name, folder.clone(), outcome, joint));
         }
     }
     let fitted = left(&loaded, &records, &rigid, &joints);
