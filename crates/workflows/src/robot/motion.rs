@@ -114,7 +114,7 @@ fn together(sources: &[&Source]) -> Result<Vec<Samples>, Error> {
     let in_all = |stamp: &i64| all.iter().all(|own| own.binary_search(stamp).is_ok());
     let common: Vec<i64> = all[0].iter().copied().filter(in_all).collect();
     let each = sources.iter().zip(&all);
-    each.map(|(source, own)| {
+    let own = each.map(|(source, own)| {
         let whole = samples(source)?;
         if own.len() == common.len() {
             return Ok(whole);
@@ -124,8 +124,18 @@ fn together(sources: &[&Source]) -> Result<Vec<Samples>, Error> {
             .filter_map(|stamp| own.binary_search(stamp).ok())
             .collect();
         Ok(picked(&whole, &rows))
-    })
-    .collect()
+    });
+    let mut joints: Vec<Samples> = own.collect::<Result<_, Error>>()?;
+    // The rigid body needs the motion of all joints: what begins anew in one does so in all.
+    let mut breaks: Vec<usize> = joints.iter().flat_map(|own| own.breaks.clone()).collect();
+    breaks.sort_unstable();
+    breaks.dedup();
+    let time = joints[0].time.clone();
+    for own in &mut joints {
+        own.breaks.clone_from(&breaks);
+        own.time.clone_from(&time);
+    }
+    Ok(joints)
 }
 
 /// What the rigid body needs of one joint, rests at the ends included.
