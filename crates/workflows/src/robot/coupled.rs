@@ -53,9 +53,14 @@ pub(super) fn uncouple(
                     let allowed = "a log without missing cells in the columns of coupled joints";
                     return Err(file.refuse(&key, found, allowed).into());
                 }
-                turn(&mut sources, &matrix, |s| s.log.position.as_mut());
-                turn(&mut sources, &matrix, |s| s.log.velocity.as_mut());
-                turn(&mut sources, &inverse.transpose(), |s| s.log.force.as_mut());
+                let is_whole = turn(&mut sources, &matrix, |s| s.log.position.as_mut())
+                    && turn(&mut sources, &matrix, |s| s.log.velocity.as_mut())
+                    && turn(&mut sources, &inverse.transpose(), |s| s.log.force.as_mut());
+                if !is_whole {
+                    let found = "some of its joints have a position, velocity or torque and others have none";
+                    let allowed = "the same columns of all joints of a coupling";
+                    return Err(file.refuse(&key, found, allowed).into());
+                }
                 for (place, source) in places.iter().zip(sources) {
                     part.of_mut(&mut joints[*place])[log] = source;
                 }
@@ -65,17 +70,19 @@ pub(super) fn uncouple(
     Ok(())
 }
 
-/// Replaces a channel that all logs have by a matrix times it.
+/// Replaces a channel that all logs have by a matrix times it; false where some have it and others have not.
 fn turn(
     sources: &mut [Source],
     matrix: &DMatrix<f64>,
     channel: impl Fn(&mut Source) -> Option<&mut Vec<f64>>,
-) {
-    let before: Option<Vec<Vec<f64>>> = sources
+) -> bool {
+    let before: Vec<Vec<f64>> = sources
         .iter_mut()
-        .map(|source| channel(source).cloned())
+        .filter_map(|source| channel(source).cloned())
         .collect();
-    let Some(before) = before else { return };
+    if before.len() < sources.len() {
+        return before.is_empty();
+    }
     for (row, source) in sources.iter_mut().enumerate() {
         let Some(values) = channel(source) else {
             continue;
@@ -88,4 +95,5 @@ fn turn(
                 .sum();
         }
     }
+    true
 }
