@@ -165,13 +165,24 @@ impl Document {
     }
 }
 
-/// An error if the name is taken.
+/// Longest name of a link or a joint, bytes: files and folders are named by it.
+const LONGEST_NAME: usize = 200;
+
+/// An error if the name is taken, or none of a file.
 fn unique(
     taken: &mut HashMap<String, usize>,
     what: &'static str,
     name: &str,
     line: usize,
 ) -> Result<(), Error> {
+    if name.len() > LONGEST_NAME || name.chars().any(char::is_control) {
+        return Err(Error::Number {
+            line,
+            attribute: "name",
+            found: name.escape_debug().take(LONGEST_NAME).collect(),
+            allowed: "a name on one line of at most 200 bytes",
+        });
+    }
     match taken.insert(name.to_string(), line) {
         None => Ok(()),
         Some(first) => Err(Error::Duplicate {
