@@ -178,11 +178,17 @@ pub(super) fn load(files: &Files, options: &Options) -> Result<Loaded, Error> {
     coupled::uncouple(&file, &robot, &mut of_each)?;
     let mut at = vec![0.0; robot.len()];
     for joint in &independent {
-        if of_each.iter().any(|own| own.joint == *joint) {
-            continue;
-        }
         let joint_of = &robot.joints()[*joint];
         let stated = file.joint(&joint_of.name).and_then(|own| own.at);
+        if of_each.iter().any(|own| own.joint == *joint) {
+            if stated.is_some() {
+                let key = format!("joint.{}.at", joint_of.name);
+                let found = "the log has its position";
+                let allowed = "joints that are not logged; leave this out";
+                return Err(file.refuse(&key, found, allowed).into());
+            }
+            continue;
+        }
         let limit = joint_of.limit;
         let within = 0.0_f64
             .max(limit.lower.unwrap_or(f64::NEG_INFINITY))
