@@ -56,6 +56,14 @@ impl Joint {
     }
 }
 
+/// Coulomb friction, N (N m), and viscous friction, N s/m (N m s/rad), nearest to a law from 0 to the top speed of its log.
+pub fn nearest_line(model: &Model) -> [f64; 2] {
+    let Joint {
+        friction, damping, ..
+    } = Joint::of(model);
+    [friction, damping]
+}
+
 /// The speeds over which a law and something simpler are compared, all alike and both directions alike.
 pub(crate) struct Speeds {
     /// From 0 to this, m/s (rad/s).

@@ -66,6 +66,7 @@ pub use check::{Advice, advice};
 pub use error::Error;
 pub use fmu::{Platform, fmu};
 pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier, is_whole};
+pub use joint::nearest_line;
 pub use model::{Model, Parameter, Provenance};
 pub use robot::{Load, Robot, RobotJoint, export_robot, joint_identifiers};
 pub use target::{File, Target, export};

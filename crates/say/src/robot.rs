@@ -29,6 +29,8 @@ pub enum OfRobot {
     BeyondLimits { joint: String, seen: [f64; 2], limits: [f64; 2], unit: &'static str },
     /// The last body is heavier than in the URDF, kg.
     Payload { link: String, mass: f64, deviation: f64 },
+    /// A body is far from that of the URDF, in standard deviations of its prior.
+    FarFromUrdf { link: String, times: f64 },
     /// The torque of all joints passed a low-pass before it was logged, Hz.
     Filtered { hertz: f64 },
     /// No column of a joint has a unit.
@@ -37,6 +39,10 @@ pub enum OfRobot {
     Republished { repeats: usize, hertz: f64 },
     /// The motors of joints move several of them.
     Coupled { joints: Vec<String> },
+    /// A target has nothing for the tool that the robot file names.
+    ToolLeftOut { link: String, mass: f64, target: &'static str },
+    /// A target has nothing for the inertia of rotors.
+    ArmatureLeftOut { target: &'static str },
     /// The URDF is not the one of the identification.
     OtherUrdf { path: String },
     /// The friction of a joint could not be fitted.
@@ -61,9 +67,12 @@ impl OfRobot {
             | Self::NoInertia { .. }
             | Self::NotPhysical { .. }
             | Self::OtherUrdf { .. }
+            | Self::FarFromUrdf { .. }
             | Self::Payload { .. } => Code::UrdfInertia,
             Self::Republished { .. } => Code::DuplicateTime,
-            Self::Coupled { .. } => Code::ExportTerms,
+            Self::Coupled { .. } | Self::ToolLeftOut { .. } | Self::ArmatureLeftOut { .. } => {
+                Code::ExportTerms
+            }
             Self::NotConverged { .. } => Code::NotConverged,
             Self::TorqueLeft { .. } => Code::PoorFit,
             Self::UnitsAssumed | Self::BeyondLimits { .. } => Code::UnitAssumed,
@@ -97,11 +106,14 @@ impl fmt::Display for OfRobot {
             Self::NotPhysical { link, line, principal: [a, b, c] } => write!(f, "link {link} (line {line} of the URDF) has an inertia that no body has: principal moments {}, {} and {} kg m^2. Correct the URDF; the fit starts from the nearest possible inertia", short(*a), short(*b), short(*c)),
             Self::BeyondLimits { joint, seen: [low, high], limits: [least, most], unit } => write!(f, "joint {joint} goes from {} to {} {unit}, and the URDF allows {} to {}: the column may be in degrees, or of another joint. Write under [joint.{joint}] in robot.toml: position = {{ column = \"COLUMN\", unit = \"deg\" }}", short(*low), short(*high), short(*least), short(*most)),
             Self::Payload { link, mass, deviation } => write!(f, "link {link} carries {} +- {} kg more than the URDF has. If that is a tool, write in robot.toml: [tool] link = \"{link}\" mass = \"{} kg\"", short(*mass), short(*deviation), short(*mass)),
+            Self::FarFromUrdf { link, times } => write!(f, "the log asks for an inertia of link {link} that is far from the URDF, {} standard deviations. Check the direction of gravity, sign, zero and unit of the positions, gains and gear ratios of the torques, and the clock", short(*times)),
             Self::Filtered { hertz } => write!(f, "the torque was low-passed at about {} Hz before it was logged. The model passes the same filter; reversals faster than that are not seen. Log the unfiltered torque or current", short(*hertz)),
             Self::UnitsAssumed => f.write_str("the columns of the joints have no units; they are taken in rad, rad/s and N m (m, m/s and N of joints that slide). Name the unit of a column in robot.toml, as in: position = { column = \"q1\", unit = \"deg\" }"),
             Self::Republished { repeats, hertz } => write!(f, "{} repeat the row before: the readings come at {} Hz and were published again at a higher rate. The repeats are left out, and the rows are spaced evenly at the rate of the readings", counted(*repeats, "row"), four_digits(*hertz)),
             Self::NotConverged { joint } => write!(f, "joint {joint}: the search for its friction ended early"),
             Self::TorqueLeft { joint, left, most } => write!(f, "joint {joint}: the model leaves {} of the torque on samples that were not fitted; a feedforward needs at most {}. Record a motion that moves all joints at once through their range, both ways and at several speeds", Percent::error(100.0 * left).decimals(0), Percent::error(100.0 * most).decimals(0)),
+            Self::ToolLeftOut { link, mass, target } => write!(f, "the tool of {} kg on link {link} is not in the files of target {target}: inertias are those of the robot without it. Add it to the URDF as a link of its own", short(*mass)),
+            Self::ArmatureLeftOut { target } => write!(f, "the inertia of the rotors (armature in robot.toml) has no place in the files of target {target}; those of mujoco and isaaclab have it"),
             Self::Coupled { joints } => write!(f, "the motors of {} are coupled: speeds and torques here are those of the joints. Turn them by the matrix of [[coupling]] in robot.toml, joints = C motors: the torques of the motors are its transpose times those of the joints", joints.join(", ")),
             Self::OtherUrdf { path } => write!(f, "{path} is not the URDF that the robot was identified with: its SHA-256 is another. Frames and joints have to be the same"),
             Self::NotFitted { joint, why } => write!(f, "joint {joint}: {why}"),

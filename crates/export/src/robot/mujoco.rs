@@ -62,12 +62,12 @@ fn joints(robot: &Robot, bristles: &[Option<LuGre<f64>>]) -> Result<String, Erro
             actuators.push_str(&actuator(joint, law));
         }
     }
+    let has = !actuators.is_empty();
     let mut fill = Fill::default();
-    fill.set("header", spaced(&comment(robot, "", true)))
+    fill.set("header", spaced(&comment(robot, "", has)))
         .set("name", robot.identifier.clone())
         .set("classes", classes.join("\n"))
         .set("actuators", actuators.trim_end());
-    let has = !actuators.is_empty();
     let kind = if has { "bristles" } else { "joints" };
     fill.set("file", format!("{}_{kind}", robot.identifier))
         .flag("bristles", has);

@@ -97,11 +97,8 @@ pub fn export_robot_file(
         let path = path.display().to_string();
         warnings.push(Notice::Robot(OfRobot::OtherUrdf { path }).into());
     }
-    if !options.target.is_simulated() {
-        let coupled = robot.couplings.iter().map(|own| own.joints.clone());
-        let coupled = coupled.map(|joints| Notice::Robot(OfRobot::Coupled { joints }).into());
-        warnings.extend(coupled);
-    }
+    let lacks = lacks(&robot, found, options.target);
+    warnings.extend(lacks.into_iter().map(|own| Notice::Robot(own).into()));
     let title = robot.name.clone().unwrap_or_else(|| "robot".into());
     let identifier = match &options.name {
         Some(name) => name.clone(),
@@ -149,6 +146,28 @@ pub fn export_robot_file(
         warnings,
         trustworthy: joints.iter().all(|(read, _)| read.model.trustworthy),
     })
+}
+
+/// What is known of a robot and has no place in the files of a target.
+fn lacks(robot: &Robot, found: &IdentifiedRobot, target: Target) -> Vec<OfRobot> {
+    let mut out = Vec::new();
+    if !target.is_simulated() {
+        let coupled = robot.couplings.iter().map(|own| own.joints.clone());
+        out.extend(coupled.map(|joints| OfRobot::Coupled { joints }));
+        return out;
+    }
+    let target_name = target.name();
+    out.extend(robot.tool.as_ref().map(|tool| OfRobot::ToolLeftOut {
+        link: tool.link.clone(),
+        mass: tool.mass,
+        target: target_name,
+    }));
+    if target == Target::Urdf && found.joints.iter().any(|joint| joint.armature > 0.0) {
+        out.push(OfRobot::ArmatureLeftOut {
+            target: target_name,
+        });
+    }
+    out
 }
 
 /// Refuses options that are no options of all joints together.
@@ -202,6 +221,17 @@ fn joints(
         // The inertia beside friction is that of the rotor, which the robot file has.
         read.model.parameter.retain(|p| p.name != "mass");
         let (mut model, mut doubts) = resolve(&read, &options)?;
+        let simulators = match joint.simulators {
+            None if steady => {
+                // The whole law, of which a target of bristles leaves terms out.
+                let whole = ExportOptions {
+                    target: Target::Urdf,
+                    ..options.clone()
+                };
+                Some(stiction_export::nearest_line(&resolve(&read, &whole)?.0))
+            }
+            own => own,
+        };
         let advice = stiction_export::advice(&model, advised).into_iter();
         doubts.extend(advice.map(|a| Warning::new(a.code, a.message)));
         model.notes = doubts.iter().map(|w| w.message.clone()).collect();
@@ -217,7 +247,7 @@ fn joints(
             name: joint.name.clone(),
             model,
             armature: joint.armature,
-            simulators: joint.simulators,
+            simulators,
         };
         Ok((read, joint))
     });
@@ -324,8 +354,9 @@ mod tests {
         ] {
             let options = ExportOptions::new(target, 1e-3);
             let exported = export_robot_file(&file, None, &options).unwrap();
-            // That of the law, which the axis would reach at speed.
-            let other = |w: &&Warning| w.code != Code::ExportLimit;
+            // That of the law, which the axis would reach at speed, and that a URDF has no armature.
+            let known = [Code::ExportLimit, Code::ExportTerms];
+            let other = |w: &&Warning| !known.contains(&w.code);
             assert_eq!(exported.warnings.iter().find(other), None, "{target:?}");
             assert!(exported.trustworthy);
             let found = exported.files.iter().find(|f| f.path == path).unwrap();
@@ -354,17 +385,18 @@ mod tests {
         std::fs::write(&other, format!("{URDF}<!-- -->")).unwrap();
         let options = ExportOptions::new(Target::Urdf, 1e-3);
         let exported = export_robot_file(&file, Some(&other), &options).unwrap();
-        let [warning] = exported.warnings.as_slice() else {
+        let [warning, armature] = exported.warnings.as_slice() else {
             panic!("{:?}", exported.warnings)
         };
         assert!(warning.message.contains("other.urdf is not the URDF"));
+        assert!(armature.message.contains("the inertia of the rotors"));
     }
 
     #[test]
     fn coupled_motors_are_told_where_torques_leave() {
-        let coupling =
-            "[[coupling]]\njoints = [\"shoulder\", \"elbow\"]\nmatrix = [[1, 0], [1, 1]]\n";
-        let (_dir, file) = folder(&(whole() + coupling));
+        let coupling = "[tool]\nlink = \"upper\"\nmass = \"2 kg\"\n".to_string()
+            + "[[coupling]]\njoints = [\"shoulder\", \"elbow\"]\nmatrix = [[1, 0], [1, 1]]\n";
+        let (_dir, file) = folder(&(whole() + &coupling));
         for (target, due) in [(Target::C, 1), (Target::Ros2, 1), (Target::Urdf, 0)] {
             let exported =
                 export_robot_file(&file, None, &ExportOptions::new(target, 1e-3)).unwrap();
@@ -373,6 +405,15 @@ mod tests {
                 .iter()
                 .filter(|w| w.message.contains("shoulder, elbow are coupled"));
             assert_eq!(told.count(), due, "{target:?}");
+            let of_tool = |w: &&Warning| {
+                w.message
+                    .contains("the tool of 2 kg on link upper is not in")
+            };
+            assert_eq!(
+                exported.warnings.iter().filter(of_tool).count(),
+                1 - due,
+                "{target:?}"
+            );
         }
     }
 
