@@ -9,5 +9,6 @@ thresholds! {
     BEYOND_LIMITS: f64 = 0.25, "1", "Part of a joint's range in the URDF by which its positions go beyond before its column is doubted.", "choice: soft limits of controllers and zero offsets are within it, degrees far beyond";
     OTHER_UNITS: f64 = 3.0, "1", "Range of a joint's positions over that in the URDF from which they are refused.", "choice: degrees are 57 times as many";
     PAYLOAD_DEVIATIONS: f64 = 3.0, "1", "Standard deviations of a load that is not in the URDF from which it is reported.", "choice: links within their prior reach 2";
+    MAX_URDF_DISTANCE: f64 = 6.0, "1", "Distance of a body from that of the URDF, in standard deviations of the prior, from which it is reported.", "UR10 with a tool 3.5, Panda 2; a simulated arm with gravity inverted, a zero off by 90 degrees or time twice as fast 15 to 28";
     MIN_PAYLOAD: f64 = 0.02, "1", "The same, as a part of the robot's mass.", "choice: cables and screws are less";
 }

@@ -79,12 +79,37 @@ fn range(values: &[f64]) -> Option<(f64, f64)> {
         .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
 }
 
+/// What the fit says against the URDF: a body far from it, or a load that it lacks.
+pub(super) fn of_urdf(robot: &Robot, prior: &Prior, rigid: &RigidFit) -> Option<OfRobot> {
+    let far = (0..robot.len()).map(|body| (body, distance(prior, rigid, body)));
+    let (body, times) = far.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let link = robot.links()[robot.bodies()[body].carrier].name.clone();
+    let far = (times > robot::MAX_URDF_DISTANCE).then_some(OfRobot::FarFromUrdf { link, times });
+    // A load moves the last body far from its URDF, and no other.
+    match last_body(robot) == Some(body) {
+        true => payload(robot, prior, rigid).or(far),
+        false => far.or_else(|| payload(robot, prior, rigid)),
+    }
+}
+
+/// How far a body is from that of the URDF, in standard deviations of the prior.
+fn distance(prior: &Prior, rigid: &RigidFit, body: usize) -> f64 {
+    let own = 10 * body..10 * body + 10;
+    let change = |i: usize| rigid.parameters[i] - prior.parameters[i];
+    let row = |i: usize| -> f64 {
+        let each = own.clone();
+        each.map(|j| change(i) * prior.information[(i, j)] * change(j))
+            .sum()
+    };
+    own.clone().map(row).sum::<f64>().max(0.0).sqrt()
+}
+
 /// A load on the last body that the URDF does not have, where there is one beyond doubt.
 ///
 /// The load may be any body, while all bodies are those of the URDF within their prior. With posterior mean m and
 /// covariance C of the parameters, P the inverse of the covariance of the prior and m0 its mean, and E the columns of the load's
 /// parameters, the load is `(E' (P - P C P) E)^-1 E' P (m - m0)`.
-pub(super) fn payload(robot: &Robot, prior: &Prior, rigid: &RigidFit) -> Option<OfRobot> {
+fn payload(robot: &Robot, prior: &Prior, rigid: &RigidFit) -> Option<OfRobot> {
     let body = last_body(robot)?;
     let size = rigid.parameters.len();
     let covariance = rigid.covariance.view((0, 0), (size, size));

@@ -103,7 +103,7 @@ pub fn robot(
         }
     }
     let mut notices = std::mem::take(&mut loaded.notices);
-    notices.extend(findings::payload(&loaded.robot, &prior, &rigid));
+    notices.extend(findings::of_urdf(&loaded.robot, &prior, &rigid));
     notices.extend(cutoff.map(|hertz| OfRobot::Filtered { hertz }));
     let result = assemble::result(Parts {
         loaded: &loaded,
