@@ -166,10 +166,7 @@ fn facts(joint: &JointOutcome) -> JointFacts {
             joint: name,
             refused: None,
             left: held_out(joint, outcome).0 / torque(outcome),
-            converged: matches!(
-                outcome.law().status,
-                Status::Converged | Status::Interrupted
-            ),
+            converged: outcome.law().status == Status::Converged,
         },
     }
 }
