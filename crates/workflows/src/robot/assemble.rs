@@ -233,7 +233,10 @@ fn fit(joint: &JointOutcome, facts: &JointFacts) -> Option<JointFit> {
             half_width: None,
             identifiable: false,
         }),
-        simulators: line.map(|line| [line.coulomb, line.viscous]),
+        // A line that falls with the speed is none of a simulator, which takes the one nearest to the law.
+        simulators: line
+            .map(|line| [line.coulomb, line.viscous])
+            .filter(|line| line.iter().all(|own| own.value >= 0.0)),
         torque_rms: torque(outcome),
         fit_rms: rms(&joint.left[0]),
         held_out_rms,
