@@ -250,7 +250,9 @@ impl Axis {
     /// A text that speaks of `axis.toml` and its `[columns]`, with the names that they have.
     pub fn named(&self, text: &str) -> String {
         let columns = format!("[{}]", self.places.columns());
+        // All joints of a robot have one clock, which stands under [columns].
         let text = text.replace("[columns]", &columns);
+        let text = text.replace(&format!("{columns}: time = "), "[columns]: time = ");
         match self.file.file_name() {
             Some(name) => text.replace("axis.toml", &name.to_string_lossy()),
             None => text,

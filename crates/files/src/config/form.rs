@@ -230,6 +230,13 @@ pub(super) fn of_tables(entries: &DeTable<'_>) -> Option<Form> {
     }
 }
 
+/// Whether such a file says no more than a robot file and an axis file both may.
+pub(super) fn may_be_both(entries: &DeTable<'_>, wanted: Form) -> bool {
+    let both = ["columns", "log", "text", "rate"];
+    let mut keys = entries.keys();
+    wanted == Form::Robot && keys.all(|key| both.contains(&&**key.get_ref()))
+}
+
 /// What a text is that is no TOML, if its beginning tells it.
 pub(super) fn of_text(text: &str) -> Option<String> {
     let text = text.trim_start_matches('\u{feff}').trim_start();

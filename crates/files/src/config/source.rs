@@ -24,7 +24,9 @@ impl<'a> Source<'a> {
     pub fn parse(&self) -> Result<DeTable<'a>, Error> {
         match DeTable::parse(self.text) {
             Ok(table) => match form::of_tables(table.get_ref()) {
-                Some(other) if other != self.form => {
+                Some(other)
+                    if other != self.form && !form::may_be_both(table.get_ref(), self.form) =>
+                {
                     Err(self.form.instead_of(self.file, other.what().into()))
                 }
                 _ => Ok(table.into_inner()),

@@ -25,6 +25,9 @@ pub fn text(robot: &RobotFile, urdf: &str) -> String {
             tool.center
         );
     }
+    if let Some(time) = &robot.time {
+        let _ = writeln!(out, "\n[columns]\n{}", time.line);
+    }
     for coupling in &robot.couplings {
         let joints: Vec<String> = coupling.joints.iter().map(|own| quoted(own)).collect();
         let _ = writeln!(

@@ -31,6 +31,9 @@ pub struct RobotFile {
     /// Joints whose motors move several of them; friction and inertia are those of the joints.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub couplings: Vec<super::Coupling>,
+    /// The column of the time; absent where the log has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub time: Option<JointColumn>,
     /// The logs.
     pub inputs: Vec<RobotInput>,
     /// How motion and torque were filtered.

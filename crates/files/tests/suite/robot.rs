@@ -77,6 +77,12 @@ fn robot() -> RobotFile {
             joints: vec!["wrist".into(), "elbow.\"\u{1}\u{e4}".into()],
             matrix: vec![vec![1.0, AWKWARD[3]], vec![AWKWARD[4], 1.0]],
         }],
+        time: Some(JointColumn {
+            role: "time".into(),
+            column: "t".into(),
+            unit: "us".into(),
+            line: "time = { column = \"t\", unit = \"us\" }".into(),
+        }),
         inputs: vec![],
         conditioning: FilterEntry {
             source_cutoff_hz: 10.0,
@@ -147,6 +153,7 @@ fn what_was_identified_is_read_back() {
     assert_eq!(bits(&read.gravity.unwrap()), bits(&robot().gravity));
     assert_eq!(read.tool, robot().tool);
     assert_eq!(read.couplings, robot().couplings);
+    assert!(read.axis().mapping.time.is_some());
     assert!(read.joint("a").is_some());
 }
 

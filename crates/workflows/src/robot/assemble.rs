@@ -15,7 +15,7 @@ use stiction_files::robot::result::{
     RobotInput, RobotTrust, SCHEMA,
 };
 use stiction_identify::{NORMAL_Q95, RigidFit, Status};
-use stiction_log::Motion;
+use stiction_log::{Motion, Role};
 use stiction_number::short;
 use stiction_parameters::Quantity;
 use stiction_rigid::base::{Base, Parameter, Scope};
@@ -100,6 +100,12 @@ pub(super) fn result(parts: Parts) -> Result<RobotFile, Error> {
         gravity: loaded.robot.gravity(),
         tool: loaded.file.tool.clone(),
         couplings: loaded.file.couplings.clone(),
+        time: loaded
+            .joints
+            .iter()
+            .flat_map(|joint| &joint.fitted)
+            .next()
+            .and_then(|source| of_roles(source, |role| role == Role::Time).pop()),
         inputs: inputs(loaded),
         conditioning: filters.entry,
         trust: RobotTrust {
@@ -136,11 +142,13 @@ fn inputs(loaded: &Loaded) -> Vec<RobotInput> {
 
 /// The columns of a joint with the lines that name them.
 fn columns(source: &Source) -> Vec<JointColumn> {
+    of_roles(source, |role| role != Role::Time)
+}
+
+fn of_roles(source: &Source, is_wanted: impl Fn(Role) -> bool) -> Vec<JointColumn> {
     let used = source.log.columns.iter();
     used.filter_map(|column| {
-        let role = column
-            .role
-            .filter(|role| *role != stiction_log::Role::Time)?;
+        let role = column.role.filter(|role| is_wanted(*role))?;
         let channel = source.log.mapping.channel(role)?;
         Some(JointColumn {
             role: role.to_string(),
