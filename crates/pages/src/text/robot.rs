@@ -85,11 +85,21 @@ fn verdict(result: &RobotFile, most: usize) -> String {
     if result.trust.trustworthy {
         let fits = result.joints.iter().filter_map(|joint| joint.fit.as_ref());
         let left = fits.clone().map(|fit| fit.held_out_rms / fit.torque_rms);
-        return format!(
+        let alone = fits.clone().filter(|fit| fit.compensates).count();
+        let all = fits.count();
+        let mut out = format!(
             "for feedforward  yes: error at most {} of the torque ({})\n",
             Percent::error(100.0 * left.fold(0.0, f64::max)).decimals(0),
-            counted(fits.count(), "joint")
+            counted(all, "joint")
         );
+        if alone < all {
+            let _ = writeln!(
+                out,
+                "friction alone   may compensate {alone} of {}: --verbose says why",
+                counted(all, "joint")
+            );
+        }
+        return out;
     }
     let line = |reason: &String| match most {
         usize::MAX => format!("for feedforward  no: {reason}"),
