@@ -270,6 +270,48 @@ pub fn predict(record: &Record, fitted: &Estimate) -> Series {
     series(&objective, &fitted.p, &fitted.coefficients, &columns)
 }
 
+/// Friction of an identified law along a record, and how it changes with the law.
+#[derive(Clone, Debug, Default)]
+pub struct FrictionAlong {
+    /// At the samples that count, without a constant force, N or N m.
+    pub force: Vec<f64>,
+    /// Its derivatives at these samples by what the law was fitted with, nonlinear unknowns, then linear ones.
+    pub slopes: Vec<Vec<f64>>,
+}
+
+/// The friction of a law that was fitted to the force of one record along a record, nothing fitted again.
+pub fn friction_along(record: &Record, fitted: &Estimate) -> FrictionAlong {
+    let objective = Objective::new(record, fitted.law, &fitted.terms);
+    let (columns, mut slopes) = objective.linearised(&fitted.p, &fitted.coefficients);
+    let mut force = vec![0.0; objective.force().len()];
+    let parts = columns.iter().zip(&fitted.coefficients);
+    for (term, (column, c)) in objective.linear().iter().zip(parts) {
+        if is_friction(term.column) {
+            for (y, x) in force.iter_mut().zip(column.iter()) {
+                *y += c * x;
+            }
+            slopes.push(column.to_vec());
+        }
+    }
+    FrictionAlong { force, slopes }
+}
+
+/// Whether a term of the force is friction: not inertia, weight or an offset.
+fn is_friction(column: ColumnKind) -> bool {
+    matches!(
+        column,
+        ColumnKind::Level
+            | ColumnKind::Element(_)
+            | ColumnKind::Sign(_)
+            | ColumnKind::Rate
+            | ColumnKind::Speed(_)
+            | ColumnKind::Square(_)
+            | ColumnKind::LevelTimes(..)
+            | ColumnKind::RateTimes(_)
+            | ColumnKind::SpeedTimes(..)
+    )
+}
+
 /// The value that each parameter which may be zero is compared with: the largest Coulomb level, for a
 /// coefficient divided by the span of its column in use; the sample time for a delay.
 fn levels(objective: &Objective, raw: &[Physical]) -> Vec<f64> {
@@ -297,22 +339,10 @@ fn series(objective: &Objective, p: &[f64], coefficients: &[f64], columns: &[Col
     let mut model = other.clone();
     let parts = columns.iter().zip(coefficients);
     for (term, (column, c)) in objective.linear().iter().zip(parts) {
-        let friction = matches!(
-            term.column,
-            ColumnKind::Level
-                | ColumnKind::Element(_)
-                | ColumnKind::Sign(_)
-                | ColumnKind::Rate
-                | ColumnKind::Speed(_)
-                | ColumnKind::Square(_)
-                | ColumnKind::LevelTimes(..)
-                | ColumnKind::RateTimes(_)
-                | ColumnKind::SpeedTimes(..)
-        );
         for (y, x) in model.iter_mut().zip(column.iter()) {
             *y += c * x;
         }
-        if !friction {
+        if !is_friction(term.column) {
             for (y, x) in other.iter_mut().zip(column.iter()) {
                 *y += c * x;
             }

@@ -108,7 +108,7 @@ pub use estimate::fitted::FittedLaw;
 pub use estimate::intervals::effects;
 pub use estimate::intervals::intervals;
 pub use estimate::series::Series;
-pub use estimate::{Estimate, LevelAlong, estimate, predict};
+pub use estimate::{Estimate, FrictionAlong, LevelAlong, estimate, friction_along, predict};
 pub use fit::{Fit, low_speed_bound};
 pub use force_filter::{ForceFilter, Smoothing, force_filter};
 pub use friction_curve::{FrictionCurve, Level, OfDirection, friction_curve};

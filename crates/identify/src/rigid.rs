@@ -15,6 +15,7 @@ pub use prior::Prior;
 
 use crate::conditioning::record::Record;
 use crate::error::Error;
+use crate::estimate::FrictionAlong;
 use columns::Columns;
 use nalgebra::{DMatrix, DVector};
 use solve::Normal;
@@ -36,9 +37,9 @@ pub struct RobotJoint<'a> {
     pub joint: usize,
     /// Its log, conditioned. The records of all joints have the same samples.
     pub record: &'a Record,
-    /// Its friction by an identified law at the samples of the record that count, N or N m, of which the shape counts and the size is
-    /// fitted; empty takes the sign of the speed.
-    pub friction: &'a [f64],
+    /// Its friction by an identified law along the record, whose parameters are fitted again, linearised; `None` takes Coulomb and
+    /// viscous friction.
+    pub friction: Option<&'a FrictionAlong>,
     /// Whether its force is fitted; of one that is not, the motion counts.
     pub counts: bool,
 }
@@ -88,7 +89,7 @@ pub fn rigid_fit(
     let columns = Columns::of(machine, joints);
     let samples: usize = columns.iter().map(|own| own.force.len()).sum();
     let bodies = machine.robot.len();
-    let unknowns = 11 * bodies + columns::FRICTION * joints.len();
+    let unknowns = 11 * bodies + columns.iter().map(|own| own.friction).sum::<usize>();
     if samples < unknowns {
         return Err(Error::TooFewSamples {
             found: samples,

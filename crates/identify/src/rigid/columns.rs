@@ -6,9 +6,6 @@ use crate::conditioning::shift::Shift;
 use nalgebra::{DMatrix, DVector};
 use stiction_rigid::{Robot, Workspace};
 
-/// Unknowns of the friction of a joint: viscous friction, offset, level.
-pub(super) const FRICTION: usize = 3;
-
 /// The regression of one joint.
 pub(super) struct Columns {
     /// A row for each sample that counts: inertial parameters, armature, friction.
@@ -17,20 +14,27 @@ pub(super) struct Columns {
     pub places: Vec<usize>,
     /// How many columns are of inertial parameters.
     pub rigid: usize,
-    /// The force.
+    /// How many are of friction.
+    pub friction: usize,
+    /// The force, without the friction that is known.
     pub force: DVector<f64>,
 }
 
 impl Columns {
     /// Those of all joints.
     pub fn of(machine: Machine, joints: &[RobotJoint]) -> Vec<Self> {
-        (0..joints.len())
-            .filter(|own| joints[*own].counts)
-            .map(|own| Self::one(machine, joints, own))
-            .collect()
+        let mut first = 11 * machine.robot.len();
+        let counted = (0..joints.len()).filter(|own| joints[*own].counts);
+        let one = |own| {
+            let mut columns = Self::one(machine, joints, own);
+            columns.places.extend(first..first + columns.friction);
+            first += columns.friction;
+            columns
+        };
+        counted.map(one).collect()
     }
 
-    /// Those of the joint at an index of `joints`.
+    /// Those of the joint at an index of `joints`; its friction has no places yet.
     pub fn one(machine: Machine, joints: &[RobotJoint], own: usize) -> Self {
         let robot = machine.robot;
         let bodies = robot.len();
@@ -44,7 +48,11 @@ impl Columns {
         let mut workspace = Workspace::new(robot);
         let mut regressor = vec![0.0; 10 * bodies * bodies];
         let count = carried.len();
-        let mut out: Vec<Vec<f64>> = vec![Vec::new(); count + 1 + FRICTION];
+        let own = match friction {
+            Some(_) => 1,
+            None => 3,
+        };
+        let mut out: Vec<Vec<f64>> = vec![Vec::new(); count + 1 + own];
         for (at, segment) in record.segments.iter().enumerate() {
             let mut full = vec![Vec::with_capacity(segment.velocity.len()); count];
             along(machine, joints, at, |motion| {
@@ -55,9 +63,9 @@ impl Columns {
                 }
             });
             full.push(segment.acceleration.clone());
-            full.push(segment.velocity.clone());
             full.push(vec![1.0; segment.velocity.len()]);
-            if friction.is_empty() {
+            if friction.is_none() {
+                full.push(segment.velocity.clone());
                 full.push(segment.velocity.iter().map(|v| sign(*v)).collect());
             }
             let mut columns: Vec<&mut [f64]> = full.iter_mut().map(Vec::as_mut_slice).collect();
@@ -70,17 +78,18 @@ impl Columns {
         }
         let mut places = carried;
         places.push(10 * bodies + joint);
-        places.extend((0..FRICTION).map(|k| 11 * bodies + FRICTION * own + k));
-        if !friction.is_empty() {
+        let mut force = DVector::from_vec(record.gather(|s| &s.force));
+        if let Some(friction) = friction {
             // It has passed the filters.
-            out[count + FRICTION] = friction.to_vec();
+            force -= DVector::from_column_slice(&friction.force);
+            out.extend(friction.slopes.iter().cloned());
         }
-        let force = DVector::from_vec(record.gather(|s| &s.force));
         let rows = force.len();
         Self {
             matrix: DMatrix::from_fn(rows, out.len(), |i, j| out[j][i]),
             places,
             rigid: count,
+            friction: out.len() - count - 1,
             force,
         }
     }

@@ -351,6 +351,17 @@ impl<'a> Objective<'a> {
         self.columns(&mut self.traces(p, false), self.shift(p), Moved::Value)
     }
 
+    /// The columns of the regression at the kept samples, and the derivatives of the model by the nonlinear unknowns.
+    pub(crate) fn linearised(
+        &self,
+        p: &[f64],
+        coefficients: &[f64],
+    ) -> (Vec<Column>, Vec<Vec<f64>>) {
+        let mut traces = self.traces(p, true);
+        let columns = self.columns(&mut traces, self.shift(p), Moved::Value);
+        (columns, self.slopes(&mut traces, p, coefficients))
+    }
+
     /// Every term of the model force at the kept samples, in the order of the linear unknowns.
     pub(crate) fn parts(&self, p: &[f64], coefficients: &[f64]) -> Vec<Vec<f64>> {
         let columns = self.columns_at(p);

@@ -5,7 +5,7 @@ use super::load::{JointLogs, Loaded};
 use crate::error::Error;
 use crate::source::Source;
 use stiction_identify as engine;
-use stiction_identify::{Conditioning, Record, RigidFit, RobotJoint, Samples};
+use stiction_identify::{Conditioning, FrictionAlong, Record, RigidFit, RobotJoint, Samples};
 use stiction_log::{Found, Log};
 
 /// Stamps of two joints that are closer than this part of a sample are one.
@@ -74,13 +74,17 @@ impl Records {
     }
 
     /// The joints as the engine takes them, with shapes of their friction.
-    pub fn joints<'a>(&'a self, loaded: &Loaded, frictions: &'a [Vec<f64>]) -> Vec<RobotJoint<'a>> {
+    pub fn joints<'a>(
+        &'a self,
+        loaded: &Loaded,
+        frictions: &'a [Option<FrictionAlong>],
+    ) -> Vec<RobotJoint<'a>> {
         let each = loaded.joints.iter().zip(&self.of_joints).enumerate();
         each.map(|(i, (joint, record))| RobotJoint {
             joint: joint.joint,
             record,
             counts: self.counts[i],
-            friction: frictions.get(i).map_or(&[], |friction| friction),
+            friction: frictions.get(i).and_then(Option::as_ref),
         })
         .collect()
     }

@@ -11,7 +11,9 @@ use crate::error::Error;
 use crate::identify::{self, Asked, Found, identify_asked};
 use std::time::Instant;
 use stiction_identify as engine;
-use stiction_identify::{Delay, LawKind, Observer, Prior, RigidFit, Series};
+use stiction_identify::{
+    Delay, Estimate, FrictionAlong, LawKind, Observer, Prior, Record, RigidFit,
+};
 use stiction_say::OfRobot;
 
 /// How often the friction of the joints and the rigid body beside it are fitted, all but the last time with one law. Source: simulated
@@ -68,11 +70,7 @@ pub fn robot(
     let mut joints = Vec::new();
     for round in 0..ROUNDS {
         if round > 0 {
-            let friction = |series: Series| -> Vec<f64> {
-                let parts = series.model.iter().zip(&series.other);
-                parts.map(|(model, other)| model - other).collect()
-            };
-            let frictions = models(&loaded, &records, &joints, friction);
+            let frictions = of_laws(&loaded, &records, &joints, engine::friction_along);
             rigid = fit(&loaded, &records, &frictions, &prior)?;
         }
         give_force(&mut loaded, Part::Fitted, &filters, &mut records, &rigid);
@@ -83,7 +81,7 @@ pub fn robot(
         let each = loaded.joints.iter().filter(|joint| joint.fit);
         for (joint, folder) in each.zip(&folders) {
             let asked = Asked {
-                options: if round + 1 < ROUNDS { &first } else { &own },
+                options: if round == 0 { &first } else { &own },
                 axis: &joint.axis,
                 clock,
             };
@@ -121,21 +119,20 @@ pub fn robot(
     })
 }
 
-/// Signals of the model of each joint without the rigid body, at the samples of the records; empty of one that could not be fitted.
-fn models(
+/// Something of the law of each joint on the records; `None` of one that could not be fitted.
+fn of_laws<T>(
     loaded: &Loaded,
     records: &Records,
     joints: &[JointOutcome],
-    of: impl Fn(Series) -> Vec<f64>,
-) -> Vec<Vec<f64>> {
+    of: impl Fn(&Record, &Estimate) -> T,
+) -> Vec<Option<T>> {
     let each = loaded.joints.iter().zip(&records.of_joints);
     each.map(|(joint, record)| {
         let name = &loaded.robot.joints()[joint.joint].name;
-        let own = joints.iter().find(|own| own.name == *name);
-        let found = own.and_then(|own| own.outcome.as_ref().ok());
-        match found.map(|outcome| &outcome.found) {
-            Some(Found::Force(fit)) => of(engine::predict(record, &fit.estimate)),
-            _ => Vec::new(),
+        let own = joints.iter().find(|own| own.name == *name)?;
+        match &own.outcome.as_ref().ok()?.found {
+            Found::Force(fit) => Some(of(record, &fit.estimate)),
+            _ => None,
         }
     })
     .collect()
@@ -150,12 +147,14 @@ fn left(
 ) -> Vec<(String, Vec<f64>)> {
     let of_joints = records.joints(loaded, &[]);
     let forces = rigid.at_samples(loaded.machine(), &of_joints);
-    let models = models(loaded, records, joints, |series| series.model);
+    let models = of_laws(loaded, records, joints, |record, law| {
+        engine::predict(record, law).model
+    });
     let each = of_joints.iter().zip(forces).zip(models);
     each.map(|((own, rigid), friction)| {
         let name = loaded.robot.joints()[own.joint].name.clone();
         let measured = own.record.gather(|s| &s.force);
-        let parts = measured.iter().zip(rigid).zip(friction);
+        let parts = measured.iter().zip(rigid).zip(friction.unwrap_or_default());
         (
             name,
             parts
@@ -169,7 +168,7 @@ fn left(
 fn fit(
     loaded: &Loaded,
     records: &Records,
-    frictions: &[Vec<f64>],
+    frictions: &[Option<FrictionAlong>],
     prior: &Prior,
 ) -> Result<RigidFit, Error> {
     let joints = records.joints(loaded, frictions);
