@@ -313,6 +313,14 @@ impl Friction {
         (self.coulomb + self.per_torque * link.abs()) * *eta + self.viscous * v + self.offset
     }
 
+    /// The same without load, of a joint that transmits this torque.
+    pub fn at_load(&self, torque: f64) -> Self {
+        Self {
+            coulomb: self.coulomb + self.per_torque * torque,
+            ..*self
+        }
+    }
+
     /// What an identification calls its parameters, and their values.
     pub fn truth(&self) -> [(&'static str, f64); 6] {
         [

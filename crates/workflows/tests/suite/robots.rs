@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use stiction_identify::Silent;
+use stiction_identify::{Control, Progress, Silent};
 use stiction_rigid::{Base, Scope};
 use stiction_testkit::gate;
 use stiction_testkit::robots::{Arm, Motion, Names, csv};
@@ -89,9 +89,13 @@ fn scores(arm: &Arm, found: &RobotOutcome) -> Vec<Score> {
         let Ok(outcome) = &joint.outcome else {
             continue;
         };
-        let mut truth = arm.friction[i].truth().to_vec();
+        let all = &outcome.result.parameters;
+        let reference = all.iter().find(|p| p.name == "transmitted_reference");
+        // Levels are stated at that torque.
+        let load = reference.map_or(0.0, |p| p.value);
+        let mut truth = arm.friction[i].at_load(load).truth().to_vec();
         truth.push(("mass", arm.armature[i]));
-        for p in outcome.result.parameters.iter().filter(|p| p.identifiable) {
+        for p in all.iter().filter(|p| p.identifiable) {
             let stem = p.name.replace("_positive", "").replace("_negative", "");
             let own = truth.iter().find(|(name, _)| *name == stem);
             let (Some((_, truth)), Some([Some(low), Some(high)])) = (own, p.ci95) else {
@@ -466,4 +470,54 @@ fn a_load_that_the_urdf_lacks_is_found() {
     assert!(said.contains("Payload { link: \"flange\""), "{said}");
     let said = loaded(0.0);
     assert!(!said.contains("Payload"), "{said}");
+}
+
+#[test]
+fn a_position_that_jumps_cuts_the_log_of_all_joints() {
+    let jumps = |columns: &mut Columns| {
+        for (joint, from) in [(1, 700), (2, 1200)] {
+            columns[joint].1[from..].iter_mut().for_each(|x| *x += 0.05);
+        }
+    };
+    assert_says(&said_of(jumps, None), &["trustworthy: true"]);
+}
+
+#[test]
+fn what_the_robot_file_says_has_to_fit_the_log() {
+    let coupling = "[[coupling]]\njoints = [\"upper\", \"lower\"]\nmatrix = [[1, 0], [1, 1]]\n";
+    let half = said_of(|columns| drop(columns.remove(4)), Some(coupling));
+    assert_says(&half, &["error", "some of its joints have a position"]);
+    let stands = said_of(|_| {}, Some("[joint.upper]\nat = \"0.1 rad\"\n"));
+    assert_says(&stands, &["error", "the log has its position"]);
+}
+
+#[test]
+fn gravity_that_points_up_is_found() {
+    let arm = Arm::slider(1);
+    let log = arm.record(Motion::Harmonic, 20.0, 1).csv(Names::Numbered);
+    let bench = Bench::of(&arm).fit(&log);
+    let bench = bench.toml("gravity = [0, 0, 9.81]\n[joint.tilt]\n");
+    assert_says(
+        &said(&bench.run()),
+        &["FarFromUrdf", "direction of gravity"],
+    );
+}
+
+#[test]
+fn what_was_interrupted_is_not_trusted() {
+    let arm = Arm::pendulum(1);
+    let log = arm.record(Motion::Harmonic, 20.0, 1).csv(Names::Numbered);
+    let bench = Bench::of(&arm).fit(&log);
+    for reports in [1, 3] {
+        let mut left = reports;
+        let mut stops = |_: &Progress| {
+            left -= 1;
+            match left {
+                ..=0 => Control::Stop,
+                _ => Control::Continue,
+            }
+        };
+        let found = robot(&bench.files, &Options::default(), &mut stops);
+        assert_says(&said(&found), &["trustworthy: false", "ended early"]);
+    }
 }
