@@ -25,7 +25,8 @@ use stiction_signal::{Sos, effective_sample_size};
 
 /// Rounds in which the weights of the joints follow from what the round before left.
 const ROUNDS: usize = 3;
-/// Part of the prior in the rounds that the weights follow from.
+/// Part of the prior in the rounds that the weights follow from. Source: choice, next to nothing beside a log, and enough for what no
+/// motion shows.
 const WEIGHING_PRIOR: f64 = 1e-6;
 /// Part of a record over which its residual is taken to be correlated at most.
 const LONGEST_CORRELATION: usize = 4;
