@@ -63,7 +63,7 @@ codes! {
     ForceUnit = "force-unit": "the unit of the force does not fit a linear or rotary axis as stated",
     ForceNotCalibrated = "force-not-calibrated": "the force is a current, a voltage or a fraction of a rated value, not in N or N·m",
     NoForce = "no-force": "no column is a force, torque or current",
-    ForceSign = "force-sign": "the force does negative work: its sign is probably inverted",
+    ForceSign = "force-sign": "the sign of the force is inverted, or only its magnitude was logged",
     Saturation = "saturation": "the force saturates at a limit",
     CoarseForce = "coarse-force": "the force comes in coarse steps",
     ForceDead = "force-dead": "the force is zero while the axis moves",

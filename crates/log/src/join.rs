@@ -80,6 +80,11 @@ pub struct Joined {
     pub(crate) force_as_stamped: bool,
 }
 
+/// A path without its folders.
+fn file_name(path: &str) -> &str {
+    path.rsplit(['/', '\\']).next().unwrap_or(path)
+}
+
 /// Samples of the other column by the clock of the recording.
 struct Course {
     time: Vec<f64>,
@@ -157,8 +162,15 @@ impl Joined {
         }
         self.force_as_stamped |= role == Role::Force && from.offset == Offset::Given(0.0);
         let index = select(other, &channel.column, role).map_err(in_other)?;
+        let own = other.columns[index].name.clone();
+        // Columns of the log keep their names for themselves.
+        let is_taken = self.table.columns.iter().any(|column| column.name == own);
         self.table.columns.push(Column {
-            name: other.columns[index].name.clone(),
+            name: if is_taken {
+                format!("{own} of {}", file_name(name))
+            } else {
+                own
+            },
             unit: other.columns[index].unit.clone(),
             stamps: other.columns[index].stamps,
             values,

@@ -71,7 +71,7 @@ pub use limits::{Limits, allow_memory, allowed_memory, within_memory};
 pub use log::{Excluded, Gap, Log, NotEnabled};
 pub use mapping::{
     Assumed, Channel, Detected, Drive, Enable, Mapping, Motion, OwnStamps, Parts, Rests, Role,
-    Selector, Understood, Wrap,
+    Selector, Sign, Understood, Wrap,
 };
 #[cfg(feature = "rosbag")]
 pub use open::bag_of;

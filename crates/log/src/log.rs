@@ -34,6 +34,7 @@ mod driven;
 mod dropout;
 mod filled;
 mod held;
+mod made;
 pub(crate) mod overflow;
 pub(crate) mod unwrap;
 
@@ -183,7 +184,8 @@ impl Log {
             chosen::refuse_many(&table, column, enable)?;
         }
         let completed = mapping.complete(&table)?;
-        let mapping = completed.mapping;
+        let mut mapping = completed.mapping;
+        mapping.drive = mapping.drive.map(|drive| drive.of_log(&table.scalars));
         let mut findings = completed.findings;
         let mut sources = Vec::new();
         for role in Role::ALL {
@@ -208,10 +210,13 @@ impl Log {
         let enable = Enable::of(&mapping, &table)?;
         let length = common_length(&table, &mapping, &sources, &mut findings)?;
         refuse_mixed(&table, &mapping, own)?;
+        let sign = made::sign_column(&mapping, &table)?;
         keep_columns(&mut table, |column| {
-            enable == Some(column) || sources.iter().any(|(_, source)| source.column == column)
+            [enable, sign].contains(&Some(column))
+                || sources.iter().any(|(_, source)| source.column == column)
         });
         let clock = clock::read(&table, &sources, &mapping, length, &mut findings)?;
+        let sign = made::sign_of(sign, &table, &clock);
         let mut columns = cells::Columns::read(&mut table, &sources, &clock);
         let mut chosen = chosen::Chosen::read(&table, &mapping, &clock, outside)?;
         filled::clear(&mut columns, &mut findings)?;
@@ -241,6 +246,7 @@ impl Log {
             }
             wrap = Some(period);
         }
+        made::force(&mut columns, &mapping, sign)?;
         let held = columns
             .get_mut(Role::Position)
             .and_then(|position| held::period(&time, position));
@@ -325,8 +331,9 @@ impl Log {
         let mapping = log.mapping.clone();
         findings::inspect(&mut log, &mapping);
         let force = sources.iter().find(|(role, _)| *role == Role::Force);
-        if let (Some(drive), Some((_, force))) = (&mapping.drive, force) {
-            driven::drive(&mut log, drive, force.dimension)?;
+        if let (Some(drive), true) = (&mapping.drive, log.force.is_some()) {
+            let dimension = force.map_or(Dimension::ONE, |(_, force)| force.dimension);
+            driven::drive(&mut log, drive, dimension)?;
         }
         log.excluded
             .sort_by_key(|e| (e.samples.start, e.samples.end));

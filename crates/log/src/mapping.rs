@@ -33,7 +33,7 @@
 //! assumed, from the names (`torque`, `angle`, `force`, `displacement`); else refused.
 //!
 //! Error texts quote `axis.toml` as: top-level `kind`, `rate`; table `[columns]` with a name, a
-//! number counted from 1, or `{ column, unit, scale, invert }` for each quantity, `enable` with `{ column, equals }`; table `[log]` with
+//! number counted from 1, or `{ column, unit, scale, invert, sign }` for each quantity, `enable` with `{ column, equals }`; table `[log]` with
 //! `crop`, `rests`, `wrap`, `resolution`, `force_limit`.
 
 mod bases;
@@ -55,6 +55,7 @@ mod offered;
 pub(crate) mod parts;
 mod rate;
 mod select;
+mod servos;
 mod still;
 mod understood;
 mod wanted;
@@ -62,18 +63,19 @@ mod wanted;
 use crate::findings::{Finding, full};
 use crate::{Error, Kind, Table};
 pub use bases::OwnStamps;
-pub use channel::{Channel, Motion, Role, Selector};
+pub use channel::{Channel, Motion, Role, Selector, Sign};
 pub(crate) use choose::clear;
 pub(crate) use complete::time_source;
 pub(crate) use convert::{Source, another_unit};
 pub(crate) use drive::Gain;
-pub use drive::{BACK_EMFS, Drive, FORCE_CONSTANTS, RESISTANCES, SUPPLIES};
+pub use drive::{BACK_EMFS, Drive, FORCE_CONSTANTS, PositionLoop, RESISTANCES, SUPPLIES};
 pub use enable::Enable;
 pub use joints::{JointColumns, assume_units, joints};
 pub use limits::{FORCE_LIMITS, RATES, RESOLUTIONS, SCALES, WRAP_COUNTS, WRAPS};
 pub use names::is_commanded;
 pub use parts::Parts;
 pub(crate) use select::select;
+pub use servos::{SERVOS, Servo, servo};
 pub use understood::{Assumed, Understood};
 pub(crate) use wanted::wanted;
 

@@ -315,6 +315,8 @@ pub enum Found {
     CoarseForce { step: Value, range: f64, few: bool },
     /// The force does negative work.
     ForceBrakes { part: f64, turn: Turn },
+    /// The force is a magnitude, and whether the log has a reference.
+    Magnitude { reference: bool },
     /// A force on a rotary axis, or a torque on a linear one.
     ForceUnit { unit: String, motion: String, wanted: String },
     /// The force is a voltage.
@@ -397,7 +399,7 @@ impl Found {
             Self::Outliers { .. } => Code::ForceSpike,
             Self::ForceDead { .. } => Code::ForceDead,
             Self::CoarseForce { .. } => Code::CoarseForce,
-            Self::ForceBrakes { .. } => Code::ForceSign,
+            Self::ForceBrakes { .. } | Self::Magnitude { .. } => Code::ForceSign,
             Self::ForceUnit { .. } => Code::ForceUnit,
             Self::ForceIsVoltage { .. } | Self::Uncalibrated { .. } => Code::ForceNotCalibrated,
             Self::NoForce { .. } => Code::NoForce,
@@ -536,6 +538,13 @@ impl Found {
                     Turn::Validation => "That of the fitted logs does not: invert the column in this file, or validate on another".to_string(),
                 };
                 format!("inverted force sign: the force brakes, with a net work of -{} of all the work it does. {cure}", percent(*part))
+            }
+            Self::Magnitude { reference } => {
+                let cure = match reference {
+                    true => "Write sign = \"following-error\" beside its column",
+                    false => "Write sign = \"following-error\" beside its column and name the commanded position, reference = { column = \"NAME\" }, with file = \"FILE\" if it is in another file; or write sign = \"COLUMN\" with a column that has the sign",
+                };
+                format!("unsigned force: it never changes its sign while the axis moves both ways, so only the magnitude was logged. {cure}, under [columns] in {axis}")
             }
             Self::ForceUnit { unit, motion, wanted } => format!("the force is in {unit}, but a {motion} axis needs {wanted}: a scale for the lead or radius is missing, or the kind is wrong"),
             Self::ForceIsVoltage { wanted, unit } => format!("the force is a voltage. If it commands a drive in torque mode, give its scale in {wanted}/{unit}; if it is at the terminals of a motor, describe the motor under [drive] in {axis} (force_constant, resistance and the speed: docs/axis.md#drive), or back-EMF and resistance look like viscous friction"),

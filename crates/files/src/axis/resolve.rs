@@ -80,7 +80,7 @@ impl Resolver {
         self.mapping(root, &mut axis.mapping)?;
         let folder = axis.file.parent().unwrap_or(Path::new(""));
         axis.joined = columns::columns(root, &mut axis.mapping, folder)?;
-        axis.mapping.drive = drive::drive(root)?;
+        drive::drive(root, &mut axis.mapping)?;
         self.log(root, axis, &axis.file.clone())?;
         text_options(root, &mut axis.text)?;
         axis.conditioning = self.conditioning(root)?;

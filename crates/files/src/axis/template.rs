@@ -1,7 +1,7 @@
 //! `check --init`: an axis file to fill in, with what was detected already in it.
 
 use std::fmt::Write;
-use stiction_log::{Channel, Dimension, Mapping, Motion, OwnStamps, Role, Selector, Table};
+use stiction_log::{Channel, Dimension, Mapping, Motion, OwnStamps, Role, Selector, Sign, Table};
 
 /// Words of the examples, for one kind of axis.
 struct Words {
@@ -269,6 +269,13 @@ pub fn entry(channel: &Channel) -> String {
     }
     if channel.invert {
         out.push_str(", invert = true");
+    }
+    match &channel.sign {
+        None => {}
+        Some(Sign::FollowingError) => out.push_str(", sign = \"following-error\""),
+        Some(Sign::Column(column)) => {
+            let _ = write!(out, ", sign = {}", selector(column));
+        }
     }
     out.push_str(" }");
     out

@@ -7,7 +7,8 @@ use stiction_files::axis::{Found, ListedLog, Use, template};
 use stiction_files::{Axis, Error};
 use stiction_identify::{Cutoff, Hold, Source};
 use stiction_log::{
-    Channel, Column, Log, Mapping, Motion, Offset, Parts, Role, Selector, Table, Unit, Value, Wrap,
+    Channel, Column, Log, Mapping, Motion, Offset, Parts, Role, Selector, Sign, Table, Unit, Value,
+    Wrap,
 };
 use stiction_search::Method;
 use stiction_search::genetic::{self, Annealing, Crossover, Rates, Ratio, Selection};
@@ -760,6 +761,7 @@ proptest! {
             scale: Some(Value::parse("35.15 N m/A").unwrap()),
             unit: Some(Unit::parse("A").unwrap()),
             invert: true,
+            sign: Some(Sign::Column(Selector::Name(position.clone()))),
             ..Channel::named(force.clone())
         });
         let found = Found {
@@ -817,4 +819,47 @@ fn an_axis_file_has_the_hash_of_what_was_read() {
     std::fs::write(&file, "kind = \"rotary\"\n").unwrap();
     assert_eq!(axis.sha256(), Some(before.as_str()));
     assert_eq!(parse("kind = \"linear\"\n").unwrap().sha256(), None);
+}
+
+#[test]
+fn a_servo_brings_its_motor_and_its_loop() {
+    let axis = parse("servo = \"xl330\"\n").unwrap();
+    let drive = axis.mapping.drive.unwrap();
+    assert_eq!(axis.mapping.motion, Some(Motion::Rotary));
+    assert!(axis.terms.gravity);
+    assert_eq!(
+        (drive.force_constant, drive.resistance, drive.supply),
+        (0.3867, Some(4.017), None)
+    );
+    let own = drive.position_loop.unwrap();
+    assert_eq!((own.kp, own.servo.kp), (None, 400.0));
+    let text = "servo = \"sts3215\"\n[drive]\nkp = 16\nsupply = \"12 V\"\nduty_limit = 0.5\nforce_constant = \"1 N m/A\"\n[terms]\ngravity = false\n";
+    let axis = parse(text).unwrap();
+    let drive = axis.mapping.drive.unwrap();
+    assert!(!axis.terms.gravity);
+    assert_eq!(
+        (drive.force_constant, drive.back_emf, drive.supply),
+        (1.0, 1.2116, Some(12.0))
+    );
+    let own = drive.position_loop.unwrap();
+    assert_eq!(
+        (own.kp, own.error_gain, own.duty_limit),
+        (Some(16.0), 0.166, 0.5)
+    );
+    for (text, part) in [
+        ("servo = \"sg90\"\n", "xl330"),
+        (
+            "servo = \"xl330\"\n[drive]\nkp = \"200\"\n",
+            "without quotes",
+        ),
+        ("servo = \"xl330\"\n[drive]\nduty_limit = 2\n", "duty_limit"),
+        ("[drive]\nforce_constant = \"1 N m/A\"\nkp = 200\n", "kp"),
+        (
+            "[columns]\nposition = { column = 1, sign = \"following-error\" }\n",
+            "magnitude",
+        ),
+    ] {
+        let refused = parse(text).unwrap_err().to_string();
+        assert!(refused.contains(part), "{text}: {refused}");
+    }
 }

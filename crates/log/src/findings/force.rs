@@ -173,11 +173,30 @@ pub(crate) fn sign_of_another_clock(findings: &mut [Finding]) {
     }
 }
 
+/// Whether a force is the magnitude of one that changes its sign: it has one sign, falls to nearly nothing, and is the same both ways
+/// but for this part.
+fn is_magnitude(force: &[f64], difference: f64) -> bool {
+    let mut sizes: Vec<f64> = force
+        .iter()
+        .map(|f| f.abs())
+        .filter(|f| f.is_finite())
+        .collect();
+    let one_sign = [1.0, -1.0].map(|sign| force.iter().all(|f| sign * f >= 0.0 || f.is_nan()));
+    let mean = sizes.iter().sum::<f64>() / sizes.len() as f64;
+    let alike = mean > 0.0 && difference <= force::MAX_UNSIGNED_DIFFERENCE;
+    if !alike || !one_sign.contains(&true) {
+        return false;
+    }
+    let at = sizes.len() / 100;
+    let (_, low, _) = sizes.select_nth_unstable_by(at, f64::total_cmp);
+    *low <= force::MAX_UNSIGNED_LOW * mean
+}
+
 /// Compares work done along and against the motion: a force that drives an axis with friction
 /// puts energy in. Only for motion to and fro, since a weight may well brake one way; a jump of the position is no motion.
 pub(super) fn sign(log: &mut Log) {
     let Some(force) = &log.force else { return };
-    let (mut net, mut gross, mut travel, mut path) = (0.0, 0.0, 0.0, 0.0);
+    let (mut net, mut gross, mut travel, mut path) = (0.0, 0.0, 0.0_f64, 0.0);
     for i in log.segments.iter().flat_map(|part| part.clone().skip(1)) {
         let moved = match (&log.position, &log.velocity) {
             (Some(x), _) => x[i] - x[i - 1],
@@ -193,7 +212,16 @@ pub(super) fn sign(log: &mut Log) {
         travel += moved;
         path += moved.abs();
     }
-    if net < force::MIN_NET_WORK * gross && travel.abs() < force::MAX_NET_TRAVEL * path {
+    let to_and_fro = travel.abs() < force::MAX_NET_TRAVEL * path;
+    // Of a force that never changes its sign the work each way is its mean times the travel.
+    let [ahead, back] = [1.0, -1.0].map(|way| (gross + way * net) / (path + way * travel));
+    if to_and_fro && is_magnitude(force, (ahead - back).abs() / (ahead + back)) {
+        let reference = log.reference.is_some();
+        log.findings
+            .push(Finding::warning(Found::Magnitude { reference }));
+        return;
+    }
+    if net < force::MIN_NET_WORK * gross && to_and_fro {
         let inverted =
             log.mapping.force.as_ref().is_some_and(|f| {
                 f.invert != f.scale.as_ref().is_some_and(|scale| scale.number < 0.0)

@@ -68,11 +68,7 @@ impl Columns {
         }
         for (role, source) in sources.iter().filter(|(role, _)| *role != Role::Time) {
             let values = &table.columns[source.column].values;
-            let mut dropped = clock.dropped.iter().peekable();
-            let kept = clock
-                .range
-                .clone()
-                .filter(|row| dropped.next_if_eq(&row).is_none());
+            let kept = clock.rows();
             columns.push((*role, kept.map(|row| source.si(values[row])).collect()));
             let large = |row: &usize| !values[*row].is_nan() && source.si(values[*row]).is_nan();
             if let Some(row) = clock.range.clone().find(large) {
@@ -93,6 +89,11 @@ impl Columns {
             .iter_mut()
             .find(|(role, _)| *role == wanted)
             .map(|(_, values)| values)
+    }
+
+    /// Adds a column, one number a kept row.
+    pub fn add(&mut self, role: Role, values: Vec<f64>) {
+        self.columns.push((role, values));
     }
 
     pub fn take(&mut self, wanted: Role) -> Option<Vec<f64>> {

@@ -30,6 +30,13 @@ pub(super) struct Clock {
 }
 
 impl Clock {
+    /// The kept rows of the table, in order.
+    pub fn rows(&self) -> impl Iterator<Item = usize> {
+        let mut dropped = self.dropped.iter().peekable();
+        let rows = self.range.clone();
+        rows.filter(move |row| dropped.next_if_eq(&row).is_none())
+    }
+
     /// The row of the table that a kept row is, both counted from 0.
     pub fn row(&self, kept: usize) -> usize {
         let before = |row: usize| self.dropped.iter().filter(move |d| **d <= row).count();

@@ -136,6 +136,15 @@ pub enum Selector {
     Index(usize),
 }
 
+/// What has the sign of a force that is logged as a magnitude.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Reference less position, as in a position loop.
+    FollowingError,
+    /// Another column.
+    Column(Selector),
+}
+
 /// One column and how its numbers become SI: `number * unit * scale`, negated if inverted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
@@ -147,6 +156,8 @@ pub struct Channel {
     pub scale: Option<Value>,
     /// Whether the sign is inverted.
     pub invert: bool,
+    /// Where the sign comes from if the column is a magnitude; of a force only.
+    pub sign: Option<Sign>,
 }
 
 impl Channel {
@@ -154,9 +165,7 @@ impl Channel {
     pub fn named(name: impl Into<String>) -> Self {
         Self {
             column: Selector::Name(name.into()),
-            unit: None,
-            scale: None,
-            invert: false,
+            ..Self::index(0)
         }
     }
 
@@ -167,6 +176,7 @@ impl Channel {
             unit: None,
             scale: None,
             invert: false,
+            sign: None,
         }
     }
 

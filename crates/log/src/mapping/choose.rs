@@ -167,7 +167,11 @@ pub(super) fn columns(
         refused.push(e);
         is_known = false;
     }
-    if given.force.is_none() && !given.absent.contains(&Role::Force) {
+    // A servo's own loop says more than the current that it states.
+    let is_made = given
+        .drive
+        .is_some_and(|drive| drive.position_loop.is_some());
+    if given.force.is_none() && !given.absent.contains(&Role::Force) && !is_made {
         match scan.force_column(&out.mapping) {
             Ok(Some(column)) => out.mapping.force = Some(scan.take(column)),
             Ok(None) => out.findings.push(scan.no_force()),

@@ -1,6 +1,8 @@
 //! What turns the current, voltage or duty of a motor into its force.
 
 use super::channel::Motion;
+use super::servos::Servo;
+use crate::table::Scalar;
 use crate::{Dimension, Error, Kind};
 use std::ops::RangeInclusive;
 use stiction_number::short;
@@ -30,6 +32,29 @@ pub struct Drive {
     pub back_emf: f64,
     /// Voltage S of the supply, V; for a duty.
     pub supply: Option<f64>,
+    /// The loop that makes the duty, if no column is a force.
+    pub position_loop: Option<PositionLoop>,
+}
+
+/// The P loop in position of a servo's firmware: `duty = kp error_gain (reference - position)`, within the limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PositionLoop {
+    /// P gain as the firmware counts it; that of the log, a number `kp`, or the usual one if `None`.
+    pub kp: Option<f64>,
+    /// Duty for each rad of following error and unit of the P gain, 1/rad.
+    pub error_gain: f64,
+    /// Largest duty, 0 to 1.
+    pub duty_limit: f64,
+    /// The servo of the library with the usual P gain and supply.
+    pub servo: &'static Servo,
+}
+
+impl PositionLoop {
+    /// Duty at a following error, rad.
+    pub fn duty(&self, error: f64) -> f64 {
+        let kp = self.kp.unwrap_or(self.servo.kp);
+        (kp * self.error_gain * error).clamp(-self.duty_limit, self.duty_limit)
+    }
 }
 
 /// How a column becomes the force: `constant * column - damping * velocity`.
@@ -40,6 +65,20 @@ pub(crate) struct Gain {
 }
 
 impl Drive {
+    /// With the P gain and the supply of a log that states them beside its columns, as BAM's do (`kp`, `vin`), or the usual ones.
+    pub(crate) fn of_log(mut self, scalars: &[Scalar]) -> Self {
+        let stated = |name: &str| {
+            let own = scalars.iter().find(|scalar| scalar.name == name);
+            own.map(|scalar| scalar.value).filter(|x| *x > 0.0)
+        };
+        if let Some(own) = &mut self.position_loop {
+            own.kp = own.kp.or_else(|| stated("kp")).or(Some(own.servo.kp));
+            let usual = || stated("vin").filter(|x| SUPPLIES.contains(x));
+            self.supply = self.supply.or_else(usual).or(Some(own.servo.supply));
+        }
+        self
+    }
+
     /// How the force follows from a column of this dimension.
     pub(crate) fn gain(&self, column: Dimension) -> Result<Gain, Error> {
         let volt = |supply: f64| {
@@ -88,9 +127,19 @@ impl Drive {
         if column == Dimension::CURRENT {
             return format!("force = current times {constant} {force}/A");
         }
-        let voltage = match self.supply.filter(|_| column == Dimension::ONE) {
-            Some(supply) => format!("{} V times the duty", short(supply)),
-            None => "voltage".into(),
+        let voltage = match (
+            self.supply.filter(|_| column == Dimension::ONE),
+            self.position_loop,
+        ) {
+            (Some(supply), None) => format!("{} V times the duty", short(supply)),
+            (Some(supply), Some(own)) => format!(
+                "{} V times the duty, {} times {}/rad times (reference - position) within +-{},",
+                short(supply),
+                short(own.kp.unwrap_or(own.servo.kp)),
+                short(own.error_gain),
+                short(own.duty_limit)
+            ),
+            (None, _) => "voltage".into(),
         };
         let resistance = self.resistance.map(short).unwrap_or_default();
         let emf = short(self.back_emf);
@@ -120,6 +169,7 @@ mod tests {
         resistance: Some(2.0),
         back_emf: 0.04,
         supply: Some(24.0),
+        position_loop: None,
     };
 
     #[test]

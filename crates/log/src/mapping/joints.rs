@@ -200,10 +200,8 @@ fn numbered(joints: &[&str], number: usize, family: &Family) -> Option<usize> {
 
 fn channel(table: &Table, column: usize) -> Channel {
     Channel {
-        column: Selector::Index(table.number(column)),
         unit: endings::unit_of(table, column),
-        scale: None,
-        invert: false,
+        ..Channel::index(table.number(column))
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! It names too many rather than too few: what is chosen among several columns may depend on their samples.
 
-use super::channel::{Role, Selector};
+use super::channel::{Role, Selector, Sign};
 use super::convert::of_role;
 use super::{Mapping, bases, choose, endings, names};
 use crate::{Table, Unit};
@@ -20,6 +20,9 @@ pub(super) fn by_mapping(mapping: &Mapping, heads: &Table) -> Vec<bool> {
     let named = Role::ALL.into_iter().filter_map(|r| mapping.channel(r));
     let mut selectors: Vec<&Selector> = named.map(|channel| &channel.column).collect();
     selectors.extend(mapping.enable.as_ref().map(|enable| &enable.column));
+    if let Some(Sign::Column(column)) = mapping.force.as_ref().and_then(|f| f.sign.as_ref()) {
+        selectors.push(column);
+    }
     let mut out = wanted(heads, &selectors, &open);
     // Time stamps of others than the rows of the log, which nothing else would show.
     if given(Role::Time) {

@@ -3,7 +3,9 @@
 
 use crate::mapping_common::{codes, column, noise, table, told, warnings};
 use proptest::prelude::*;
-use stiction_log::{Channel, Code, Column, Kind, Log, Mapping, Motion, Selector, Table, Wrap};
+use stiction_log::{
+    Channel, Code, Column, Kind, Log, Mapping, Motion, Selector, Sign, Table, Wrap,
+};
 
 /// An axis that follows two sines; force from mass, Coulomb and viscous friction, with noise.
 #[derive(Clone, Debug)]
@@ -275,19 +277,25 @@ fn any_channel() -> impl Strategy<Value = Option<Channel>> {
     ];
     let unit = prop::sample::select(vec!["s", "m", "rad", "N", "count", "degC", "m/s"]);
     let scale = prop::sample::select(vec!["1", "2 m/rad", "-3 N/A", "1e-300 um/count", "1e300"]);
+    let sign = prop_oneof![
+        Just(Sign::FollowingError),
+        selector.clone().prop_map(Sign::Column)
+    ];
     let channel = (
         selector,
         prop::option::of(unit),
         prop::option::of(scale),
         any::<bool>(),
+        prop::option::weighted(0.2, sign),
     );
     prop::option::weighted(
         0.3,
-        channel.prop_map(|(column, unit, scale, invert)| Channel {
+        channel.prop_map(|(column, unit, scale, invert, sign)| Channel {
             column,
             unit: unit.map(|u| u.parse().unwrap()),
             scale: scale.map(|s| s.parse().unwrap()),
             invert,
+            sign,
         }),
     )
 }

@@ -3,7 +3,10 @@
 use crate::mapping_common;
 use crate::mapping_common::{Axis, axis, codes, column, message, noise, table, told, warnings};
 use std::f64::consts::PI;
-use stiction_log::{Channel, Kind, Log, Mapping, Table, Unit, Value, Wrap};
+use stiction_log::mapping::{PositionLoop, servo};
+use stiction_log::{
+    Channel, Drive, Kind, Log, Mapping, Motion, Scalar, Selector, Sign, Table, Unit, Value, Wrap,
+};
 
 fn read(table: &Table) -> Log {
     let log = Log::from_table(table, &Mapping::default()).unwrap_or_else(|e| panic!("{e}"));
@@ -686,6 +689,148 @@ fn a_force_that_opposes_motion() {
     };
     let table = mapping_common::axis(4000).table();
     assert!(codes(&Log::from_table(&table, &mapping).unwrap()).contains(&"force-sign"));
+}
+
+/// A motion with a force whose magnitude alone is logged, and a reference ahead of the motion in the direction of the force.
+fn magnitude(count: usize) -> (Table, Vec<f64>) {
+    let mut table = axis(count).table();
+    let force = table.columns[3].values.clone();
+    let position = &table.columns[1].values;
+    let ahead: Vec<f64> = position
+        .iter()
+        .zip(&force)
+        .map(|(x, f)| x + 1e-3 * f)
+        .collect();
+    let signs = force.iter().map(|f| f.signum()).collect();
+    table.columns[3]
+        .values
+        .iter_mut()
+        .for_each(|f| *f = f.abs());
+    let unit = table.columns[1].unit.clone().unwrap();
+    table
+        .columns
+        .push(column(&format!("reference [{unit}]"), ahead));
+    table.columns.push(column("direction", signs));
+    (table, force)
+}
+
+#[test]
+fn a_magnitude_is_found_and_takes_its_sign_from_what_has_it() {
+    let (table, force) = magnitude(4000);
+    let mut bare = table.clone();
+    bare.columns.truncate(4);
+    let lines = [&table, &bare].map(|table| message(&read(table), "force-sign").to_string());
+    insta::assert_snapshot!(lines.join("\n"));
+    for sign in [
+        Sign::FollowingError,
+        Sign::Column(Selector::Name("direction".into())),
+    ] {
+        let own = Channel {
+            sign: Some(sign),
+            ..Channel::named("force")
+        };
+        let mapping = |force| Mapping {
+            force: Some(force),
+            ..Mapping::default()
+        };
+        let log = Log::from_table(&table, &mapping(own.clone())).unwrap();
+        assert_eq!(warnings(&log), [""; 0]);
+        assert_eq!(log.force.as_ref().unwrap(), &force);
+        let inverted = Log::from_table(&table, &mapping(own.inverted())).unwrap();
+        // The magnitude has no sign to invert.
+        assert_eq!(inverted.force.as_ref().unwrap(), &force);
+    }
+    let own = Channel {
+        sign: Some(Sign::FollowingError),
+        ..Channel::named("force")
+    };
+    let mapping = Mapping {
+        force: Some(own),
+        ..Mapping::default()
+    };
+    let refused = Log::from_table(&bare, &mapping).unwrap_err();
+    assert_eq!(refused.kind, Kind::Missing);
+    assert!(refused.to_string().contains("reference = "), "{refused}");
+}
+
+/// What weighs more than friction never pulls the other way, and is no magnitude.
+#[test]
+fn a_weight_beyond_friction_keeps_its_sign() {
+    for load in [1.2, 2.0, 20.0] {
+        let mut axis = axis(4000);
+        let most = axis.force.iter().fold(0.0_f64, |most, f| most.max(f.abs()));
+        axis.force.iter_mut().for_each(|f| *f += load * most);
+        let log = read(&axis.table());
+        assert!(
+            !codes(&log).contains(&"force-sign"),
+            "{load}: {}",
+            told(&log)
+        );
+    }
+}
+
+/// The duty of a P loop in closed form, with the gain and the supply of the file, and of the library without them.
+#[test]
+fn a_servo_makes_its_torque_of_command_and_position() {
+    let count = 400;
+    let time: Vec<f64> = (0..count).map(|i| f64::from(i) * 0.005).collect();
+    let position: Vec<f64> = time.iter().map(|t| (3.0 * t).sin()).collect();
+    let goal: Vec<f64> = position
+        .iter()
+        .enumerate()
+        .map(|(i, x)| x + 0.02 * (i as f64 - 200.0))
+        .collect();
+    let mut table = Table {
+        columns: vec![
+            column("timestamp", time),
+            column("position", position.clone()),
+            column("goal_position", goal.clone()),
+        ],
+        ..Table::default()
+    };
+    let own = servo("xl330").unwrap();
+    let drive = Drive {
+        motion: Motion::Rotary,
+        force_constant: own.torque_constant,
+        resistance: Some(own.resistance),
+        back_emf: 0.0,
+        supply: None,
+        position_loop: Some(PositionLoop {
+            kp: None,
+            error_gain: own.error_gain,
+            duty_limit: own.duty_limit,
+            servo: own,
+        }),
+    };
+    let mapping = Mapping {
+        motion: Some(Motion::Rotary),
+        drive: Some(drive),
+        ..Mapping::default()
+    };
+    // 4096 counts a turn, divided by 256 and by 885 for a duty of 1.
+    let gain = 4096.0 / (2.0 * PI) / 256.0 / 885.0;
+    let mut compared = |scalars: &[(&str, f64)], kp: f64, supply: f64| {
+        table.scalars = scalars
+            .iter()
+            .map(|(name, value)| Scalar {
+                name: (*name).into(),
+                value: *value,
+            })
+            .collect();
+        let log = Log::from_table(&table, &mapping).unwrap();
+        assert_eq!(log.force_unit, "N*m");
+        for (i, force) in log.force.as_ref().unwrap().iter().enumerate() {
+            let duty = (kp * gain * (goal[i] - position[i])).clamp(-1.0, 1.0);
+            let wanted = 0.3867 * supply * duty / 4.017;
+            assert!((force - wanted).abs() < 1e-12, "{i}: {force} {wanted}");
+        }
+    };
+    compared(&[("kp", 200.0), ("vin", 7.4)], 200.0, 7.4);
+    compared(&[("kp", 100.0), ("vin", 5.0)], 100.0, 5.0);
+    compared(&[], 400.0, 7.4);
+    table.columns.pop();
+    let refused = Log::from_table(&table, &mapping).unwrap_err();
+    assert!(refused.to_string().contains("reference = "), "{refused}");
 }
 
 #[test]

@@ -88,13 +88,13 @@ pub(super) fn log_warnings_but(
     out
 }
 
-/// Whether the force of a log does the work of one that brakes.
+/// Whether the force of a log does the work of one that brakes, or has lost its sign.
 pub(super) fn has_wrong_sign(source: &Source) -> bool {
     source.log.finds(brakes)
 }
 
 fn brakes(found: &Found) -> bool {
-    matches!(found, Found::ForceBrakes { .. })
+    matches!(found, Found::ForceBrakes { .. } | Found::Magnitude { .. })
 }
 
 /// What is said of a finding.

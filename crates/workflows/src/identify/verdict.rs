@@ -156,6 +156,10 @@ pub(super) fn of_records(facts: &Facts) -> Vec<Against> {
     let mut say = |reason: Reason, next: Action| all.push(Against::new(reason, next));
     if facts.found.mixed_signs.is_none() {
         of_axis_file(facts, &mut say);
+        if facts.found.force_sign.is_some() {
+            // All else follows from the sign.
+            return all;
+        }
     }
     if !matches!(facts.status, Status::Converged | Status::Interrupted) {
         let status = facts.status.name();

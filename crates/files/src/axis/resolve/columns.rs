@@ -7,7 +7,7 @@ use crate::error::Error;
 use std::path::Path;
 use stiction_log::mapping::SCALES;
 use stiction_log::{
-    Channel, Dimension, Elsewhere, Enable, Mapping, Offset, Role, Selector, Unit, Value,
+    Channel, Dimension, Elsewhere, Enable, Mapping, Offset, Role, Selector, Sign, Unit, Value,
 };
 
 /// The names under which the force may stand.
@@ -86,6 +86,13 @@ fn column(
         _ => table.get("file"),
     };
     let own = of_table(&table)?;
+    if let Some(sign) = table.find("sign").filter(|_| role != Role::Force) {
+        let found = format!("a sign of the {role}");
+        return Err(sign.refuse(
+            found,
+            "sign beside the force, where only its magnitude is logged",
+        ));
+    }
     let of_its_own = role != Role::Time && table.find("time").is_some();
     let Some(file) = file else {
         if of_its_own {
@@ -154,9 +161,7 @@ fn channel(given: &Given<'_>) -> Result<Channel, Error> {
                        invert, such as { column = \"qm\", unit = \"m\" }";
         return Ok(Channel {
             column: selector(given, allowed)?,
-            unit: None,
-            scale: None,
-            invert: false,
+            ..Channel::index(0)
         });
     };
     let channel = of_table(&table)?;
@@ -178,7 +183,17 @@ fn of_table(table: &Table<'_>) -> Result<Channel, Error> {
         unit: unit.transpose()?,
         scale: scale.transpose()?,
         invert: table.flag("invert")?.unwrap_or(false),
+        sign: table.get("sign").map(|given| sign(&given)).transpose()?,
     })
+}
+
+/// Where a magnitude has its sign from.
+fn sign(given: &Given<'_>) -> Result<Sign, Error> {
+    if given.as_text() == Some("following-error") {
+        return Ok(Sign::FollowingError);
+    }
+    let allowed = "\"following-error\", or a column whose sign the force has";
+    selector(given, allowed).map(Sign::Column)
 }
 
 /// A column that says in which rows the axis is enabled.

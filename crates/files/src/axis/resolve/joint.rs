@@ -1,6 +1,7 @@
 //! The axes of a robot file: what holds for all joints, and what a joint has of its own.
 
 use super::columns::{columns, roles};
+use super::drive::drive;
 use super::resolver::{FORCES, LENGTHS, Resolver};
 use super::text_options;
 use crate::axis::values::Axis;
@@ -82,6 +83,7 @@ impl Axis {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let mapping = &mut axis.mapping;
         axis.joined = roles(table, &ROLES, mapping, folder)?;
+        drive(table, mapping)?;
         let resolver = Resolver::default();
         let within = |key, dimensions: &[Dimension], range| {
             let given = table.get(key);

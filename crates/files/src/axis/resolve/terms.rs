@@ -29,13 +29,17 @@ impl Resolver {
             axis.terms.mass = Mass::Fitted;
         }
         axis.terms.delay = Delay::Fitted;
+        // A servo moves a link, which has a weight.
+        let drive = axis.mapping.drive;
+        axis.terms.gravity = drive.is_some_and(|drive| drive.position_loop.is_some());
+        axis.gravity_is_stated = axis.terms.gravity;
         let Some(table) = root.table("terms")? else {
             return Ok(());
         };
         axis.offset = table.flag("offset")?;
         let gravity = table.flag("gravity")?;
-        axis.gravity_is_stated = gravity.is_some();
-        axis.terms.gravity = gravity.unwrap_or(false);
+        axis.gravity_is_stated |= gravity.is_some();
+        axis.terms.gravity = gravity.unwrap_or(axis.terms.gravity);
         axis.terms.cogging = self.pitches(table.get("cogging"))?;
         axis.terms.quadratic_viscous = table.flag("quadratic_viscous")?.unwrap_or(false);
         axis.terms.dependences = self.dependences(&table)?;
