@@ -148,7 +148,15 @@ impl Robot {
         let given = self.joints.get(name).map(|joint| joint.axis.clone());
         let mut axis = given.unwrap_or_else(|| self.axis.joint(name));
         axis.mapping.motion = Some(motion);
+        let is_made = axis
+            .mapping
+            .drive
+            .is_some_and(|drive| drive.position_loop.is_some());
         for (role, channel) in found {
+            // A servo's own loop says more than the current that it states.
+            if *role == Role::Force && is_made {
+                continue;
+            }
             if axis.mapping.channel(*role).is_none() {
                 axis.mapping.set(*role, channel.clone());
             }

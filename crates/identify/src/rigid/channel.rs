@@ -43,5 +43,33 @@ pub fn torque_cutoff(machine: Machine, joints: &[RobotJoint], prior: &Prior) -> 
             }
         }
     }
-    (best.1 < robot::MAX_FILTERED_ERROR * none).then_some(best.0)
+    let is_better = best.1 < robot::MAX_FILTERED_ERROR * none;
+    (is_better && beyond(joints, 2.0 * best.0, rate)? < robot::MAX_BEYOND_FILTER).then_some(best.0)
+}
+
+/// Torque above a frequency, Hz, over the whole, its mean apart: rms, the geometric mean of the joints. A bristle smooths the friction
+/// of short strokes as a low-pass does, and leaves the rest of a torque as fast as it is.
+fn beyond(joints: &[RobotJoint], hertz: f64, rate: f64) -> Option<f64> {
+    let high = Sos::butterworth_high_pass(ORDER, hertz, rate).ok()?;
+    let of_joint = |joint: &RobotJoint| -> Option<f64> {
+        let [mut fast, mut whole] = [0.0; 2];
+        for segment in &joint.record.segments {
+            let drive = &segment.drive;
+            let mean = drive.iter().sum::<f64>() / drive.len() as f64;
+            let Ok(above) = high.zero_phase(drive) else {
+                continue;
+            };
+            fast += above.iter().map(|x| x * x).sum::<f64>();
+            whole += drive.iter().map(|x| (x - mean).powi(2)).sum::<f64>();
+        }
+        (fast > 0.0 && whole > 0.0).then(|| 0.5 * libm::log(fast / whole))
+    };
+    let logs: Vec<f64> = joints
+        .iter()
+        .filter(|own| own.counts)
+        .filter_map(of_joint)
+        .collect();
+    Some(libm::exp(
+        logs.iter().sum::<f64>() / logs.len().max(1) as f64,
+    ))
 }
