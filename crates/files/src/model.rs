@@ -9,7 +9,7 @@ mod refusal;
 mod supported;
 
 pub use dependences::Dependences;
-pub use form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
+pub use form::{BacklashEntry, ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 pub(crate) use read::BY_HAND;
 pub use read::ReadModel;
 pub use supported::Lowered;

@@ -4,6 +4,7 @@ use crate::result::{
     CovarianceEntry, ParameterEntry, PitchEntry, RangeEntry, RemainingEntry, ResultFile,
 };
 use serde::Serialize;
+use stiction_codes::Code;
 use stiction_parameters::{LawKind, Name, ParameterSet};
 
 /// Name of the schema.
@@ -34,6 +35,9 @@ pub struct ModelFile {
     /// Pitches of waves along the position.
     #[serde(skip_serializing_if = "PitchEntry::is_empty")]
     pub pitch: PitchEntry,
+    /// Gap between motor and load, where one is known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub backlash: Option<BacklashEntry>,
     /// Parameters of the law.
     pub parameter: Vec<ModelParameter>,
     /// Covariance of the identified parameters.
@@ -42,6 +46,37 @@ pub struct ModelFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remaining: Option<RemainingEntry>,
 }
+
+/// A gap between motor and load, with the encoder on the motor.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct BacklashEntry {
+    /// Lost motion, m or rad of the axis.
+    pub width: f64,
+    /// 95 % interval of the width; absent where somebody wrote the width.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ci95: Option<[f64; 2]>,
+    /// The load, as a part of the moving mass, 0 to 1; absent where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load: Option<f64>,
+}
+
+impl BacklashEntry {
+    /// The gap that a result names; `None` where none has a width with an interval.
+    fn of(result: &ResultFile) -> Option<Self> {
+        let found = result.effects.iter().find(|e| e.code == Code::Backlash)?;
+        let width = found.size("lost_motion")?;
+        let half = QUANTILE * 0.01 * found.std_percent? * width;
+        let entry = Self {
+            width,
+            ci95: Some([width - half, width + half]),
+            load: found.size("load").map(|percent| 0.01 * percent),
+        };
+        super::read::is_gap(&entry).then_some(entry)
+    }
+}
+
+/// Standard deviations to each side of a 95 % interval.
+const QUANTILE: f64 = 1.96;
 
 /// Where the numbers came from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -159,6 +194,7 @@ impl ModelFile {
             },
             range: result.range.clone(),
             pitch: result.pitch.clone(),
+            backlash: BacklashEntry::of(result),
             parameter: (result.parameters.iter())
                 .filter(|p| is_of_the_machine(&p.name))
                 .map(ModelParameter::from)

@@ -1,7 +1,7 @@
 //! A model file as text: every key asked for, and where each stands.
 
 use super::fault;
-use super::form::{ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
+use super::form::{BacklashEntry, ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 use crate::config::{ANY_COUNT, Form, Given, Places, Source, Table};
 use crate::error::Error;
 use crate::hash::sha256_of;
@@ -239,6 +239,11 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
         None => Ok(PitchEntry::default()),
     });
     let pitch = faults.take("pitch", pitch);
+    let backlash = root.table("backlash").and_then(|table| match table {
+        Some(table) => gap(&table).map(Some),
+        None => Ok(None),
+    });
+    let backlash = faults.take("backlash", backlash).flatten();
     let listed = list(root, "parameter", "tables [[parameter]]");
     let listed = faults.take("parameter", listed).unwrap_or_default();
     let parameter: Vec<_> = (listed.iter().enumerate())
@@ -261,6 +266,7 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
         source: source.unwrap_or_default(),
         range: range.unwrap_or_default(),
         pitch: pitch.unwrap_or_default(),
+        backlash,
         parameter,
         covariance: covariance.unwrap_or_default(),
         remaining,
@@ -441,6 +447,41 @@ fn pitches(table: &Table<'_>) -> Result<PitchEntry, Error> {
     };
     table.end()?;
     Ok(pitch)
+}
+
+/// A gap between motor and load.
+fn gap(table: &Table<'_>) -> Result<BacklashEntry, Error> {
+    let width = extent(table, "width")?;
+    let ci95 = table.get("ci95").map(|given| {
+        let ends = interval(&given)?;
+        match ends[0] <= width && width <= ends[1] {
+            true => Ok(ends),
+            false => Err(given.refuse(format!("{ends:?}"), "an interval around the width")),
+        }
+    });
+    let load = table.get("load").map(|given| {
+        let part = number(&given)?;
+        let allowed = "the load as a part of the moving mass, above 0 and below 1";
+        match part > 0.0 && part < 1.0 {
+            true => Ok(part),
+            false => Err(given.refused(allowed)),
+        }
+    });
+    let entry = BacklashEntry {
+        width,
+        ci95: ci95.transpose()?,
+        load: load.transpose()?,
+    };
+    table.end()?;
+    Ok(entry)
+}
+
+/// Whether a gap is such as is read.
+pub(super) fn is_gap(gap: &BacklashEntry) -> bool {
+    let around = |[low, high]: [f64; 2]| low <= gap.width && gap.width <= high;
+    EXTENTS.contains(&gap.width)
+        && gap.ci95.is_none_or(around)
+        && gap.load.is_none_or(|load| load > 0.0 && load < 1.0)
 }
 
 /// Most forces after a reversal that a law leaves.

@@ -447,3 +447,39 @@ fn a_torque_is_written_in_any_way() {
     let wrong = rotary.replace("force_unit = \"N\"", "force_unit = \"kg m\"");
     assert!(refusal(&wrong).contains("force_unit: \"kg m\"; \"N*m\""));
 }
+
+/// A gap is kept, of a hand-written model also without an interval; a model without one reads as before.
+#[test]
+fn a_gap_is_read() {
+    assert_eq!(ModelFile::parse(GOOD).unwrap().backlash, None);
+    let with =
+        |lines: &str| GOOD.replace("inputs = []", &format!("inputs = []\n[backlash]\n{lines}"));
+    let model =
+        ModelFile::parse(&with("width = 2e-5\nci95 = [1.8e-5, 2.2e-5]\nload = 0.3")).unwrap();
+    let gap = model.backlash.unwrap();
+    assert_eq!(
+        (gap.width, gap.ci95, gap.load),
+        (2e-5, Some([1.8e-5, 2.2e-5]), Some(0.3))
+    );
+    assert_eq!(ModelFile::parse(&model.to_toml()).unwrap(), model);
+    let measured = ModelFile::parse(&with("width = 2e-5"))
+        .unwrap()
+        .backlash
+        .unwrap();
+    assert_eq!((measured.ci95, measured.load), (None, None));
+    for (lines, place, allowed) in [
+        ("width = 0.0", "backlash.width", "1e-12"),
+        ("width = nan", "backlash.width", "1e-12"),
+        ("ci95 = [0.0, 1.0]", "backlash", "width"),
+        (
+            "width = 1.0\nci95 = [2.0, 3.0]",
+            "backlash.ci95",
+            "around the width",
+        ),
+        ("width = 1.0\nload = 1.0", "backlash.load", "below 1"),
+        ("width = 1.0\nplay = 1.0", "backlash.play", "play"),
+    ] {
+        let said = refusal(&with(lines));
+        assert!(said.contains(place) && said.contains(allowed), "{said}");
+    }
+}
