@@ -10,6 +10,7 @@ thresholds! {
     MAX_REPORTED: usize = 3, "1", "Most effects that are reported.", "choice";
     MIN_BRISTLE_LENGTHS: f64 = 50.0, "bristle lengths", "Stroke along which friction may be said to change.", "choice: on shorter ones friction itself goes with the position";
     MIN_SUSPECTED_GAP: f64 = 0.06, "1", "Part of the fitted samples' residual from which a gap is looked at closely.", "choice";
+    GAP_OVER_FOUND: std::ops::Range<f64> = 0.45..1.1, "1", "Free travel of a gap over the width found.", "simulated: 0.48 to 1.09 on 24 axes whose teeth are springs (2026-11-30)";
     MIN_DRIFT_TIME: f64 = 2.0, "s", "Shortest log over which friction may change with time.", "choice";
     MIN_LINEAR_PART: f64 = 0.8, "1", "Part of a change along the stroke from which a line describes it.", "choice";
     LIMIT_FACTORS: std::ops::Range<f64> = 0.8..1.2, "1", "Factors of what exceeds a force limit that make it one.", "choice: other laws leave only a part of a large force";

@@ -64,19 +64,14 @@ impl BacklashEntry {
     /// The gap that a result names; `None` where none has a width with an interval.
     fn of(result: &ResultFile) -> Option<Self> {
         let found = result.effects.iter().find(|e| e.code == Code::Backlash)?;
-        let width = found.size("lost_motion")?;
-        let half = QUANTILE * 0.01 * found.std_percent? * width;
         let entry = Self {
-            width,
-            ci95: Some([width - half, width + half]),
+            width: found.size("lost_motion")?,
+            ci95: Some(found.ci95?),
             load: found.size("load").map(|percent| 0.01 * percent),
         };
         super::read::is_gap(&entry).then_some(entry)
     }
 }
-
-/// Standard deviations to each side of a 95 % interval.
-const QUANTILE: f64 = 1.96;
 
 /// Where the numbers came from.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]

@@ -13,6 +13,9 @@ pub struct EffectEntry {
     /// Standard deviation of the first of `sizes`, percent; absent where it has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub std_percent: Option<f64>,
+    /// 95 % interval of the first of `sizes` where strokes alone do not tell it: of the width of a gap.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ci95: Option<[f64; 2]>,
     /// How large it is.
     pub sizes: Vec<SizeEntry>,
 }

@@ -22,6 +22,8 @@ const DRAG: f64 = 0.2;
 const DRAGS: [f64; 3] = [0.0, 0.1, 0.3];
 /// Widths beside the suspected one: steps of half an octave to each side.
 const STEPS: i32 = 3;
+/// Halvings of such a step, to 2 % of the width.
+const HALVINGS: i32 = 4;
 
 /// The gap that explains most, where one is suspected.
 pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
@@ -57,6 +59,20 @@ pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
         course.push((width, most));
     }
     let (width, part, own) = best.1?;
+    // Whether there is a gap is judged at the widths above; how wide it is, is looked for between them.
+    let finest = (1..=HALVINGS).fold((best.0, width), |at, k| {
+        let step = libm::pow(2.0, libm::pow(0.5, f64::from(k + 1)));
+        [at.1 / step, at.1 * step]
+            .into_iter()
+            .fold(at, |at, width| {
+                let own = beside.explained(&column(width, part));
+                let fits = effect::LOAD_SHARE.contains(&(own.coefficient / mass));
+                match fits && own.share > at.0 {
+                    true => (own.share, width),
+                    false => at,
+                }
+            })
+    });
     let small = 0.1;
     let [low, high] = [1.0 - small, 1.0 + small].map(|f| column(f * width, part));
     let slope = high.iter().zip(&low).map(|(h, l)| (h - l) / (2.0 * small));
@@ -65,7 +81,10 @@ pub(super) fn candidate(fitted: &Fitted, beside: &Beside) -> Option<Candidate> {
         let load = c[0] / mass;
         effect::LOAD_SHARE
             .contains(&load)
-            .then_some(Effect::Backlash { width, load })
+            .then_some(Effect::Backlash {
+                width: finest.1,
+                load,
+            })
     });
     (candidate.course, candidate.slope) = (course, Some(slope));
     Some(candidate)

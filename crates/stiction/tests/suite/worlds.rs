@@ -858,3 +858,30 @@ fn a_spring_is_named_and_its_line_describes_it() {
         assert!(enough && left.is_none(), "{axis}: {line} {after}");
     }
 }
+
+/// The gap that a log shows is in the model with its interval, and read back from its file; a log of an axis without one gives none.
+#[test]
+fn a_gap_is_kept_in_the_model() {
+    for (axis, motion, world) in [
+        ("joint", Motion::Commissioning, World::Backlash),
+        ("joint", Motion::Commissioning, World::Faithful),
+        ("stage", Motion::Trapezoid, World::Backlash),
+        // Of springs as teeth: found twice as wide.
+        ("screw", Motion::Trapezoid, World::Backlash),
+    ] {
+        let mut machines = Machine::all(SEED).into_iter();
+        let machine = machines.find(|(name, _)| *name == axis).unwrap().1;
+        let log = record(&machine, motion, world, SEED);
+        let fit = identified(&machine, &[log], &Axis::default(), &Options::default()).unwrap();
+        let model = stiction::ModelFile::from_result(fit.result());
+        assert_eq!(stiction::ModelFile::parse(&model.to_toml()).unwrap(), model);
+        let Some(truth) = world.coupling(&machine) else {
+            assert_eq!(model.backlash, None);
+            continue;
+        };
+        let gap = model.backlash.unwrap();
+        let [low, high] = gap.ci95.unwrap();
+        assert!(0.0 < low && low < gap.width && gap.width < high);
+        assert!((low..high).contains(&truth), "{truth:.3e}: {gap:?}");
+    }
+}

@@ -2,6 +2,7 @@
 
 use super::{pitch, settling};
 use crate::source::Source;
+use std::ops::Range;
 use stiction_codes::Code;
 use stiction_files::result::{Action, CauseEntry, EffectEntry, LawEntry, SizeEntry};
 use stiction_files::{Warning, symbols};
@@ -31,10 +32,22 @@ pub(super) fn entries(
             code: what(&found.effect).code(),
             explains_percent: 100.0 * found.explains,
             std_percent: known.then_some(deviation),
+            ci95: gap(found),
             sizes,
         }
     };
     shown(law, laws).map(entry).collect()
+}
+
+/// The interval of the width of a gap, of which strokes tell the lesser part: teeth that give way and loads that bounce make it look wider.
+fn gap(found: &Found) -> Option<[f64; 2]> {
+    let Effect::Backlash { width, .. } = found.effect else {
+        return None;
+    };
+    let about = QUANTILE * found.deviation;
+    let Range { start, end } = effect::GAP_OVER_FOUND;
+    let ends = [start * (1.0 - about) * width, end * (1.0 + about) * width];
+    (about < 1.0).then_some(ends)
 }
 
 /// How large an effect is, the size that has a deviation first.
