@@ -812,6 +812,10 @@ pub enum Target {
     Tf5200,
     /// Numbers for the friction compensation that drives have built in.
     DriveTable,
+    /// Cogging as maps of the force, of which ODrive and moteus hold one.
+    CoggingMap,
+    /// Backlash as a correction of the position, for LinuxCNC and TwinCAT.
+    Backlash,
 }
 
 #[cfg(feature = "studio")]

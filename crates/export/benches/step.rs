@@ -118,6 +118,7 @@ fn build(dir: &Path, name: &str, motion: &str, suffix: &str) {
         friction: law(name),
         terms: stiction_friction::compensator::Terms::default(),
         load_unit: String::new(),
+        backlash: None,
         settings: Settings::new(H, 100.0),
         rated_force: None,
         top_speed: None,

@@ -2,7 +2,8 @@
 
 use crate::number::short;
 use crate::{
-    Error, Model, Target, check_identifier, drive_table, hal, joint, mujoco, terms, tf5200,
+    Error, Model, Target, backlash, check_identifier, cogging_map, drive_table, hal, joint, mujoco,
+    terms, tf5200,
 };
 use stiction_codes::Code;
 use stiction_friction::{Damping, LuGre};
@@ -41,7 +42,8 @@ pub(crate) fn check(model: &Model, number_type: &'static str) -> Result<(), Erro
 /// Advice on this model in a target at its cycle time.
 pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
     let mut found = Vec::new();
-    let steady = matches!(target, Target::Tf5200 | Target::DriveTable) || target.is_joint();
+    let table = matches!(target, Target::Tf5200 | Target::DriveTable);
+    let steady = table || target.is_map() || target.is_joint();
     if !steady && target != Target::Modelica {
         let bristle = model.friction.bristle();
         found.extend(bristle.and_then(|law| released(model, law, target)));
@@ -52,11 +54,14 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
         Target::Mujoco => {
             found.extend(mujoco::simplified(model));
             found.extend(shaking(model));
+            found.extend(crossing(model));
         }
         // A solver chooses its steps, and the micro-damping is limited.
         Target::Modelica => {}
         target if target.is_joint() => found.push(joint::simplified(model)),
         Target::DriveTable => found.extend(drive_table::simplified(model)),
+        Target::CoggingMap => found.extend(cogging_map::simplified(model)),
+        Target::Backlash => found.extend(backlash::uncertain(model)),
         Target::Tf5200 => {
             // The table ends at its last speed.
             if tf5200::largest_force(model) > model.settings.limit {
@@ -283,9 +288,10 @@ fn unresolved(model: &Model, length: f64, target: Target) -> Option<Advice> {
 
 /// A joint in MuJoCo that sticks would not come to rest with the time step that was asked for.
 fn shaking(model: &Model) -> Option<Advice> {
-    let law = mujoco::bristle(&model.friction)?;
-    let (asked, longest) = (model.settings.cycle_time, mujoco::longest_step(&law));
-    let written = mujoco::time_step(&law, asked);
+    let asked = model.settings.cycle_time;
+    let mujoco::Steps {
+        longest, written, ..
+    } = mujoco::steps(model)?;
     let outcome = if written < asked {
         format!("the file has a timestep of {written} s in place of {asked} s")
     } else {
@@ -300,6 +306,20 @@ fn shaking(model: &Model) -> Option<Advice> {
             "with a timestep of {} s or more a joint that sticks shakes and does not come to rest, since MuJoCo takes the force \
              of the beginning of a step: {outcome}; a longer one needs a larger sigma1 or a smaller sigma0",
             short(longest)
+        ),
+    })
+}
+
+/// A gap in MuJoCo would be crossed within too few of the time steps that were asked for.
+fn crossing(model: &Model) -> Option<Advice> {
+    let steps = mujoco::steps(model)?;
+    let most = steps.of_gap?;
+    (most < model.settings.cycle_time.min(steps.longest)).then(|| Advice {
+        code: Code::ExportCycleTime,
+        message: format!(
+            "the gap between motor and load needs a timestep of at most {} s: the file has {} s",
+            short(two_digits(most)),
+            steps.written
         ),
     })
 }

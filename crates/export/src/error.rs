@@ -90,6 +90,14 @@ pub enum Error {
         /// Unit that the target takes.
         allowed: &'static str,
     },
+    /// A target that writes what the model does not have.
+    #[error("target {target}: {reason}")]
+    Missing {
+        /// The target.
+        target: &'static str,
+        /// What is missing, and what brings it in.
+        reason: &'static str,
+    },
     /// A target that takes one joint only.
     #[error(
         "target {target} takes no robot; allowed: {}; or export the model.toml of a joint by itself",

@@ -21,6 +21,7 @@
 //!     friction: Friction::LuGre(law),
 //!     terms: Default::default(),
 //!     load_unit: String::new(),
+//!     backlash: None,
 //!     settings: Settings::new(1e-3, 40.0), // 1 kHz, at most 40 N
 //!     rated_force: None,
 //!     top_speed: None,
@@ -33,8 +34,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod backlash;
 mod c;
 mod check;
+mod cogging_map;
 mod cpp;
 mod drive_table;
 mod error;
@@ -46,6 +49,7 @@ mod identifier;
 mod joint;
 mod largest;
 mod law;
+mod map;
 mod matlab;
 mod model;
 mod modelica;
@@ -67,7 +71,7 @@ pub use error::Error;
 pub use fmu::{Platform, fmu};
 pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier, is_whole};
 pub use joint::nearest_line;
-pub use model::{Model, Parameter, Provenance};
+pub use model::{Backlash, Model, Parameter, Provenance};
 pub use robot::{Load, Robot, RobotJoint, export_robot, joint_identifiers};
 pub use target::{File, Target, export};
 pub use tf5200::largest_force as largest_force_in_table;

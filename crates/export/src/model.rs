@@ -29,6 +29,8 @@ pub struct Model {
     pub terms: Terms<f64>,
     /// Unit of the load, where friction depends on it.
     pub load_unit: String,
+    /// Gap between motor and load, if there is one.
+    pub backlash: Option<Backlash>,
     /// Settings of the compensator.
     pub settings: Settings<f64>,
     /// Force that the motor is rated for, in the unit of the force; needed by targets that write per mille of it.
@@ -41,6 +43,19 @@ pub struct Model {
     pub notes: Vec<String>,
     /// Where the numbers came from.
     pub provenance: Provenance,
+}
+
+/// A gap between motor and load, with the encoder on the motor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Backlash {
+    /// Lost motion, m (rad) of the axis, above 0.
+    pub width: f64,
+    /// 95 % interval of the width; `None` where it was measured otherwise.
+    pub interval: Option<[f64; 2]>,
+    /// The load, as a part of the moving mass, above 0 and below 1, if known.
+    pub load: Option<f64>,
+    /// Positions that the log has seen, m (rad), if known.
+    pub range: Option<[f64; 2]>,
 }
 
 /// A parameter as identified.

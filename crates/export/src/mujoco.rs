@@ -34,7 +34,9 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .map_err(|e| Error::number("double", e))?;
     let vectors = Vectors::<f64>::new(model, "double")?;
     let name = &model.identifier;
-    let step = time_step(&lugre, model.settings.cycle_time);
+    let (motor, load) = masses(model);
+    let steps = Steps::of(model, &lugre);
+    let step = steps.written;
     let mut fill = Fill::default();
     fill.set("name", name.clone())
         .set("v_unit", model.speed_unit())
@@ -49,9 +51,16 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .set("rows", rows(&lugre, &vectors, step))
         .set("force_tolerance", (TOLERANCE * vectors.scale(model)).c())
         .set("deflection_tolerance", (TOLERANCE * lugre.bound()).c());
+    let width = model.backlash.map_or(0.0, |gap| gap.width);
     fill.set("timestep", step.c())
-        .set("longest", short(longest_step(&lugre)).c())
-        .set("mass", MASS.to_string());
+        .set("longest", short(steps.longest).c())
+        .set("mass", motor.to_string())
+        .flag("gap", model.backlash.is_some())
+        .set("load", load.to_string())
+        .set("gap_width", width.c())
+        .set("half_gap", (0.5 * width).c())
+        .set("stop_time", (2.0 * step).c())
+        .set("stop_width", (STOP * width).c());
     law::fill(&mut fill, &Friction::LuGre(lugre), f64::c);
     let words = spaced(&header::comment(model, ""));
     let xml = fill.clone().set("header", words).render(MODEL);
@@ -76,34 +85,76 @@ pub(crate) fn spaced(text: &str) -> String {
 
 /// The mass in the file, kg (kg m^2).
 const MASS: f64 = 1.0;
+/// The load where only its gap is known, as a part of the mass.
+const LOAD: f64 = 0.5;
+/// Longest time step as a part of the time in which the motor crosses the gap, driven by as much as its Coulomb friction. A stop takes two
+/// steps to catch the load, which goes into it by a few percent of the gap meanwhile.
+const CROSSING: f64 = 0.025;
+/// Depth at which a stop of a gap is as hard as it gets, as a part of the gap.
+const STOP: f64 = 0.01;
 
-/// The time step that is written, s: that which was asked for, or the longest at which the joint comes to rest, to two
-/// digits, if there is one that is allowed.
-pub(crate) fn time_step(law: &LuGre<f64>, asked: f64) -> f64 {
-    let most = short(two_digits(longest_step(law)));
-    if most < CYCLE_TIMES.0 {
-        asked
-    } else {
-        asked.min(most)
+/// The masses of the motor, and of the load behind a gap; 0 without one.
+fn masses(model: &Model) -> (f64, f64) {
+    let load = model.backlash.map_or(0.0, |gap| gap.load.unwrap_or(LOAD));
+    // As a person would write them.
+    let load = short(MASS * load);
+    (short(MASS - load), load)
+}
+
+/// Time steps, s.
+pub(crate) struct Steps {
+    /// From this one on a joint that sticks does not come to rest.
+    pub longest: f64,
+    /// The longest that resolves the gap, where there is one.
+    pub of_gap: Option<f64>,
+    /// That which is written: the one that was asked for, or less if there is one that is allowed, to two digits.
+    pub written: f64,
+}
+
+impl Steps {
+    fn of(model: &Model, law: &LuGre<f64>) -> Self {
+        let (motor, _) = masses(model);
+        let longest = longest_step(law, motor);
+        let of_gap = model.backlash.map(|gap| {
+            let acceleration = law.curve().positive().coulomb / motor;
+            CROSSING * libm::sqrt(2.0 * gap.width / acceleration)
+        });
+        let mut written = model.settings.cycle_time;
+        for most in [Some(longest), of_gap].into_iter().flatten() {
+            let most = short(two_digits(most));
+            if most >= CYCLE_TIMES.0 {
+                written = written.min(most);
+            }
+        }
+        Self {
+            longest,
+            of_gap,
+            written,
+        }
     }
 }
 
-/// The longest time step, s, at which a joint that sticks comes to rest.
+/// Time steps of a model; `None` for a law without bristles.
+pub(crate) fn steps(model: &Model) -> Option<Steps> {
+    Some(Steps::of(model, &bristle(&model.friction)?))
+}
+
+/// The longest time step, s, at which a joint with a mass, kg (kg m^2), that sticks comes to rest.
 ///
 /// Stuck, the bristles are a spring. MuJoCo takes deflection and velocity at the beginning of a step of h for both, and
 /// the joint's damping implicitly: `z+ = z + h v`, `(m + h sigma2) v+ = m v - h (sigma0 z + sigma1 v)`. By Jury's criterion that decays for
 /// `h sigma0 < sigma1 + sigma2` and `sigma0 h^2 - 2 (sigma1 - sigma2) h + 4 m > 0`.
-pub(crate) fn longest_step(law: &LuGre<f64>) -> f64 {
+fn longest_step(law: &LuGre<f64>, mass: f64) -> f64 {
     let (stiffness, damping) = (law.stiffness(), law.damping().at_rest());
     let viscous = law.curve().positive().viscous;
     let spring = (damping + viscous) / stiffness;
     let excess = damping - viscous;
-    let root = excess * excess - 4.0 * MASS * stiffness;
+    let root = excess * excess - 4.0 * mass * stiffness;
     if excess <= 0.0 || root < 0.0 {
         return spring;
     }
     // The lesser root, without the difference of nearly equal numbers.
-    spring.min(4.0 * MASS / (excess + libm::sqrt(root)))
+    spring.min(4.0 * mass / (excess + libm::sqrt(root)))
 }
 
 /// The bristle of a law, as MuJoCo has one: of Maxwell-slip elements one as stiff as they are while all stick.

@@ -1,8 +1,8 @@
 //! The targets and the files of each.
 
 use crate::{
-    Error, Model, c, check, cpp, drive_table, fmu, hal, joint, matlab, modelica, mujoco, ros2,
-    rust, st, tf5200,
+    Error, Model, backlash, c, check, cogging_map, cpp, drive_table, fmu, hal, joint, matlab,
+    modelica, mujoco, ros2, rust, st, tf5200,
 };
 
 /// A form in which the compensator is exported.
@@ -43,6 +43,10 @@ pub enum Target {
     Tf5200,
     /// Numbers for the friction compensation that drives have built in.
     DriveTable,
+    /// Cogging as maps of the force, of which some motor drivers hold one.
+    CoggingMap,
+    /// Backlash as a correction of the position, for LinuxCNC and TwinCAT.
+    Backlash,
 }
 
 /// A file of an export.
@@ -65,7 +69,7 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 17] = [
+    pub const ALL: [Target; 19] = [
         Target::C,
         Target::Cpp,
         Target::Ros2,
@@ -83,6 +87,8 @@ impl Target {
         Target::Matlab,
         Target::Tf5200,
         Target::DriveTable,
+        Target::CoggingMap,
+        Target::Backlash,
     ];
 
     /// Name as typed.
@@ -105,6 +111,8 @@ impl Target {
             Target::Matlab => "matlab",
             Target::Tf5200 => "tf5200",
             Target::DriveTable => "drive-table",
+            Target::CoggingMap => "cogging-map",
+            Target::Backlash => "backlash",
         }
     }
 
@@ -116,6 +124,11 @@ impl Target {
     /// Whether it is the friction of a simulated joint: the whole friction, without gain, limit and watchdog.
     pub fn is_simulated(self) -> bool {
         matches!(self, Target::Mujoco | Target::Modelica) || self.is_joint()
+    }
+
+    /// Whether it is a map along the position of what stands beside friction, without friction itself.
+    pub fn is_map(self) -> bool {
+        matches!(self, Target::CoggingMap | Target::Backlash)
     }
 
     /// The name of its number type with the smallest range.
@@ -134,7 +147,9 @@ impl Target {
             | Target::Fmu
             | Target::Matlab
             | Target::Tf5200
-            | Target::DriveTable => "double",
+            | Target::DriveTable
+            | Target::CoggingMap
+            | Target::Backlash => "double",
         }
     }
 }
@@ -163,5 +178,7 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::Matlab => matlab::files(model),
         Target::Tf5200 => tf5200::files(model),
         Target::DriveTable => drive_table::files(model),
+        Target::CoggingMap => cogging_map::files(model),
+        Target::Backlash => backlash::files(model),
     }
 }

@@ -65,6 +65,14 @@ pub enum Error {
         /// What of it there is.
         instead: Vec<&'static str>,
     },
+    /// What a map is to show is not in the model.
+    #[error("target {target}: {reason}")]
+    NoMap {
+        /// The target.
+        target: &'static str,
+        /// What is missing, and what brings it in.
+        reason: String,
+    },
     /// A URDF was refused.
     #[error("{}: {source}", .file.display())]
     Urdf {
@@ -116,9 +124,10 @@ impl Error {
                 | Fit::Time { .. } => Code::BadRecord,
             },
             Error::Checkpoint { .. } => Code::BadCheckpoint,
-            Error::Export(_) | Error::ExportModel { .. } | Error::NotFed { .. } => {
-                Code::NotExported
-            }
+            Error::Export(_)
+            | Error::ExportModel { .. }
+            | Error::NotFed { .. }
+            | Error::NoMap { .. } => Code::NotExported,
             Error::Urdf { .. } => Code::BadUrdf,
             Error::Usage { .. } | Error::SameLog { .. } => Code::Usage,
         }

@@ -13,7 +13,7 @@ mod wrapped;
 use crate::compile;
 use crate::error::Error;
 use std::path::Path;
-use stiction_export::{Model, Parameter, Provenance};
+use stiction_export::{Backlash, Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
 use stiction_files::model::ReadModel;
@@ -23,7 +23,7 @@ use stiction_friction::compensator::{Adaptation, Compensator};
 use stiction_say::Notice;
 
 use asked::within;
-use doubts::{another_rate, doubts, less};
+use doubts::{another_rate, doubts, less, untrusted};
 use law::{Unfit, bent, friction, quadratic};
 use settings::{asked, settings_of_law};
 
@@ -43,18 +43,19 @@ pub struct ExportOptions {
     /// Time between two calls, s.
     pub cycle_time: f64,
     /// Largest force, in the unit of the model's. If absent: twice the sum of static friction and offset, or for a
-    /// table the largest force that it can hold. Not for a simulated joint ([`Target::is_simulated`]) or `drive-table`.
+    /// table the largest force that it can hold. Not for a simulated joint ([`Target::is_simulated`]), `drive-table`
+    /// or a map ([`Target::is_map`]).
     pub limit: Option<f64>,
     /// Force that the motor is rated for, in the unit of the model's; for `tf5200`, and for no other target.
     pub rated_force: Option<f64>,
-    /// Share of the friction that is compensated, 0 to 1; 0.75 if absent. Not for a simulated joint or `drive-table`.
+    /// Share of the friction that is compensated, 0 to 1; 0.75 if absent. Not for a simulated joint, `drive-table` or a map.
     pub gain: Option<f64>,
-    /// Settings of the compensator; not for simulated joints, `tf5200` and `drive-table`, which have none of them.
+    /// Settings of the compensator; not for simulated joints, maps, `tf5200` and `drive-table`, which have none of them.
     pub safety: Safety,
     /// Levels that follow the machine while it runs ([`Adaptation`]), from the force of the drive; not for
-    /// simulated joints, `tf5200` and `drive-table`.
+    /// simulated joints, maps, `tf5200` and `drive-table`.
     pub adapt: bool,
-    /// What is fed forward beside friction, of what the model has; not for simulated joints, `tf5200` and `drive-table`.
+    /// What is fed forward beside friction, of what the model has; not for simulated joints, maps, `tf5200` and `drive-table`.
     pub feedforward: Feedforward,
 }
 
@@ -266,9 +267,11 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         None => stiction_export::identifier(&title),
     };
     let table = options.target.is_simulated()
+        || options.target.is_map()
         || matches!(options.target, Target::Tf5200 | Target::DriveTable);
     let of_law = settings_of_law(&friction, file, &lowered);
     let (friction, terms, beside) = match table {
+        _ if options.target == Target::CoggingMap => (friction, terms::of_cogging(file)?, None),
         true => (friction, bent(file, &friction, options.target), None),
         false => {
             let beside = terms::beside(read, friction, options.feedforward)?;
@@ -297,7 +300,10 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
     if table && terms.levels.is_some() {
         taken.extend(quadratic(file));
     }
-    let mut warnings = doubts(file, beside.as_ref(), &taken);
+    let mut warnings = match options.target.is_map() {
+        true => untrusted(file).into_iter().collect(),
+        false => doubts(file, beside.as_ref(), &taken),
+    };
     warnings.extend(beside.as_ref().and_then(|b| wrapped::doubt(file, b)));
     warnings.extend(
         (!table)
@@ -318,7 +324,9 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
             options.feedforward,
         ));
     }
-    warnings.extend(less(&lowered, options.limit.is_none()));
+    if !options.target.is_map() {
+        warnings.extend(less(&lowered, options.limit.is_none()));
+    }
     if options.name.is_none() && !stiction_export::is_whole(&title) {
         let short = Notice::ShortName {
             identifier: identifier.clone(),
@@ -338,6 +346,12 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
             .iter()
             .find(|p| p.name == "load_reference")
             .map_or(String::new(), |p| p.unit.replace('*', " ")),
+        backlash: file.backlash.map(|gap| Backlash {
+            width: gap.width,
+            interval: gap.ci95,
+            load: gap.load,
+            range: file.range.position,
+        }),
         settings,
         rated_force: options.rated_force,
         top_speed: file.top_speed(),
@@ -352,6 +366,14 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
                 identifiable: p.identifiable,
                 given: p.origin == "given",
             })
+            .chain(file.backlash.map(|gap| Parameter {
+                name: "backlash".into(),
+                value: gap.width,
+                unit: terms::length_unit(file).into(),
+                interval: gap.ci95,
+                identifiable: true,
+                given: gap.ci95.is_none(),
+            }))
             .collect(),
         notes: vec![],
         provenance: Provenance {

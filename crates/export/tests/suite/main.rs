@@ -1,6 +1,8 @@
 //! The integration tests of `stiction-export` in one program, which is linked once: a new file is a module here.
 
+mod backlash;
 mod c;
+mod cogging_map;
 mod common;
 mod cpp;
 mod drive_table;

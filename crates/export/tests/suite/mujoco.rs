@@ -161,3 +161,65 @@ fn the_example_runs() {
     let said = python(&example.to_string_lossy(), &["."], dir.path());
     assert_eq!(said, "15 N: holds\n20 N: moves\n");
 }
+
+/// The motor is led to and fro by far more than the gap, while the load is dragged: by how much the load is at other places on the way
+/// back than on the way to. Then the motor is driven through stick and slip, and the load is left alone: how far it goes to each side.
+const GAP: &str = r#"
+import math, mujoco
+model = mujoco.MjModel.from_xml_path("x_axis_friction.xml")
+data = mujoco.MjData(model)
+h = model.opt.timestep
+places = [[], []]
+for k in range(int(1.5 / h)):
+    at, v = (2e-3 * f for f in (math.sin(4 * math.pi * k * h), 4 * math.pi * math.cos(4 * math.pi * k * h)))
+    data.ctrl[2] = 1e5 * (at - data.qpos[0]) + 500.0 * (v - data.qvel[0])
+    # Dragged with 10 N s/m.
+    data.qfrc_applied[:] = -10.0 * (data.qvel[0] + data.qvel[1])
+    mujoco.mj_step(model, data)
+    if k * h > 0.5 and abs(data.qpos[0]) < 5e-4:
+        places[int(data.qvel[0] < 0)].append(float(data.qpos[1]))
+to, back = (sum(own) / len(own) for own in places)
+print(repr(back - to))
+mujoco.mj_resetData(model, data)
+seen = []
+for k in range(int(1.0 / h)):
+    data.ctrl[2] = 25.0 * math.sin(4 * math.pi * k * h)
+    mujoco.mj_step(model, data)
+    seen.append(float(data.qpos[1]))
+print(repr(min(seen)), repr(max(seen)))
+print(model.nv, float(model.body_mass[1]), float(model.body_mass[2]))
+"#;
+
+/// The lost motion in MuJoCo is the width of the gap, and the friction of the motor is as without it.
+#[test]
+fn a_gap_is_lost_motion() {
+    for rotary in [false, true] {
+        let dir = tempfile::tempdir().unwrap();
+        let mut model = model(laws().remove(0).1);
+        (model.rotary, model.force_unit) = (rotary, if rotary { "N m" } else { "N" }.into());
+        let model = crate::common::terms::with_cogging_and_gap(model);
+        for file in export(&model, Target::Mujoco).unwrap() {
+            std::fs::write(dir.path().join(&file.path), &file.bytes).unwrap();
+        }
+        assert!(python("x_axis_selftest.py", &[], dir.path()).starts_with("ok 183 steps"));
+        std::fs::write(dir.path().join("gap.py"), GAP).unwrap();
+        let said = python("gap.py", &[], dir.path());
+        println!("{said}");
+        let numbers: Vec<f64> = (said.split_whitespace())
+            .map(|x| x.parse().unwrap())
+            .collect();
+        assert!((numbers[0] / 2e-5 - 1.0).abs() < 1e-3, "{said}");
+        assert!((numbers[1] / -1e-5 - 1.0).abs() < 0.05, "{said}");
+        assert!((numbers[2] / 1e-5 - 1.0).abs() < 0.05, "{said}");
+        assert_eq!(numbers[3..], [2.0, 0.7, 0.3]);
+    }
+}
+
+#[test]
+fn a_gap_shortens_the_time_step() {
+    let model = crate::common::terms::with_cogging_and_gap(model(laws().remove(0).1));
+    // A fortieth of the time in which 12 N take 0.7 kg over 20 um.
+    let advice = stiction_export::advice(&model, Target::Mujoco);
+    let says = "the gap between motor and load needs a timestep of at most 0.000038 s: the file has 0.000038 s";
+    assert!(advice.iter().any(|a| a.message == says), "{advice:?}");
+}

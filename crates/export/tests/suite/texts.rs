@@ -65,6 +65,14 @@ fn texts() {
     }
 }
 
+/// The model, with what a map of it shows.
+fn wanted(model: &Model, target: Target) -> Model {
+    match target.is_map() {
+        true => common::terms::with_cogging_and_gap(model.clone()),
+        false => model.clone(),
+    }
+}
+
 /// Whether a file is one of the law itself, the same for every model.
 fn is_the_law(path: &str) -> bool {
     path.starts_with("stiction-friction/")
@@ -77,7 +85,7 @@ fn every_file_says_where_it_came_from() {
     model.title = "größe */ *) --> ]]> @name@ %if".into();
     model.notes = vec!["the data do not determine sigma1".into()];
     for target in Target::ALL {
-        let files = export(&model, target).unwrap();
+        let files = export(&wanted(&model, target), target).unwrap();
         let (archives, mut files): (Vec<_>, Vec<_>) =
             files.into_iter().partition(|f| f.path.ends_with(".fmu"));
         files.extend(archives.iter().flat_map(common::parts));
@@ -310,7 +318,7 @@ fn a_current_is_no_force() {
                 assert!(export(&model, target).is_err());
                 continue;
             }
-            let files = export(&model, target).unwrap();
+            let files = export(&wanted(&model, target), target).unwrap();
             let (archives, mut files): (Vec<_>, Vec<_>) =
                 files.into_iter().partition(|f| f.path.ends_with(".fmu"));
             files.extend(archives.iter().flat_map(common::parts));

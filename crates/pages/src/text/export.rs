@@ -22,6 +22,8 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
         "modelica" => "as friction between two flanges".into(),
         "tf5200" => format!("with {most}"),
         "drive-table" => "as numbers of drives".into(),
+        "cogging-map" => "for its cogging alone".into(),
+        "backlash" => "for its backlash alone".into(),
         _ => format!("for a cycle of {} s, {most}", exported.cycle_time),
     };
     let named = match exported.named_after_log {

@@ -32,6 +32,16 @@ fn text(law: &str, parameters: &[(&str, f64, &str)]) -> String {
     out + "\n[covariance]\nnames = []\nmatrix = []\n"
 }
 
+/// The same axis with a gap and cogging of 24 mm.
+fn with_gap_and_cogging() -> String {
+    let waves = [("cogging1_sin", 1.5, "N"), ("cogging1_cos", -0.5, "N")];
+    let all: Vec<_> = LUGRE.into_iter().chain(waves).collect();
+    text("lugre", &all).replace(
+        "\n[covariance]",
+        "\n[range]\nposition = [0.0, 0.4]\n\n[pitch]\ncogging = [0.024]\n\n[backlash]\nwidth = 2e-5\nci95 = [1.8e-5, 2.2e-5]\n\n[covariance]",
+    )
+}
+
 struct Bench(tempfile::TempDir);
 
 impl Bench {
@@ -78,8 +88,12 @@ fn contents(dir: &Path) -> Vec<(String, Vec<u8>)> {
 
 #[test]
 fn the_same_model_gives_the_same_bytes() {
-    let model = text("lugre", &LUGRE);
+    let plain = text("lugre", &LUGRE);
     for target in Target::ALL {
+        let model = match target.is_map() {
+            true => with_gap_and_cogging(),
+            false => plain.clone(),
+        };
         let (a, b) = (Bench::new(), Bench::new());
         for bench in [&a, &b] {
             let mut options = bench.options(&model);
@@ -90,6 +104,9 @@ fn the_same_model_gives_the_same_bytes() {
             let (codes, limit): (&[&str], f64) = match target {
                 Target::Mujoco | Target::Modelica => (&[], 60.0),
                 Target::Tf5200 => (&[], 80.0),
+                Target::Backlash => (&[], 60.0),
+                // Of a linear axis there is no map over a turn.
+                Target::CoggingMap => (&["export-simplified"], 60.0),
                 target if target == Target::DriveTable || target.is_simulated() => {
                     (&["export-simplified"], 60.0)
                 }
@@ -1028,4 +1045,81 @@ fn another_cycle_than_that_of_the_log_is_said() {
         assert!(!warned(&at(rate), Target::Mujoco, cycle));
     }
     assert!(!warned(&model, Target::C, 1e-3));
+}
+
+/// The numbers in a row that follows a text.
+fn numbers_after(text: &str, mark: &str) -> Vec<f64> {
+    let row = text.split(mark).nth(1).unwrap().lines().next().unwrap();
+    let parts = row.split([',', ' ']).filter(|part| !part.is_empty());
+    parts.map(|part| part.parse().unwrap()).collect()
+}
+
+/// Cogging and gap of a model file reach their maps, whatever is fed forward, and the gap the head of every file.
+#[test]
+fn what_stands_beside_friction_reaches_its_map() {
+    let model = with_gap_and_cogging();
+    let bench = Bench::new();
+    let export = |target, folder: &'static str| {
+        let mut options = bench.options(&model);
+        options.target = target;
+        let exported = bench.export_to(folder, &options).unwrap();
+        let name = exported.name;
+        let path = bench.path(folder);
+        move |end: &str| std::fs::read_to_string(path.join(format!("{name}_{end}"))).unwrap()
+    };
+    let table = export(Target::CoggingMap, "cogging")("cogging_map.csv");
+    // A quarter of the pitch is a row: the sine alone.
+    let quarter = numbers_after(&table, "\n0.006,");
+    assert!((quarter[0] - 1.5).abs() < 1e-12, "{quarter:?}");
+    let read = export(Target::Backlash, "gap");
+    assert_eq!(numbers_after(&read("linuxcnc.ini"), "\nBACKLASH ="), [0.02]);
+    assert_eq!(
+        numbers_after(&read("linuxcnc_comp.txt"), "400.0"),
+        [0.01, -0.01]
+    );
+    let joint = export(Target::Mujoco, "joint")("friction.xml");
+    for text in [&table, &joint] {
+        let says = "backlash = 2.000000e-5 m, 1.8000e-5 to 2.2000e-5";
+        assert!(text.contains(says), "{text}");
+    }
+    assert!(joint.contains("range=\"-1e-5 1e-5\""), "{joint}");
+}
+
+#[test]
+fn a_map_of_what_the_model_does_not_have_is_refused() {
+    let (plain, whole) = (text("lugre", &LUGRE), with_gap_and_cogging());
+    let without = |line: &str| whole.replace(line, "");
+    for (target, model, says) in [
+        (Target::Backlash, plain.clone(), "the model has no backlash"),
+        (
+            Target::Backlash,
+            whole.replace("[1.8e-5,", "[0.0,"),
+            "reaches 0",
+        ),
+        (Target::CoggingMap, plain, "[terms] cogging = "),
+        (
+            Target::CoggingMap,
+            without("cogging = [0.024]"),
+            "no pitch of its cogging",
+        ),
+        (
+            Target::CoggingMap,
+            without("position = [0.0, 0.4]"),
+            "[range] position",
+        ),
+    ] {
+        let bench = Bench::new();
+        let mut options = bench.options(&model);
+        options.target = target;
+        let error = bench.export_to("out", &options).unwrap_err();
+        assert_eq!(error.code().as_str(), "not-exported");
+        assert!(error.to_string().contains(says), "{error}");
+        options.gain = Some(0.5);
+        let error = bench.export_to("out", &options).unwrap_err().to_string();
+        let says = "it has no friction";
+        assert!(
+            error.contains("a gain for the target") && error.contains(says),
+            "{error}"
+        );
+    }
 }

@@ -176,6 +176,12 @@ fn logs_beside(folder: &Path) -> Vec<PathBuf> {
         "speeds.csv",
         "results.parquet",
     ];
+    const MAPS: [&str; 4] = [
+        "_drive_table.csv",
+        "_cogging_map.csv",
+        "_backlash.csv",
+        "_linuxcnc_comp.txt",
+    ];
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut logs: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     logs.retain(|path| {
@@ -192,7 +198,7 @@ fn logs_beside(folder: &Path) -> Vec<PathBuf> {
             .any(|known| ending.eq_ignore_ascii_case(known));
         let is_ours = WRITTEN.contains(&name)
             || name.starts_with("setpoints.")
-            || name.ends_with("_drive_table.csv");
+            || MAPS.iter().any(|end| name.ends_with(end));
         is_log && !is_ours && !name.starts_with('.') && path.is_file()
     });
     logs.sort();

@@ -20,7 +20,8 @@ pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
     }
     let target = options.target.name();
     let simulated = options.target.is_simulated();
-    let numbers = options.target == Target::DriveTable;
+    let map = options.target.is_map();
+    let numbers = options.target == Target::DriveTable || map;
     let whole = [
         (
             "limit",
@@ -38,7 +39,11 @@ pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
         let of_drive = "it has the whole friction; write a share of the numbers into the drive, and let the drive limit its torque";
         return Err(Error::usage(
             format!("a {what} for the target {target}"),
-            if simulated { of_joint } else { of_drive },
+            match simulated {
+                true => of_joint,
+                false if map => "it has no friction",
+                false => of_drive,
+            },
         ));
     }
     let safety = &options.safety;

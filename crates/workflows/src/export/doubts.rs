@@ -19,9 +19,7 @@ pub(super) fn doubts(
 ) -> Vec<Warning> {
     let is_taken = |name: &String| taken.contains(name);
     let mut found = Vec::new();
-    if !file.trustworthy {
-        found.push(Notice::Untrusted.into());
-    }
+    found.extend(untrusted(file));
     let aside = |name: &str| BESIDE.iter().any(|stem| name.starts_with(stem));
     let names = |wanted: &dyn Fn(&stiction_files::model::ModelParameter) -> bool| -> Vec<String> {
         let chosen = file.parameter.iter().filter(|p| wanted(p));
@@ -43,6 +41,11 @@ pub(super) fn doubts(
     let lacking = beside.map_or(&[][..], |b| &b.lacking);
     found.extend(at_reference(file, taken, lacking));
     found
+}
+
+/// Says that the model should not be used.
+pub(super) fn untrusted(file: &ModelFile) -> Option<Warning> {
+    (!file.trustworthy).then(|| Notice::Untrusted.into())
 }
 
 /// Says that the code is to be called at another rate than that of the log.

@@ -7,7 +7,8 @@ use stiction_policy::interval;
 
 /// The gain of an export that asked for none, where friction is known better than it needs.
 pub(super) fn of(file: &ModelFile, options: &ExportOptions, gain: f64) -> Option<Reserve> {
-    let has_gain = !options.target.is_simulated() && options.target != Target::DriveTable;
+    let target = options.target;
+    let has_gain = !target.is_simulated() && !target.is_map() && target != Target::DriveTable;
     if !has_gain || options.gain.is_some() || gain >= 1.0 || !file.trustworthy {
         return None;
     }

@@ -5,7 +5,9 @@ use std::f64::consts::TAU;
 use stiction_files::ModelFile;
 use stiction_files::model::ReadModel;
 use stiction_files::model::dependences::{pitch, put, together, wave};
-use stiction_friction::compensator::{Channel, Friction, Settings, Terms, WAVES, Wave, Weight};
+use stiction_friction::compensator::{
+    Channel, Channels, Friction, Settings, Terms, WAVES, Wave, Weight,
+};
 use stiction_parameters::{Name, Quantity};
 
 /// What is fed forward beside friction.
@@ -185,6 +187,23 @@ fn feed(file: &ModelFile, fed: Feedforward, found: &mut Beside) -> Result<(), Er
     }
 }
 
+/// The cogging of a model alone, for a map of it.
+pub(super) fn of_cogging(file: &ModelFile) -> Result<Terms<f64>, Error> {
+    let place = file.place();
+    let (cogging, _) = cogging(file, place).map_err(|reason| Error::NoMap {
+        target: "cogging-map",
+        reason,
+    })?;
+    Ok(Terms {
+        channels: Channels {
+            position: place.unwrap_or_default(),
+            ..Channels::default()
+        },
+        cogging,
+        ..Terms::default()
+    })
+}
+
 /// Waves with the parameters that they are made of.
 type Waves = ([Wave<f64>; WAVES], Vec<String>);
 
@@ -276,7 +295,7 @@ fn no_range(file: &ModelFile) -> String {
     )
 }
 
-fn length_unit(file: &ModelFile) -> &'static str {
+pub(super) fn length_unit(file: &ModelFile) -> &'static str {
     match file.kind.as_str() {
         "rotary" => "rad",
         _ => "m",

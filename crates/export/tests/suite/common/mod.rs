@@ -141,6 +141,7 @@ pub fn model(friction: Friction<f64>) -> Model {
         friction,
         terms: stiction_friction::compensator::Terms::default(),
         load_unit: String::new(),
+        backlash: None,
         settings: Settings::new(1e-3, 60.0),
         rated_force: Some(221.0),
         top_speed: None,

@@ -3,7 +3,7 @@
 use super::compiled::Sample;
 use super::{adapting, laws, model};
 use rand::{Rng, RngExt};
-use stiction_export::Model;
+use stiction_export::{Backlash, Model};
 use stiction_friction::compensator::{
     Channel, Channels, Friction, Levels, Terms, WAVES, Wave, Weight,
 };
@@ -29,6 +29,27 @@ fn wave(pitch: f64, whole: bool, sine: f64, cosine: f64) -> Wave<f64> {
         sine,
         cosine,
     }
+}
+
+/// Two waves of cogging over a turn or, on a linear axis, a pitch, and a gap.
+pub fn with_cogging_and_gap(mut model: Model) -> Model {
+    let turn = if model.rotary {
+        2.0 * std::f64::consts::PI
+    } else {
+        0.024
+    };
+    model.terms.channels.position = channel(0.3, 0.0, 8.0);
+    model.terms.cogging = waves(&[
+        wave(turn / 42.0, true, 0.031, -0.012),
+        wave(turn, true, -0.004, 0.007),
+    ]);
+    model.backlash = Some(Backlash {
+        width: 2e-5,
+        interval: Some([1.8e-5, 2.2e-5]),
+        load: Some(0.3),
+        range: Some([0.0, 8.0]),
+    });
+    model
 }
 
 /// Everything that friction may depend on.

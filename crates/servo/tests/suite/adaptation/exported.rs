@@ -54,6 +54,7 @@ impl Exported {
             friction: *compensator.friction(),
             terms: Terms::default(),
             load_unit: String::new(),
+            backlash: None,
             settings: *compensator.settings(),
             rated_force: None,
             top_speed: None,
