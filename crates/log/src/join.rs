@@ -237,6 +237,8 @@ impl Joined {
             *first = true;
             self.outside[0] = true;
         }
+        let kept: Vec<usize> = (0..keep.len()).filter(|row| keep[*row]).collect();
+        self.table.starts = self.table.starts_among(&kept);
         let retain = |values: &mut Vec<f64>| {
             let mut row = 0..;
             values.retain(|_| {

@@ -29,6 +29,8 @@ mod hdf5;
 mod join;
 #[cfg(feature = "json")]
 mod json;
+#[cfg(feature = "parquet")]
+mod lerobot;
 mod limits;
 pub mod log;
 pub mod mapping;
@@ -67,6 +69,8 @@ mod xlsx;
 pub use error::{Counted, Error, Kind, Place};
 pub use findings::{Finding, Found, Severity};
 pub use join::{Elsewhere, Joined, Offset};
+#[cfg(feature = "parquet")]
+pub use lerobot::data_set_of;
 pub use limits::{Limits, allow_memory, allowed_memory, within_memory};
 pub use log::{Excluded, Gap, Log, NotEnabled};
 pub use mapping::{

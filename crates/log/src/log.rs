@@ -14,7 +14,8 @@
 //!    become missing cells, and so do temperatures below 0 K and dropouts of temperature and load; a position that wraps
 //!    is unwrapped;
 //! 7. rows in which the enable column says that the axis is not enabled are left out, and so are those in parts of the record
-//!    that are not asked for; they leave gaps at which the record is split, however short;
+//!    that are not asked for; they leave gaps at which the record is split, however short, as it is where another recording
+//!    begins in the file ([`Table::starts`]);
 //! 8. missing cells of position, velocity and force: up to 5 in a row are interpolated
 //!    linearly in time and excluded; longer runs are dropped with their rows and leave a gap. In
 //!    reference, temperature and load every missing cell is interpolated or held: they vary slowly; so it is in an
@@ -119,7 +120,7 @@ pub struct Log {
     pub not_enabled: Option<NotEnabled>,
     /// Whether the force comes from another file whose time stamps are taken as they are.
     pub force_as_stamped: bool,
-    /// First samples after rows that were left out by choice, in order, counted from 0.
+    /// First samples after rows that were left out by choice, and of another recording in the same file, in order, counted from 0.
     pub(crate) resumed: Vec<usize>,
     /// Stretches of at least 1 s in which the axis stands still, in order.
     pub rests: Vec<Range<usize>>,
@@ -217,6 +218,7 @@ impl Log {
         });
         let clock = clock::read(&table, &sources, &mapping, length, &mut findings)?;
         let sign = made::sign_of(sign, &table, &clock);
+        let started = chosen::started(&table, &clock);
         let mut columns = cells::Columns::read(&mut table, &sources, &clock);
         let mut chosen = chosen::Chosen::read(&table, &mapping, &clock, outside)?;
         filled::clear(&mut columns, &mut findings)?;
@@ -263,7 +265,9 @@ impl Log {
         }
         // The rate is that of the rows as they were recorded: those that are left out leave no other one.
         let recorded = chosen.leaves_out().then(|| rate(&time));
-        let resumed = chosen.cut(&mut time, &mut columns);
+        let mut resumed = chosen.cut(&mut time, &mut columns);
+        resumed.extend(started);
+        resumed.sort_by(f64::total_cmp);
         findings.extend(chosen.finding());
         let mended = columns.mend(&mut time)?;
         findings.extend(mended.findings);

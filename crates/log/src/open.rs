@@ -4,6 +4,8 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read, Seek};
 use std::path::Path;
 
+#[cfg(feature = "parquet")]
+use crate::lerobot;
 use crate::regular::{Irregular, regular};
 #[cfg(feature = "rosbag")]
 use crate::ros::split;
@@ -119,6 +121,10 @@ fn read(
     let metadata = bag_of(path);
     #[cfg(feature = "rosbag")]
     let path = metadata.as_deref().unwrap_or(path);
+    #[cfg(feature = "parquet")]
+    if let Some(info) = lerobot::whole(path) {
+        return data_set(&info, options, seen);
+    }
     let about = regular(path).map_err(|e| not_opened(e, "a recording has to be a regular file"))?;
     let bytes = about.len();
     if bytes == 0 {
@@ -161,6 +167,25 @@ fn read(
     if format != Format::Text {
         take_units_of_names(&mut table);
     }
+    stamps::join(&mut table);
+    Ok(table)
+}
+
+/// The episodes of a data set of LeRobot, by its list of what they hold.
+#[cfg(feature = "parquet")]
+fn data_set(info: &Path, options: &ReadOptions, seen: Bytes<'_>) -> Result<Table, Error> {
+    let about = regular(info).map_err(|e| not_opened(e, "a recording has to be a regular file"))?;
+    watch::tell(info, 0, about.len());
+    let (table, parts) = lerobot::read(info, options.limits)?;
+    if let Some(seen) = seen {
+        hand_on(info, &about, seen)?;
+        for (part, about) in &parts {
+            hand_on(part, about, seen)?;
+        }
+    }
+    watch::tell(info, about.len(), about.len());
+    let mut table = whole(table, Format::Parquet)?;
+    take_units_of_names(&mut table);
     stamps::join(&mut table);
     Ok(table)
 }
@@ -250,7 +275,10 @@ fn binary(
         #[cfg(feature = "numpy")]
         Format::Npz => crate::numpy::read_npz(file, limits),
         #[cfg(feature = "parquet")]
-        Format::Parquet => crate::parquet::read(file, bytes, limits),
+        Format::Parquet => {
+            let table = crate::parquet::read(file, bytes, limits, 0);
+            table.and_then(|table| lerobot::complete(path, table))
+        }
         #[cfg(feature = "json")]
         Format::Json => crate::json::read(file, limits),
         #[cfg(feature = "arrow")]

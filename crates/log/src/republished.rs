@@ -80,6 +80,7 @@ pub fn republished(table: &Table, time: usize, joints: &[JointColumns]) -> Optio
         rate_hz: 1.0 / step,
         table: Table {
             columns: columns.collect(),
+            starts: table.starts_among(&kept),
             ..table.clone()
         },
     })

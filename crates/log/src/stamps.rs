@@ -43,12 +43,18 @@ pub(crate) fn join(table: &mut Table) {
             values,
         };
         table.columns.remove(nanoseconds);
-        let passed = std::mem::take(&mut table.passed).into_iter();
-        let moved = passed.map(|(at, seen)| (at - usize::from(at > nanoseconds), seen));
-        table.passed = moved.collect::<BTreeMap<_, _>>();
+        table.passed = moved(std::mem::take(&mut table.passed), nanoseconds);
+        table.other_names = moved(std::mem::take(&mut table.other_names), nanoseconds);
         let at = table.left_out.partition_point(|number| *number < gone);
         table.left_out.insert(at, gone);
     }
+}
+
+/// What is known of columns by their places, after one of them went.
+fn moved<T>(known: BTreeMap<usize, T>, gone: usize) -> BTreeMap<usize, T> {
+    let kept = known.into_iter().filter(|(at, _)| *at != gone);
+    kept.map(|(at, it)| (at - usize::from(at > gone), it))
+        .collect()
 }
 
 /// Two columns that are one time stamp, by their names and numbers, and the name that they share.

@@ -109,6 +109,11 @@ pub struct Table {
     /// Columns that have no `values`, by their place in `columns`: the reader was told that nobody can take them
     /// ([`read_wanted`](crate::read_wanted)).
     pub passed: BTreeMap<usize, Passed>,
+    /// Other names of columns, by their places in `columns`: `q(:,1)` of an element that has a name of its own.
+    pub other_names: BTreeMap<usize, String>,
+    /// Rows, counted from 0 and ascending, with which another recording begins, such as an episode: nothing is known of the
+    /// motion and the time between such a row and the one before.
+    pub starts: Vec<usize>,
     /// Single numbers in the file.
     pub scalars: Vec<Scalar>,
     /// Sample time in seconds where the file states one apart from a time column.
@@ -147,8 +152,34 @@ impl Table {
         Self {
             columns: columns.collect(),
             left_out: self.left_out.clone(),
+            other_names: self.other_names.clone(),
+            starts: self.starts.clone(),
             ..Self::default()
         }
+    }
+
+    /// The rows with which another recording begins once these rows alone are kept, which are in order.
+    pub(crate) fn starts_among(&self, kept: &[usize]) -> Vec<usize> {
+        let starts = self.starts.iter();
+        let among = starts.map(|start| kept.partition_point(|row| row < start));
+        let mut among: Vec<usize> = among.filter(|at| (1..kept.len()).contains(at)).collect();
+        among.dedup();
+        among
+    }
+
+    /// Whether a name means the column at `index`, other than as it stands in the file: its other name, or an element of a list
+    /// counted from 0, `q[3]` or `q.3` for `q(:,4)`. Case does not count.
+    pub(crate) fn is_also(&self, index: usize, name: &str) -> bool {
+        let own = &self.columns[index].name;
+        let mut names = [Some(own), self.other_names.get(&index)]
+            .into_iter()
+            .flatten();
+        let element = element(name);
+        let other = |own: &String| Some(own) == self.other_names.get(&index);
+        names.any(|own| {
+            let is = |name: &str| own.to_lowercase() == name.to_lowercase();
+            other(own) && is(name) || element.as_deref().is_some_and(is)
+        })
     }
 
     /// The number in the file, counted from 1, of the column at `index` of `columns`.
@@ -162,5 +193,47 @@ impl Table {
     /// Where in `columns` the column with a number in the file is, if it was not left out.
     pub fn index(&self, number: usize) -> Option<usize> {
         (0..self.columns.len()).find(|&index| self.number(index) == number)
+    }
+}
+
+/// The column of an element that is counted from 0: `q(:,4)` for `q[3]` and `q.3`.
+fn element(name: &str) -> Option<String> {
+    let (list, index) = match name.strip_suffix(']') {
+        Some(inside) => inside.rsplit_once('[')?,
+        None => name.rsplit_once('.')?,
+    };
+    let digits = !list.is_empty() && index.bytes().all(|byte| byte.is_ascii_digit());
+    let index: u32 = index.parse().ok().filter(|_| digits)?;
+    Some(format!("{list}(:,{})", u64::from(index) + 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn elements_are_counted_from_0_in_brackets_and_behind_a_dot() {
+        let mut table = Table {
+            columns: vec![
+                Column::headed("a.q(:,4)", vec![1.0]),
+                Column::headed("state.elbow", vec![2.0]),
+            ],
+            ..Table::default()
+        };
+        table.other_names.insert(1, "state(:,1)".to_owned());
+        for (name, is) in [
+            ("a.q[3]", [true, false]),
+            ("A.q.3", [true, false]),
+            ("a.q[4]", [false, false]),
+            ("a.q[+3]", [false, false]),
+            ("[3]", [false, false]),
+            (".3", [false, false]),
+            ("state(:,1)", [false, true]),
+            ("state[0]", [false, true]),
+            ("state.0", [false, true]),
+            ("state.99999999999", [false, false]),
+        ] {
+            assert_eq!([0, 1].map(|at| table.is_also(at, name)), is, "{name}");
+        }
     }
 }

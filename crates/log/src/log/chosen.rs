@@ -200,6 +200,16 @@ fn kept_rows(clock: &Clock) -> impl Iterator<Item = usize> {
     kept.filter(move |row| dropped.next_if_eq(&row).is_none())
 }
 
+/// When each other recording of a table begins, by the first of its rows that is kept.
+pub(super) fn started(table: &Table, clock: &Clock) -> Vec<f64> {
+    if table.starts.is_empty() {
+        return Vec::new();
+    }
+    let kept: Vec<usize> = kept_rows(clock).collect();
+    let starts = table.starts_among(&kept).into_iter();
+    starts.map(|at| clock.time[at]).collect()
+}
+
 /// Refuses a stretch without a sample.
 fn refuse_empty(parts: &Parts, clock: &Clock) -> Result<(), Error> {
     let at = |t: &f64| clock.since_first + t;

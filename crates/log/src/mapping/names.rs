@@ -34,7 +34,8 @@ const WEAK: &[(&str, Role)] = &[
     ("w", Role::Velocity),
     ("i", Role::Force),
 ];
-const COMMANDED: &str = "ref reference set setpoint target desired des cmd command commanded demand goal nominal qg soll";
+const COMMANDED: &str = "ref reference set setpoint target desired des cmd command commanded demand goal nominal qg soll \
+    action";
 const MEASURED: &str = "act actual meas measured measurement feedback fb fbk qm ist";
 const PASSED_OVER: &str = "error err lag following deviation dev limit max min std status state enable enabled flag id index \
     jerk gain offset warning schlepp fehler abweichung";

@@ -56,6 +56,9 @@ fn by_name(table: &Table, name: &str, role: impl Display) -> Result<usize, Error
             .filter(|&i| table.columns[i].name.to_lowercase() == lower)
             .collect();
     }
+    if hits.is_empty() {
+        hits = all.filter(|&i| table.is_also(i, wanted)).collect();
+    }
     hits = distinct(table, hits);
     match hits.as_slice() {
         [one] => Ok(*one),

@@ -85,6 +85,7 @@ fn means(heads: &Table, selector: &Selector, index: usize) -> bool {
             own == name
                 || own.to_lowercase() == name.to_lowercase()
                 || column.unit.as_ref().is_some_and(with_unit)
+                || heads.is_also(index, name)
         }
     }
 }

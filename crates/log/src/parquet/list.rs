@@ -116,6 +116,17 @@ impl Lists {
             }
             values.samples = whole;
         }
+        if self.rows == 1 {
+            // A file of one row still has columns.
+            for (index, value) in values.samples.into_iter().enumerate() {
+                let name = match length {
+                    1 => name.clone(),
+                    _ => Collector::of_matrix(name, index),
+                };
+                collector.column(&name, None, vec![value]);
+            }
+            return Ok(());
+        }
         let dims = [self.rows as u64, length as u64];
         collector.array(name, None, &dims, Order::Row, values);
         Ok(())

@@ -26,8 +26,8 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use crate::binary::{Collector, Order, guard, seconds};
 use crate::{Error, Kind, Limits, Table};
 
-/// Reads every column of numbers of a file of this many bytes.
-pub(crate) fn read(file: File, bytes: u64, limits: Limits) -> Result<Table, Error> {
+/// Reads every column of numbers of a file of this many bytes, beside so many samples of other files.
+pub(crate) fn read(file: File, bytes: u64, limits: Limits, beside: u64) -> Result<Table, Error> {
     guard("Parquet", || {
         let mut raw = file
             .try_clone()
@@ -35,6 +35,7 @@ pub(crate) fn read(file: File, bytes: u64, limits: Limits) -> Result<Table, Erro
         scan::footer(&mut raw, bytes).map_err(broken)?;
         let reader = SerializedFileReader::new(file).map_err(library)?;
         let mut collector = Collector::new(limits);
+        collector.reserve("", &[beside])?;
         let columns = reader.metadata().file_metadata().schema_descr_ptr();
         for index in 0..columns.num_columns() {
             collector.entry()?;

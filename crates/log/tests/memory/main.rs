@@ -7,6 +7,7 @@
 #[path = "../suite/binary/common.rs"]
 mod binary_common;
 
+mod lerobot;
 mod mdf;
 mod small;
 
@@ -167,6 +168,7 @@ fn hostile_files() {
     bombs(&path);
     mdf::hostile(&path);
     small::hostile(&path);
+    lerobot::hostile();
     arrays(&path);
     wide(&path);
 

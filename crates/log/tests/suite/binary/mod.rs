@@ -3,6 +3,7 @@
 mod bytes;
 mod common;
 mod json;
+mod lerobot;
 mod mapping_recordings;
 mod mdf;
 mod recordings;
