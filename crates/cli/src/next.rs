@@ -10,8 +10,8 @@ use stiction::commands::shell::{
     cycle_option, cycle_time, free_folder, new_axis_file, quoted_path, text as path_text,
 };
 use stiction::commands::{
-    FileError, LogError, LogKind as Kind, Looks, Wording, check_apart, has_runs, is_regular, looks,
-    text,
+    FileError, LogError, LogKind as Kind, Looks, Wording, check_apart, has_runs,
+    is_recording_folder, is_regular, looks, text,
 };
 use stiction::result::Action;
 use stiction::{Axis, Error, ModelFile};
@@ -304,7 +304,7 @@ impl<'a> Given<'a> {
     /// What leads on from a recording that is refused.
     fn of_log(&self, e: &LogError) -> Option<String> {
         let file = e.file.as_deref()?;
-        if !is_regular(file) {
+        if !is_regular(file) && !is_recording_folder(file) {
             return self.of_other(file);
         }
         let is_unclear = matches!(

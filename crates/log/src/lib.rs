@@ -79,7 +79,9 @@ pub use mapping::{
 };
 #[cfg(feature = "rosbag")]
 pub use open::bag_of;
-pub use open::{ReadOptions, is_binary_recording, read_table, read_table_with, read_wanted};
+pub use open::{
+    ReadOptions, is_binary_recording, is_recording_folder, read_table, read_table_with, read_wanted,
+};
 #[cfg(feature = "parquet")]
 pub use parquet::{Cells, read_cells};
 pub use regular::{Irregular, is_of_kernel, is_regular, regular};

@@ -342,6 +342,20 @@ pub fn bag_of(folder: &Path) -> Option<std::path::PathBuf> {
     is_split.then_some(metadata)
 }
 
+/// Whether a folder is one recording as a whole: of rosbag2, or a data set of LeRobot.
+pub fn is_recording_folder(folder: &Path) -> bool {
+    #[cfg(feature = "rosbag")]
+    if bag_of(folder).is_some() {
+        return true;
+    }
+    #[cfg(feature = "parquet")]
+    if lerobot::data_set_of(folder).is_some() {
+        return true;
+    }
+    let _ = folder;
+    false
+}
+
 /// Enough of a long list for one line.
 fn shorten(text: &str) -> String {
     match text.char_indices().nth(200) {

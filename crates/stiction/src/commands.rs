@@ -25,7 +25,7 @@ pub mod recording {
 }
 
 /// Why a recording was refused.
-pub use stiction_log::{Error as LogError, Kind as LogKind, is_regular};
+pub use stiction_log::{Error as LogError, Kind as LogKind, is_recording_folder, is_regular};
 
 /// A table as its file has it.
 pub mod log_table {

@@ -140,6 +140,10 @@ fn walk(folder: &Path, out: &Path, all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     paths.sort();
+    if let Some(data_set) = stiction_log::data_set_of(folder) {
+        all.0.push(log(data_set));
+        return;
+    }
     // Its files are one log, by the list of them.
     if stiction_log::bag_of(folder).is_some() {
         paths.retain(|path| !has_messages(path));
@@ -317,6 +321,15 @@ mod tests {
             found(&["bag"]).unwrap(),
             ["bag/metadata.yaml", "bag/notes.csv"]
         );
+        for folder in ["set/meta", "set/data/chunk-000"] {
+            fs::create_dir_all(at.join(folder)).unwrap();
+        }
+        let info = "{\"codebase_version\": \"v2.1\", \"fps\": 30, \"features\": {}}";
+        fs::write(at.join("set/meta/info.json"), info).unwrap();
+        fs::write(at.join("set/meta/tasks.jsonl"), "{}\n").unwrap();
+        let episode = "set/data/chunk-000/episode_000000.parquet";
+        fs::write(at.join(episode), "PAR1").unwrap();
+        assert_eq!(found(&["set"]).unwrap(), ["set/meta/info.json"]);
         for (input, said) in [
             ("out", "holds no logs"),
             ("done", "holds what an earlier command has written"),

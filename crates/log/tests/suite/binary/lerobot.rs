@@ -3,8 +3,8 @@
 use super::common::{Truth, written};
 use std::path::Path;
 use stiction_log::{
-    Channel, Kind, Limits, Log, Mapping, ReadOptions, Table, Unit, data_set_of, read_table,
-    read_table_with,
+    Channel, Kind, Limits, Log, Mapping, ReadOptions, Table, Unit, data_set_of,
+    is_recording_folder, read_table, read_table_with,
 };
 
 /// Frames of the episodes that the script writes.
@@ -48,6 +48,8 @@ fn data_sets_come_back_bit_for_bit() {
         );
     }
     assert_eq!(data_set_of(folder.path()), None);
+    let is_one = ["v30", "v30/data"].map(|name| is_recording_folder(&folder.path().join(name)));
+    assert_eq!(is_one, [true, false]);
 }
 
 #[test]
