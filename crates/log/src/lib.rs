@@ -23,6 +23,8 @@
 mod arrow;
 mod binary;
 mod error;
+#[cfg(feature = "ethercat")]
+pub mod ethercat;
 pub mod findings;
 #[cfg(feature = "hdf5")]
 mod hdf5;

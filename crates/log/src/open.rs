@@ -14,10 +14,13 @@ use crate::text::{self, TextOptions, unit};
 use crate::{Error, Kind, Limits, Table, stamps, watch};
 
 /// How a file is to be read, where that does not follow from the file.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadOptions {
     /// What the user states about a text file.
     pub text: TextOptions,
+    /// Which process data of an EtherCAT capture are columns.
+    #[cfg(feature = "ethercat")]
+    pub ethercat: crate::ethercat::ProcessData,
     /// How much memory it may take.
     pub limits: Limits,
 }
@@ -155,7 +158,7 @@ fn read(
             }
             whole(table, format)
         }),
-        format => binary(format, file, path, bytes, options.limits, wanted).and_then(|table| {
+        format => binary(format, file, path, bytes, options, wanted).and_then(|table| {
             if let Some(seen) = seen {
                 hand_on(path, &about, seen)?;
             }
@@ -258,9 +261,10 @@ fn binary(
     file: File,
     path: &Path,
     bytes: u64,
-    limits: Limits,
+    options: &ReadOptions,
     wanted: Wanted,
 ) -> Result<Table, Error> {
+    let limits = options.limits;
     let mut table: Table = match format {
         Format::Text | Format::Split => return Err(io(io::ErrorKind::InvalidInput.into())),
         Format::Foreign(what, instead) => Err(Error::new(Kind::Format, what, instead)),
@@ -295,6 +299,8 @@ fn binary(
         Format::Mdf => crate::mdf::read(&file, bytes, limits, wanted),
         #[cfg(feature = "svb")]
         Format::Svb => crate::svb::read(file, bytes, limits),
+        #[cfg(feature = "ethercat")]
+        Format::Ethercat => crate::ethercat::read(&file, path, limits, &options.ethercat),
         #[cfg(feature = "xlsx")]
         Format::Xlsx => crate::xlsx::read(file, limits),
         #[cfg(not(feature = "all"))]

@@ -11,6 +11,15 @@ pub(crate) const MDF_AS_TABLES: &str = "have it written as one table for each cl
 const MCAP: &[u8] = b"\x89MCAP0\r\n";
 pub(crate) const SQLITE: &[u8] = b"SQLite format 3\0";
 
+/// First bytes of pcapng, and of pcap in both byte orders and in micro- and nanoseconds.
+const PCAP: [[u8; 4]; 5] = [
+    [0x0a, 0x0d, 0x0d, 0x0a],
+    [0xd4, 0xc3, 0xb2, 0xa1],
+    [0xa1, 0xb2, 0xc3, 0xd4],
+    [0x4d, 0x3c, 0xb2, 0xa1],
+    [0xa1, 0xb2, 0x3c, 0x4d],
+];
+
 /// The formats that are recognised.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Format {
@@ -35,6 +44,7 @@ pub(crate) enum Format {
     /// Told from NPZ by looking into the archive, which its reader does.
     #[cfg_attr(not(feature = "xlsx"), allow(dead_code))]
     Xlsx,
+    Ethercat,
     /// A known format that is not read, and what to do instead.
     Foreign(&'static str, &'static str),
     Text,
@@ -59,6 +69,7 @@ impl Format {
             Format::Mdf => "ASAM MDF",
             Format::Svb => "TwinCAT Scope SVB",
             Format::Xlsx => "Excel workbook",
+            Format::Ethercat => "EtherCAT capture",
             Format::Foreign(what, _) => what,
             Format::Text => "text",
         }
@@ -98,6 +109,9 @@ pub(crate) fn sniff(file: &mut File, bytes: u64) -> io::Result<Format> {
     }
     if starts(b"PAR1") || starts(b"PARE") {
         return Ok(Format::Parquet);
+    }
+    if PCAP.iter().any(|magic| starts(magic)) {
+        return Ok(Format::Ethercat);
     }
     if starts(b"MDF     4") {
         return Ok(Format::Mdf);

@@ -26,9 +26,10 @@ const LARGEST_TEXT: u64 = 64 << 20;
 pub const UNFINISHED: &str = ".stiction-upload-";
 
 /// Endings of recordings.
-const LOGS: [&str; 25] = [
+const LOGS: [&str; 27] = [
     "csv", "tsv", "txt", "log", "dat", "asc", "mat", "h5", "hdf5", "npy", "npz", "parquet", "json",
     "arrow", "feather", "ipc", "mcap", "db3", "tdms", "mf4", "svb", "svbx", "svdx", "xlsx", "xml",
+    "pcap", "pcapng",
 ];
 /// Names of devices on Windows, which no folder holds as files.
 const DEVICES: [&str; 4] = ["con", "prn", "aux", "nul"];

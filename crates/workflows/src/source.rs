@@ -62,6 +62,7 @@ fn at_entry(path: &Path, axis: &Axis, mut error: stiction_log::Error) -> Error {
 fn options(axis: &Axis) -> ReadOptions {
     ReadOptions {
         text: axis.text,
+        ethercat: axis.ethercat.clone(),
         ..ReadOptions::default()
     }
 }

@@ -2,6 +2,7 @@
 
 mod columns;
 mod drive;
+mod ethercat;
 mod joint;
 mod limits;
 mod log;
@@ -83,6 +84,7 @@ impl Resolver {
         drive::drive(root, &mut axis.mapping)?;
         self.log(root, axis, &axis.file.clone())?;
         text_options(root, &mut axis.text)?;
+        axis.ethercat = ethercat::process_data(root)?;
         axis.conditioning = self.conditioning(root)?;
         axis.conditioning.resolution = axis.mapping.resolution;
         self.terms(root, axis)?;

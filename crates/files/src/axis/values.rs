@@ -11,6 +11,7 @@ use crate::error::Error;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_identify::{Conditioning, Delay, Hold, Mass, Terms};
+use stiction_log::ethercat::ProcessData;
 use stiction_log::text::TextOptions;
 use stiction_log::{Elsewhere, Log, Mapping, Motion};
 use stiction_number::short;
@@ -48,6 +49,8 @@ pub struct Axis {
     pub joined: Vec<JoinedColumn>,
     /// How text logs are written, where stated.
     pub text: TextOptions,
+    /// Which process data of EtherCAT captures are columns.
+    pub ethercat: ProcessData,
     /// Filters and decimation.
     pub conditioning: Conditioning,
     /// Linear terms beside the friction law; a mass in kg or kg m^2.
@@ -95,6 +98,7 @@ impl Default for Axis {
             logs: Vec::new(),
             joined: Vec::new(),
             text: TextOptions::default(),
+            ethercat: ProcessData::default(),
             conditioning: Conditioning::default(),
             terms: Terms {
                 delay: Delay::Fitted,

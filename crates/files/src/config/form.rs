@@ -219,9 +219,16 @@ pub(super) fn of_tables(entries: &DeTable<'_>) -> Option<Form> {
         _ if is_list("parameter") && get("law").is_some() => Some(Form::Model),
         _ if is_table("axis") && (is_list("path") || is_table("path")) => Some(Form::Study),
         _ if is_list("log")
-            || ["columns", "conditioning", "limits", "log", "terms"]
-                .into_iter()
-                .any(is_table) =>
+            || [
+                "columns",
+                "conditioning",
+                "ethercat",
+                "limits",
+                "log",
+                "terms",
+            ]
+            .into_iter()
+            .any(is_table) =>
         {
             Some(Form::Axis)
         }
@@ -232,7 +239,7 @@ pub(super) fn of_tables(entries: &DeTable<'_>) -> Option<Form> {
 
 /// Whether such a file says no more than a robot file and an axis file both may.
 pub(super) fn may_be_both(entries: &DeTable<'_>, wanted: Form) -> bool {
-    let both = ["columns", "log", "text", "rate"];
+    let both = ["columns", "ethercat", "log", "text", "rate"];
     let mut keys = entries.keys();
     wanted == Form::Robot && keys.all(|key| both.contains(&&**key.get_ref()))
 }

@@ -1,6 +1,7 @@
 //! The integration tests of `stiction-files` in one program, which is linked once: a new file is a module here.
 
 mod axis;
+mod ethercat;
 mod model;
 mod pending;
 mod robot;

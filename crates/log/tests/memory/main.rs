@@ -7,6 +7,7 @@
 #[path = "../suite/binary/common.rs"]
 mod binary_common;
 
+mod ethercat;
 mod lerobot;
 mod mdf;
 mod small;
@@ -34,7 +35,7 @@ const SAMPLES: u64 = 1 << 17;
 const MEMORY_BOUND: usize = 8 << 20;
 
 /// First bytes of the formats; the last of these lead to the text reader.
-const STARTS: [&[u8]; 19] = [
+const STARTS: [&[u8]; 22] = [
     b"\x89HDF\r\n\x1a\n",
     b"\x93NUMPY\x01\x00",
     b"\x93NUMPY\x02\x00",
@@ -49,6 +50,9 @@ const STARTS: [&[u8]; 19] = [
     b"SQLite format 3\0\x10\0\x01\x01\0\x40\x20\x20",
     b"MDF     4.10    by hand \0\0\0\0\x9a\x01\0\0",
     b"ARROW1\0\0",
+    b"\x0a\x0d\x0d\x0a\x1c\0\0\0\x4d\x3c\x2b\x1a\x01\0\0\0\xff\xff\xff\xff\xff\xff\xff\xff\x1c\0\0\0",
+    b"\xd4\xc3\xb2\xa1\x02\0\x04\0\0\0\0\0\0\0\0\0\xff\xff\0\0\x01\0\0\0",
+    b"\xa1\xb2\x3c\x4d\0\x02\0\x04\0\0\0\0\0\0\0\0\0\0\xff\xff\0\0\0\x01",
     b"\xff\xff\xff\xff\x10\0\0\0",
     b"[{\"q\":",
     // The header of an SVB file of one channel, recorded in 2022.
@@ -169,6 +173,7 @@ fn hostile_files() {
     mdf::hostile(&path);
     small::hostile(&path);
     lerobot::hostile();
+    ethercat::hostile(&path);
     arrays(&path);
     wide(&path);
 

@@ -235,3 +235,12 @@ def svb():
 
 
 svb()
+
+# A capture of EtherCAT: three cycles, each frame as it is sent and as it comes back. Without a map there is nothing to read.
+capture = struct.pack("<IIIHHqI", 0x0A0D0D0A, 28, 0x1A2B3C4D, 1, 0, -1, 28) + struct.pack("<IIHHII", 1, 20, 1, 0, 0, 20)
+for n in range(6):
+    datagram = struct.pack("<BBIHHIH", 12, n // 2, 0x10000, 4, 0, n, 3 * (n % 2))
+    frame = bytes([255] * 6 + [n % 2 * 2] + [0] * 5) + b"\x88\xa4" + struct.pack("<H", len(datagram) | 0x1000) + datagram
+    body = struct.pack("<IIIII", 0, 0, 1000 * n, len(frame), len(frame)) + frame + bytes(-len(frame) % 4)
+    capture += struct.pack("<II", 6, len(body) + 12) + body + struct.pack("<I", len(body) + 12)
+(folder / "refused.pcapng").write_bytes(capture)

@@ -3,7 +3,7 @@
 use stiction_log::{Kind, ReadOptions, read_table};
 
 /// Whether the reader is there, how its files begin, what they are called.
-const FORMATS: [(bool, &[u8], &str); 10] = [
+const FORMATS: [(bool, &[u8], &str); 11] = [
     (
         cfg!(feature = "matlab"),
         b"MATLAB 5.0 MAT-file, of nothing",
@@ -18,6 +18,7 @@ const FORMATS: [(bool, &[u8], &str); 10] = [
     (cfg!(feature = "rosbag"), b"SQLite format 3\0", "rosbag2"),
     (cfg!(feature = "tdms"), b"TDSm", "TDMS"),
     (cfg!(feature = "mdf"), b"MDF     4.10    ", "ASAM MDF"),
+    (cfg!(feature = "ethercat"), b"\x0a\x0d\x0d\x0a", "EtherCAT"),
 ];
 
 #[test]

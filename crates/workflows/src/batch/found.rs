@@ -169,9 +169,9 @@ fn walk(folder: &Path, out: &Path, all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf
 
 /// The recordings in a folder of results, by their names: none of those that commands of this program write.
 fn logs_beside(folder: &Path) -> Vec<PathBuf> {
-    const ENDINGS: [&str; 19] = [
+    const ENDINGS: [&str; 21] = [
         "csv", "tsv", "txt", "dat", "log", "mat", "npz", "npy", "parquet", "arrow", "feather",
-        "h5", "hdf5", "tdms", "mf4", "mcap", "db3", "xlsx", "svb",
+        "h5", "hdf5", "tdms", "mf4", "mcap", "db3", "xlsx", "svb", "pcap", "pcapng",
     ];
     const WRITTEN: [&str; 5] = [
         "fit.csv",

@@ -53,6 +53,7 @@ impl Axis {
             log.end()?;
         }
         text_options(root, &mut axis.text)?;
+        axis.ethercat = super::ethercat::process_data(root)?;
         axis.tied = resolver.tied.into_inner();
         Ok(axis)
     }

@@ -2,6 +2,7 @@
 
 mod bytes;
 mod common;
+mod ethercat;
 mod json;
 mod lerobot;
 mod mapping_recordings;
