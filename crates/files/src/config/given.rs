@@ -334,7 +334,7 @@ fn shown(value: &DeValue<'_>) -> String {
     };
     match value {
         DeValue::String(text) => cut(format!("{text:?}")),
-        DeValue::Integer(x) => cut(x.as_str().to_string()),
+        DeValue::Integer(x) => cut(x.to_string()),
         DeValue::Float(x) => cut(x.as_str().to_string()),
         DeValue::Boolean(flag) => flag.to_string(),
         DeValue::Datetime(_) => "a date".into(),
