@@ -11,6 +11,8 @@ use crate::{Error, Kind};
 
 /// Most columns of a map.
 const MOST: usize = 1024;
+/// Last byte of the data of a datagram, which has 11 bits for their number.
+const LAST_BYTE: usize = 2046;
 /// Picoseconds of a second.
 const SECOND: f64 = 1e12;
 
@@ -59,6 +61,11 @@ impl<'m> Rows<'m> {
         let mut of: BTreeMap<Key, Part> = BTreeMap::new();
         let mut first = None;
         for (index, entry) in entries.iter().enumerate() {
+            if entry.byte > LAST_BYTE || entry.bit > 7 {
+                let found = format!("{}: byte {}, bit {}", entry.name, entry.byte, entry.bit);
+                let allowed = format!("a byte from 0 to {LAST_BYTE} and a bit from 0 to 7");
+                return Err(Error::new(Kind::Value, found, allowed).of_setting(KEY));
+            }
             let key = datagram(entry, seen)?;
             first.get_or_insert(key);
             let part = of.entry(key).or_insert_with(|| Part {
