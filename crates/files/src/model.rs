@@ -8,6 +8,7 @@ mod read;
 mod refusal;
 mod supported;
 
+pub use covariance::root as square_root;
 pub use dependences::Dependences;
 pub use form::{BacklashEntry, ModelFile, ModelParameter, SCHEMA, SourceEntry, SourceInput};
 pub(crate) use read::BY_HAND;

@@ -8,7 +8,7 @@ use crate::conditioning::record::Record;
 use crate::error::Error;
 use crate::estimate::Estimate;
 use crate::law::prior::Prior;
-use crate::law::terms::{Delay, Side, Terms};
+use crate::law::terms::{ColumnKind, Delay, Side, Terms};
 use crate::law::{Law, LawKind};
 use crate::scatter::strokes::Strokes;
 use crate::scatter::{Fitted, HalfWidths, Scatter};
@@ -42,6 +42,8 @@ pub struct FrictionCurve {
     /// Coulomb and viscous friction, N and N s/m (N m and N m s/rad), of the straight line nearest to it from a tenth of the top speed
     /// on; `None` for one direction.
     pub line: Option<[Level; 2]>,
+    /// Correlations from day to day, -1 to 1: of the two, and of each with the mass, where it is fitted.
+    pub correlation: Option<(f64, Option<[f64; 2]>)>,
     /// Half of their difference: a constant force, a weight, or friction that differs.
     pub constant: Vec<Level>,
     /// Half of the sum at a twentieth, half and all of the top speed; of a single direction its own.
@@ -156,10 +158,15 @@ pub fn friction_curve(
     if optimum.status == Status::Interrupted {
         return Ok(None);
     }
+    let columns = terms.columns(&law);
+    let mass = columns
+        .iter()
+        .position(|own| matches!(own.column, ColumnKind::Acceleration));
     Ok(stated(
         record,
         &strokes,
         (&hats, &sides),
+        mass,
         &optimum.evaluation,
     ))
 }
@@ -198,11 +205,12 @@ fn knots(strokes: &Strokes) -> Option<(Vec<f64>, Vec<Side>)> {
     (knots.len() > 1 && !sides.is_empty() && strokes.top > 0.0).then_some((knots, sides))
 }
 
-/// The curve of a fit whose first linear unknowns are the knots of each direction.
+/// The curve of a fit whose first linear unknowns are the knots of each direction; the mass is at a place among all.
 fn stated(
     record: &Record,
     strokes: &Strokes,
     (hats, sides): (&[Hat], &[Side]),
+    mass: Option<usize>,
     at: &Evaluation,
 ) -> Option<FrictionCurve> {
     let c = &at.solution.coefficients;
@@ -239,8 +247,8 @@ fn stated(
     };
     let scatter = Scatter::from_strokes(&fit, strokes)?.with_transfer(&fit, strokes);
     let all = at.slopes.len() + at.solution.active.iter().filter(|active| **active).count();
-    // A sum over speeds with their weights, of the directions by theirs.
-    let sum = |at: f64, speeds: &[(f64, f64)], directions: &[f64]| {
+    // A sum over speeds with their weights, of the directions by theirs, with its derivatives.
+    let weighed = |speeds: &[(f64, f64)], directions: &[f64]| {
         let mut gradient = DVector::zeros(all);
         let mut force = 0.0;
         for (s, part) in directions.iter().enumerate() {
@@ -256,11 +264,15 @@ fn stated(
                 }
             }
         }
-        Level {
-            speed: at,
-            force,
-            half: scatter.variances(&gradient).half_widths(),
-        }
+        (force, gradient)
+    };
+    let stated = |speed: f64, (force, gradient): &(f64, DVector<f64>)| Level {
+        speed,
+        force: *force,
+        half: scatter.variances(gradient).half_widths(),
+    };
+    let sum = |at: f64, speeds: &[(f64, f64)], directions: &[f64]| {
+        stated(at, &weighed(speeds, directions))
     };
     let level = |speed: f64, directions: &[f64]| sum(speed, &[(speed, 1.0)], directions);
     let speed: Vec<f64> = hats
@@ -298,7 +310,7 @@ fn stated(
         let weighted = |of: &dyn Fn(f64) -> f64| {
             let each = speed.iter().zip(&weights);
             let parts: Vec<(f64, f64)> = each.map(|(v, w)| (*v, w * of(*v) / size)).collect();
-            sum(strokes.top, &parts, &half)
+            weighed(&parts, &half)
         };
         [
             weighted(&|v| square - mean * v),
@@ -309,7 +321,15 @@ fn stated(
         top: strokes.top,
         directions: directions.collect(),
         both,
-        line,
+        correlation: line.as_ref().map(|[coulomb, viscous]| {
+            let with_mass = mass.and_then(|j| place[j]).map(|i| {
+                let mut own = DVector::zeros(all);
+                own[i] = 1.0;
+                [coulomb, viscous].map(|of| scatter.correlation(&own, &of.1))
+            });
+            (scatter.correlation(&coulomb.1, &viscous.1), with_mass)
+        }),
+        line: line.map(|own| own.map(|own| stated(strokes.top, &own))),
         constant: if two { along(&[0.5, -0.5]) } else { Vec::new() },
         at: PARTS.map(|part| level(part * strokes.top, &half)),
         speed,

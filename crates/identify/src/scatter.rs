@@ -162,6 +162,19 @@ impl Scatter {
         }
     }
 
+    /// Correlation of two linear functions of the parameters from day to day; 0 where one of them does not scatter.
+    pub fn correlation(&self, a: &DVector<f64>, b: &DVector<f64>) -> f64 {
+        let repeat = self.repeat();
+        let along = |x: &DVector<f64>, y: &DVector<f64>| (x.transpose() * &repeat * y)[0];
+        let size = along(a, a).sqrt() * along(b, b).sqrt();
+        let found = along(a, b) / size;
+        if found.is_finite() {
+            found.clamp(-1.0, 1.0)
+        } else {
+            0.0
+        }
+    }
+
     /// The variances of a parameter of a law.
     pub fn of(&self, parameter: &Physical) -> Variances {
         // Where less was evaluated, nothing is stated of the rest.

@@ -95,7 +95,7 @@ fn against_deviation(model: &ModelFile, i: usize) -> Option<Fault> {
 /// other order what rounding leaves grows with the squared ratio of the standard deviations, as where a stiffness is the
 /// sum of others that are a hundred times larger or smaller than each other. A parameter that is a linear function of
 /// others, or that the data do not determine, adds no variance of its own.
-pub(crate) fn root(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, (usize, usize)> {
+pub fn root(matrix: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, (usize, usize)> {
     let n = matrix.len();
     let size: Vec<f64> = (0..n).map(|i| libm::sqrt(matrix[i][i])).collect();
     let mut left = vec![vec![0.0; n]; n];

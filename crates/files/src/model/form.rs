@@ -1,7 +1,8 @@
 //! The form of a model file, and how it is written.
 
 use crate::result::{
-    CovarianceEntry, ParameterEntry, PitchEntry, RangeEntry, RemainingEntry, ResultFile,
+    CovarianceEntry, FrictionLineEntry, ParameterEntry, PitchEntry, RangeEntry, RemainingEntry,
+    ResultFile,
 };
 use serde::Serialize;
 use stiction_codes::Code;
@@ -40,8 +41,11 @@ pub struct ModelFile {
     pub backlash: Option<BacklashEntry>,
     /// Parameters of the law.
     pub parameter: Vec<ModelParameter>,
-    /// Covariance of the identified parameters.
+    /// Covariance of the identified parameters from day to day.
     pub covariance: CovarianceEntry,
+    /// Coulomb and viscous friction as simulators take it, with half widths of 95 % intervals; absent where they are not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<FrictionLineEntry>,
     /// What the law leaves of the force, where that is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remaining: Option<RemainingEntry>,
@@ -117,6 +121,10 @@ pub struct ModelParameter {
     /// 95 % interval; absent where the data bound it on no side, an infinite end where on one side
     /// only.
     pub ci95: Option<[f64; 2]>,
+    /// Half width of the 95 % interval for another motion, in the unit of the value, of a parameter that is positive by nature the
+    /// value times that of its logarithm; absent where it is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub transfer: Option<f64>,
     /// `linear` or `profile`; absent without an interval.
     pub interval: Option<String>,
     /// Whether the data determine it.
@@ -134,6 +142,9 @@ impl From<&ParameterEntry> for ModelParameter {
             unit: p.unit.clone(),
             std: p.std,
             ci95: p.range().map(|(low, high)| [low, high]),
+            transfer: (p.half_width)
+                .map(|half| half.transfer)
+                .filter(|half| half.is_finite()),
             interval: p.interval.clone(),
             identifiable: p.identifiable,
             origin: p.origin.clone(),
@@ -195,6 +206,7 @@ impl ModelFile {
                 .map(ModelParameter::from)
                 .collect(),
             covariance: of_the_machine(&result.covariance),
+            line: (result.friction_curve.as_ref()).and_then(|curve| curve.line.clone()),
             // A unit that is wrong by many powers of ten gives sizes that no machine has, and a model with them would not be read.
             remaining: result.remaining.clone().filter(super::read::is_read),
         }

@@ -5,7 +5,10 @@ use super::form::{BacklashEntry, ModelFile, ModelParameter, SCHEMA, SourceEntry,
 use crate::config::{ANY_COUNT, Form, Given, Places, Source, Table};
 use crate::error::Error;
 use crate::hash::sha256_of;
-use crate::result::{CovarianceEntry, PitchEntry, RangeEntry, RemainingEntry, ShapeEntry};
+use crate::result::{
+    CovarianceEntry, FrictionLineEntry, PitchEntry, RangeEntry, RemainingEntry, ShapeEntry,
+    ValueEntry,
+};
 use crate::symbols;
 use std::ops::RangeInclusive;
 use std::path::Path;
@@ -229,6 +232,11 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
         None => Ok(None),
     });
     let remaining = faults.take("remaining", remaining).flatten();
+    let line = root.table("line").and_then(|table| match table {
+        Some(table) => self::line(&table).map(Some),
+        None => Ok(None),
+    });
+    let line = faults.take("line", line).flatten();
     let range = root.table("range").and_then(|table| match table {
         Some(table) => self::range(&table),
         None => Ok(RangeEntry::default()),
@@ -269,6 +277,7 @@ fn model(root: &Table<'_>, faults: &mut Faults) -> Result<ModelFile, Error> {
         backlash,
         parameter,
         covariance: covariance.unwrap_or_default(),
+        line,
         remaining,
     })
 }
@@ -349,6 +358,8 @@ fn parameter(given: &Given<'_>, place: &str, faults: &mut Faults) -> ModelParame
     let std = faults.take(place, std).flatten();
     let ci95 = table.get("ci95").map(|x| self::interval(&x)).transpose();
     let ci95 = faults.take(place, ci95).flatten();
+    let transfer = table.get("transfer").map(|x| half_width(&x)).transpose();
+    let transfer = faults.take(place, transfer).flatten();
     let interval = faults.take(place, table.text("interval")).flatten();
     let identifiable = faults.take(place, table.flag("identifiable")).flatten();
     let origin = faults.take(place, table.text("origin")).flatten();
@@ -361,6 +372,7 @@ fn parameter(given: &Given<'_>, place: &str, faults: &mut Faults) -> ModelParame
         unit: unit.unwrap_or_default(),
         std,
         ci95,
+        transfer,
         interval: interval.map(str::to_string),
         identifiable: identifiable.unwrap_or(true),
         origin: match origin {
@@ -387,6 +399,64 @@ fn covariance(table: &Table<'_>) -> Result<CovarianceEntry, Error> {
     };
     table.end()?;
     Ok(covariance)
+}
+
+/// Coulomb and viscous friction as simulators take it.
+fn line(table: &Table<'_>) -> Result<FrictionLineEntry, Error> {
+    let value = |key: &'static str| {
+        let allowed = "a table with value, at_once, repeat and transfer";
+        let own = table.required(key, table.table(key)?, allowed)?;
+        let half = |key: &'static str| {
+            let given = own.required(key, own.get(key), "half of a 95 % interval")?;
+            half_width(&given)
+        };
+        let given = own.required("value", own.get("value"), "a number in its unit")?;
+        let number = number(&given)?;
+        if number.is_nan() || number.abs() > LARGEST_SEEN {
+            return Err(given.refuse(format!("{number:?}"), "from -1e15 to 1e15"));
+        }
+        let value = ValueEntry {
+            value: number,
+            at_once: half("at_once")?,
+            repeat: half("repeat")?,
+            transfer: half("transfer")?,
+        };
+        own.end()?;
+        Ok(value)
+    };
+    let line = FrictionLineEntry {
+        coulomb: value("coulomb")?,
+        viscous: value("viscous")?,
+        viscous_unit: text(table, "viscous_unit", "a unit such as \"N*s/m\"")?,
+        correlation: (table.get("correlation"))
+            .map(|given| correlation(&given))
+            .transpose()?,
+        correlation_with_mass: (table.get("correlation_with_mass"))
+            .map(|given| match given.as_list().as_deref() {
+                Some([coulomb, viscous]) => Ok([correlation(coulomb)?, correlation(viscous)?]),
+                _ => Err(given.refused("two numbers from -1 to 1")),
+            })
+            .transpose()?,
+    };
+    table.end()?;
+    Ok(line)
+}
+
+fn correlation(given: &Given<'_>) -> Result<f64, Error> {
+    let found = number(given)?;
+    let known = (-1.0..=1.0).contains(&found);
+    known
+        .then_some(found)
+        .ok_or_else(|| given.refuse(format!("{found:?}"), "from -1 to 1"))
+}
+
+/// Half of an interval.
+fn half_width(given: &Given<'_>) -> Result<f64, Error> {
+    let found = number(given)?;
+    let known = (0.0..=LARGEST_SEEN).contains(&found);
+    known
+        .then_some(found)
+        .ok_or_else(|| given.refuse(format!("{found:?}"), "from 0 to 1e15"))
 }
 
 /// What the log has seen.

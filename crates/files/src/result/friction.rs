@@ -55,6 +55,12 @@ pub struct FrictionLineEntry {
     pub viscous: ValueEntry,
     /// Unit of the latter.
     pub viscous_unit: String,
+    /// Correlation of the two from day to day, -1 to 1; absent of results that were written before it was kept.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub correlation: Option<f64>,
+    /// Correlation of each with the mass, where it was fitted with them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub correlation_with_mass: Option<[f64; 2]>,
 }
 
 /// A value with half widths of 95 % intervals.

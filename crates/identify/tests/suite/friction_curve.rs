@@ -27,7 +27,12 @@ fn law() -> LuGre<f64> {
 
 /// A log of this axis, whose level wanders by `wave` to either side.
 fn record(motion: impl Fn(f64) -> [f64; 2], wave: f64, seed: u64) -> Record {
-    let law = law();
+    record_of(&law(), motion, wave, seed)
+}
+
+/// The same of another law.
+fn record_of(law: &LuGre<f64>, motion: impl Fn(f64) -> [f64; 2], wave: f64, seed: u64) -> Record {
+    let viscous = law.curve().positive().viscous;
     let mut noise = Noise::new(seed);
     let h = STEP / f64::from(FINE);
     let mut z = 0.0;
@@ -40,11 +45,11 @@ fn record(motion: impl Fn(f64) -> [f64; 2], wave: f64, seed: u64) -> Record {
             z = law.step_record(z, h, motion(s)[0], motion(s + h)[0]);
         }
         let [v, a] = motion(t);
-        let bristle = law.force(z, v) - OFFSET - MACHINE.sigma2 * v;
+        let bristle = law.force(z, v) - OFFSET - viscous * v;
         let level = 1.0 + wave * (TAU * 0.13 * t).sin();
         samples.time.push(t);
         velocity.push(v);
-        let friction = level * bristle + MACHINE.sigma2 * v + OFFSET;
+        let friction = level * bristle + viscous * v + OFFSET;
         samples
             .force
             .push(friction + MASS * a + 0.2 * noise.normal());
@@ -98,6 +103,26 @@ fn the_curve_is_that_of_the_axis() {
             assert!((level.force - OFFSET).abs() < 0.2, "{level:?}");
         }
     }
+}
+
+/// Of flat friction what another day changes is in closed form: its level by .02 of itself and its tilt by .015 (2 v/top - 1), so that
+/// the Coulomb part has the variance .02^2 + .015^2, and its covariance with the viscous one is -2 .015^2/top.
+#[test]
+fn coulomb_and_viscous_friction_go_against_each_other() {
+    let flat = Direction {
+        coulomb: MACHINE.coulomb,
+        static_friction: MACHINE.coulomb,
+        stribeck_velocity: 1.0,
+        viscous: 0.0,
+    };
+    let curve = Stribeck::symmetric(Shape::Gaussian, flat, OFFSET).unwrap();
+    let law = LuGre::new(MACHINE.sigma0, Damping::Constant(0.0), curve).unwrap();
+    let found = self::curve(&record_of(&law, strokes, 0.0, 5), LawKind::CoulombViscous).unwrap();
+    let (of_both, with_mass) = found.correlation.unwrap();
+    assert!((of_both + 0.6).abs() < 0.03, "{of_both}");
+    // The mass does not depend on either: its force has another phase.
+    let with_mass = with_mass.unwrap();
+    assert!(with_mass.iter().all(|own| own.abs() < 0.3), "{with_mass:?}");
 }
 
 /// What strokes of one kind have differently widens the band: a level that wanders.

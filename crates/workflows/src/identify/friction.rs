@@ -33,6 +33,8 @@ pub(super) fn entry(curve: &FrictionCurve, motion: Motion, unit: &str) -> Fricti
         line: line.map(|[coulomb, viscous]| FrictionLineEntry {
             coulomb: value(coulomb),
             viscous: value(viscous),
+            correlation: curve.correlation.map(|(of_both, _)| of_both),
+            correlation_with_mass: curve.correlation.and_then(|(_, with_mass)| with_mass),
             viscous_unit: symbols::unit(Quantity::Sigma2.dimension(), motion, unit, ""),
         }),
         speed_unit: symbols::speed_unit(motion).into(),
