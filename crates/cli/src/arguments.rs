@@ -765,6 +765,15 @@ pub struct Export {
         default_value = "friction"
     )]
     pub feedforward: Vec<String>,
+    /// Draws of what a simulator takes, 1 to 100000, beside nominal values and ranges; for domain-json, mujoco, isaaclab, newton, bam.
+    #[arg(long, value_name = "N")]
+    pub draws: Option<usize>,
+    /// Seed of the draws: the same gives the same bytes.
+    #[arg(long, value_name = "S", default_value_t = 0, requires = "draws")]
+    pub seed: u64,
+    /// Which intervals the draws are from: another day, or another motion.
+    #[arg(long, value_enum, default_value = "transfer", requires = "draws")]
+    pub width: Width,
     /// Rated force of the motor, in the unit of the model's force; for tf5200.
     #[arg(long, value_name = "FORCE", allow_negative_numbers = true, value_parser = number)]
     pub rated_force: Option<f64>,
@@ -774,6 +783,14 @@ pub struct Export {
     /// What the names in the code begin with [default: from the name of the axis].
     #[arg(long, value_name = "NAME")]
     pub name: Option<String>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Width {
+    /// The same motion on another day.
+    Repeatability,
+    /// Another motion.
+    Transfer,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -802,6 +819,12 @@ pub enum Target {
     Sdf,
     /// The same, and static friction, of an actuator of Isaac Lab.
     Isaaclab,
+    /// Friction, damping and armature of joints in Newton.
+    Newton,
+    /// Parameters of BAM, Better Actuator Models.
+    Bam,
+    /// What simulators take with its ranges, and draws from them.
+    DomainJson,
     /// A component of LinuxCNC's HAL.
     Hal,
     /// FMUs for co-simulation, FMI 2.0 and 3.0.

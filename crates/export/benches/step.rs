@@ -123,6 +123,8 @@ fn build(dir: &Path, name: &str, motion: &str, suffix: &str) {
         rated_force: None,
         top_speed: None,
         parameters: vec![],
+        domain: stiction_export::Domain::default(),
+        draws: None,
         notes: vec![],
         provenance: Provenance::default(),
     };

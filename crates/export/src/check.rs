@@ -2,8 +2,8 @@
 
 use crate::number::short;
 use crate::{
-    Error, Model, Target, backlash, check_identifier, cogging_map, drive_table, hal, joint, mujoco,
-    terms, tf5200,
+    Error, Model, Target, backlash, bam, check_identifier, cogging_map, drive_table, hal, joint,
+    mujoco, terms, tf5200,
 };
 use stiction_codes::Code;
 use stiction_friction::{Damping, LuGre};
@@ -58,6 +58,8 @@ pub fn advice(model: &Model, target: Target) -> Vec<Advice> {
         }
         // A solver chooses its steps, and the micro-damping is limited.
         Target::Modelica => {}
+        Target::DomainJson => {}
+        Target::Bam => found.extend(bam::simplified(model)),
         target if target.is_joint() => found.push(joint::simplified(model)),
         Target::DriveTable => found.extend(drive_table::simplified(model)),
         Target::CoggingMap => found.extend(cogging_map::simplified(model)),

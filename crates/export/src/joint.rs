@@ -64,6 +64,11 @@ pub fn nearest_line(model: &Model) -> [f64; 2] {
     [friction, damping]
 }
 
+/// Static friction of a law, the mean of the directions, N (N m).
+pub fn static_friction(model: &Model) -> f64 {
+    at_rest(&model.friction)
+}
+
 /// The speeds over which a law and something simpler are compared, all alike and both directions alike.
 pub(crate) struct Speeds {
     /// From 0 to this, m/s (rad/s).
@@ -208,7 +213,7 @@ fn xml(model: &Model, mut fill: Fill, template: &str) -> String {
 }
 
 /// The model with the error among its notes.
-fn told(model: &Model) -> Model {
+pub(crate) fn told(model: &Model) -> Model {
     let mut told = model.clone();
     let error = simplified(model).message;
     if !told.notes.contains(&error) {

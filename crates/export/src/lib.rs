@@ -26,6 +26,8 @@
 //!     rated_force: None,
 //!     top_speed: None,
 //!     parameters: vec![],
+//!     domain: Default::default(),
+//!     draws: None,
 //!     notes: vec![],
 //!     provenance: Provenance::default(),
 //! };
@@ -35,10 +37,12 @@
 //! ```
 
 mod backlash;
+mod bam;
 mod c;
 mod check;
 mod cogging_map;
 mod cpp;
+mod domain;
 mod drive_table;
 mod error;
 mod fmu;
@@ -54,6 +58,7 @@ mod matlab;
 mod model;
 mod modelica;
 mod mujoco;
+mod newton;
 mod number;
 mod range;
 mod robot;
@@ -67,10 +72,11 @@ mod tf5200;
 mod vectors;
 
 pub use check::{Advice, advice};
+pub use domain::{Domain, Draws, Number, Scale, Width};
 pub use error::Error;
 pub use fmu::{Platform, fmu};
 pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier, is_whole};
-pub use joint::nearest_line;
+pub use joint::{nearest_line, static_friction};
 pub use model::{Backlash, Model, Parameter, Provenance};
 pub use robot::{Load, Robot, RobotJoint, export_robot, joint_identifiers};
 pub use target::{File, Target, export};

@@ -1,6 +1,6 @@
 //! The model that is exported.
 
-use crate::{Error, range, terms};
+use crate::{Domain, Draws, Error, range, terms};
 use stiction_friction::compensator::{
     Adaptation, Compensator, Friction, Settings, Source, Terms, Watchdog,
 };
@@ -39,6 +39,10 @@ pub struct Model {
     pub top_speed: Option<f64>,
     /// Parameters as they were identified.
     pub parameters: Vec<Parameter>,
+    /// What simulators take, with ranges.
+    pub domain: Domain,
+    /// Draws from those ranges, for `domain-json`, `mujoco`, `isaaclab`, `newton` and `bam`.
+    pub draws: Option<Draws>,
     /// Sentences for the head of every file, such as warnings about the parameters.
     pub notes: Vec<String>,
     /// Where the numbers came from.

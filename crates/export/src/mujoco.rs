@@ -62,6 +62,19 @@ pub(crate) fn files(model: &Model) -> Result<Vec<File>, Error> {
         .set("stop_time", (2.0 * step).c())
         .set("stop_width", (STOP * width).c());
     law::fill(&mut fill, &Friction::LuGre(lugre), f64::c);
+    let late = delay(model);
+    let samples = libm::ceil(late.abs() / step) + 1.0;
+    fill.flag("late", late > 0.0).set(
+        "late",
+        format!("delay=\"{}\" nsample=\"{samples}\"", late.abs().c()),
+    );
+    fill.set(
+        "early",
+        match late < 0.0 {
+            true => format!(" delay=\"{}\" nsample=\"{samples}\"", late.abs().c()),
+            false => String::new(),
+        },
+    );
     let words = spaced(&header::comment(model, ""));
     let xml = fill.clone().set("header", words).render(MODEL);
     let test = fill
@@ -81,6 +94,13 @@ pub(crate) fn spaced(text: &str) -> String {
         out = out.replace("--", "- -");
     }
     out
+}
+
+/// How much later the force is logged than the motion, s, where the log shows that; below 0 the force is ahead of its motion.
+fn delay(model: &Model) -> f64 {
+    let mut all = model.parameters.iter();
+    let found = all.find(|p| p.name == "delay" && (p.identifiable || p.given));
+    found.map_or(0.0, |p| p.value)
 }
 
 /// The mass in the file, kg (kg m^2).

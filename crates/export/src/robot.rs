@@ -5,13 +5,15 @@ mod c;
 mod isaac_lab;
 mod mujoco;
 mod names;
-mod python;
+pub(crate) mod python;
 
 pub use names::joint_identifiers;
 
 use crate::joint::{Joint, at_rest, six_digits};
 use crate::model::Provenance;
-use crate::{Error, File, Model, Target, check, check_identifier, header, ros2};
+use crate::{
+    Draws, Error, File, Model, Target, bam, check, check_identifier, domain, header, newton, ros2,
+};
 use body::Body;
 use stiction_rigid::urdf::{Inertial, Kind};
 use stiction_rigid::{NewDynamics, NewInertial, rewrite};
@@ -35,6 +37,8 @@ pub struct Robot {
     pub joints: Vec<RobotJoint>,
     /// Whether the code also feeds forward gravity, inertia and Coriolis forces; [`Target::C`] only.
     pub feeds_rigid: bool,
+    /// Draws from the ranges of the joints, for `domain-json`, `mujoco`, `isaaclab`, `newton` and `bam`.
+    pub draws: Option<Draws>,
     /// Sentences for the head of every file.
     pub notes: Vec<String>,
     /// Where the numbers came from; the model file is that of the robot.
@@ -67,7 +71,7 @@ pub struct Load {
 }
 
 /// The targets that take a robot, in words.
-pub(crate) const TARGETS: &str = "urdf, mujoco, isaaclab, ros2 and c";
+pub(crate) const TARGETS: &str = "urdf, mujoco, isaaclab, newton, bam, domain-json, ros2 and c";
 
 /// The files of a robot for a target.
 ///
@@ -86,12 +90,59 @@ pub fn export_robot(robot: &Robot, target: Target) -> Result<Vec<File>, Error> {
         let checked = check::check(&joint.model, target.narrowest());
         checked.map_err(|e| joint.refused(e))?;
     }
+    let mut files = of_target(&robot, target)?;
+    if target == Target::DomainJson || target.takes_draws() && robot.draws.is_some() {
+        let head = domain::Head {
+            identifier: &robot.identifier,
+            title: &robot.title,
+            notes: robot.notes.clone(),
+            provenance: &robot.provenance,
+            comment: comment(&robot, "# ", false),
+        };
+        let joints = owns(&robot, target.name())?;
+        files.extend(domain::files(&head, &joints, robot.draws.as_ref()));
+    }
+    Ok(files)
+}
+
+/// The joints as simulators take them.
+fn owns<'a>(robot: &'a Robot, target: &'static str) -> Result<Vec<domain::Own<'a>>, Error> {
+    let own = |joint: &'a RobotJoint| {
+        let steady = joint.steady(target)?;
+        let numbers = [steady.friction, steady.damping];
+        Ok(domain::Own::of_robot(
+            &joint.name,
+            &joint.model,
+            joint.armature,
+            numbers,
+        ))
+    };
+    robot.joints.iter().map(own).collect()
+}
+
+fn of_target(robot: &Robot, target: Target) -> Result<Vec<File>, Error> {
     match target {
-        Target::Urdf => Ok(vec![urdf(&robot)]),
-        Target::Mujoco => mujoco::files(&robot),
-        Target::IsaacLab => isaac_lab::files(&robot),
-        Target::Ros2 => ros2_package(&robot),
-        Target::C => c::files(&robot),
+        Target::Newton => {
+            let joints = owns(robot, "newton")?;
+            let head = comment(robot, "# ", true);
+            let mut files = vec![urdf(robot)];
+            files.extend(newton::files(&robot.identifier, head, &joints));
+            Ok(files)
+        }
+        Target::Bam => {
+            let each = robot.joints.iter().map(|joint| {
+                let steady = joint.steady("bam")?;
+                let numbers = [steady.friction, steady.damping];
+                bam::file(&joint.model, Some(joint.armature), numbers).map_err(|e| joint.refused(e))
+            });
+            each.collect()
+        }
+        Target::DomainJson => Ok(Vec::new()),
+        Target::Urdf => Ok(vec![urdf(robot)]),
+        Target::Mujoco => mujoco::files(robot),
+        Target::IsaacLab => isaac_lab::files(robot),
+        Target::Ros2 => ros2_package(robot),
+        Target::C => c::files(robot),
         other => Err(Error::NoRobot {
             target: other.name(),
         }),

@@ -1,8 +1,8 @@
 //! The targets and the files of each.
 
 use crate::{
-    Error, Model, backlash, c, check, cogging_map, cpp, drive_table, fmu, hal, joint, matlab,
-    modelica, mujoco, ros2, rust, st, tf5200,
+    Error, Model, backlash, bam, c, check, cogging_map, cpp, domain, drive_table, fmu, hal, joint,
+    matlab, modelica, mujoco, newton, ros2, rust, st, tf5200,
 };
 
 /// A form in which the compensator is exported.
@@ -33,6 +33,12 @@ pub enum Target {
     Sdf,
     /// The same, and static friction, of an actuator of Isaac Lab.
     IsaacLab,
+    /// The same in Newton.
+    Newton,
+    /// Parameters of BAM, Better Actuator Models M1 to M5.
+    Bam,
+    /// What simulators take with its ranges, and draws from them.
+    DomainJson,
     /// A component of LinuxCNC's HAL.
     Hal,
     /// Functional Mock-up Units for co-simulation, FMI 2.0 and 3.0.
@@ -69,7 +75,7 @@ impl File {
 
 impl Target {
     /// All of them.
-    pub const ALL: [Target; 19] = [
+    pub const ALL: [Target; 22] = [
         Target::C,
         Target::Cpp,
         Target::Ros2,
@@ -82,6 +88,9 @@ impl Target {
         Target::Urdf,
         Target::Sdf,
         Target::IsaacLab,
+        Target::Newton,
+        Target::Bam,
+        Target::DomainJson,
         Target::Hal,
         Target::Fmu,
         Target::Matlab,
@@ -106,6 +115,9 @@ impl Target {
             Target::Urdf => "urdf",
             Target::Sdf => "sdf",
             Target::IsaacLab => "isaaclab",
+            Target::Newton => "newton",
+            Target::Bam => "bam",
+            Target::DomainJson => "domain-json",
             Target::Hal => "hal",
             Target::Fmu => "fmu",
             Target::Matlab => "matlab",
@@ -118,7 +130,23 @@ impl Target {
 
     /// Whether it has nothing but steady friction of a simulated joint.
     pub(crate) fn is_joint(self) -> bool {
-        matches!(self, Target::Urdf | Target::Sdf | Target::IsaacLab)
+        matches!(
+            self,
+            Target::Urdf
+                | Target::Sdf
+                | Target::IsaacLab
+                | Target::Newton
+                | Target::Bam
+                | Target::DomainJson
+        )
+    }
+
+    /// Whether draws can be written with it.
+    pub fn takes_draws(self) -> bool {
+        matches!(
+            self,
+            Target::Mujoco | Target::IsaacLab | Target::Newton | Target::Bam | Target::DomainJson
+        )
     }
 
     /// Whether it is the friction of a simulated joint: the whole friction, without gain, limit and watchdog.
@@ -143,6 +171,9 @@ impl Target {
             | Target::Urdf
             | Target::Sdf
             | Target::IsaacLab
+            | Target::Newton
+            | Target::Bam
+            | Target::DomainJson
             | Target::Hal
             | Target::Fmu
             | Target::Matlab
@@ -160,6 +191,17 @@ impl Target {
 /// If the target cannot express the model: its names, numbers or law.
 pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
     check::check(model, target.narrowest())?;
+    let mut files = of_target(model, target)?;
+    let own = domain::Own::axis(model);
+    if target == Target::DomainJson || target.takes_draws() && model.draws.is_some() {
+        own.in_newtons(target.name())?;
+        let head = domain::Head::axis(model);
+        files.extend(domain::files(&head, &[own], model.draws.as_ref()));
+    }
+    Ok(files)
+}
+
+fn of_target(model: &Model, target: Target) -> Result<Vec<File>, Error> {
     match target {
         Target::C => c::files(model),
         Target::Cpp => cpp::files(model),
@@ -173,6 +215,9 @@ pub fn export(model: &Model, target: Target) -> Result<Vec<File>, Error> {
         Target::Urdf => joint::urdf(model),
         Target::Sdf => joint::sdf(model),
         Target::IsaacLab => joint::isaac_lab(model),
+        Target::Newton => newton::axis(model),
+        Target::Bam => bam::axis(model),
+        Target::DomainJson => Ok(Vec::new()),
         Target::Hal => hal::files(model),
         Target::Fmu => fmu::fmu(model, &mut |_, _| None),
         Target::Matlab => matlab::files(model),

@@ -17,7 +17,7 @@ pub(crate) const ANOTHER_LOG: &str = "another.csv";
 #[rustfmt::skip] // One line a sentence.
 pub fn why(action: &Action) -> &'static str {
     match action {
-        Action::Export => "the compensator as C; also cpp, ros2, st, tcpou, plcopen, rust, mujoco, modelica, urdf, sdf, isaaclab, hal, fmu, matlab, tf5200 and drive-table",
+        Action::Export => "the compensator as C; also cpp, ros2, st, tcpou, plcopen, rust, mujoco, modelica, urdf, sdf, isaaclab, newton, bam, domain-json, hal, fmu, matlab, tf5200 and drive-table",
         Action::LetTheDataChoose => "let the data choose the law",
         Action::Law { .. } => "the best of the laws above that a compensator may rely on",
         Action::Identify { logs } if logs.is_empty() => "identify the log",

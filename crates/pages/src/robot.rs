@@ -177,7 +177,7 @@ pub(crate) fn next(result: &RobotFile, dir: &Path) -> (&'static str, String) {
             quoted_path(&out)
         );
         return (
-            "the URDF with what was identified; also mujoco, isaaclab, ros2 and c",
+            "the URDF with what was identified; also mujoco, isaaclab, newton, bam, domain-json, ros2 and c",
             command,
         );
     }

@@ -113,7 +113,7 @@ impl fmt::Display for OfRobot {
             Self::NotConverged { joint } => write!(f, "joint {joint}: the search for its friction ended early"),
             Self::TorqueLeft { joint, left, most } => write!(f, "joint {joint}: the model leaves {} of the torque on samples that were not fitted; a feedforward needs at most {}. Record a motion that moves all joints at once through their range, both ways and at several speeds", Percent::error(100.0 * left).decimals(0), Percent::error(100.0 * most).decimals(0)),
             Self::ToolLeftOut { link, mass, target } => write!(f, "the tool of {} kg on link {link} is not in the files of target {target}: inertias are those of the robot without it. Add it to the URDF as a link of its own", short(*mass)),
-            Self::ArmatureLeftOut { target } => write!(f, "the inertia of the rotors (armature in robot.toml) has no place in the files of target {target}; those of mujoco and isaaclab have it"),
+            Self::ArmatureLeftOut { target } => write!(f, "the inertia of the rotors (armature in robot.toml) has no place in the files of target {target}; those of mujoco, isaaclab and newton have it"),
             Self::Coupled { joints } => write!(f, "the motors of {} are coupled: speeds and torques here are those of the joints. Turn them by the matrix of [[coupling]] in robot.toml, joints = C motors: the torques of the motors are its transpose times those of the joints", joints.join(", ")),
             Self::OtherUrdf { path } => write!(f, "{path} is not the URDF that the robot was identified with: its SHA-256 is another. Frames and joints have to be the same"),
             Self::NotFitted { joint, why } => write!(f, "joint {joint}: {why}"),

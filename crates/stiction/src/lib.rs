@@ -132,8 +132,8 @@ pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage}
 pub use stiction_log::{Reading, allow_memory, allowed_memory, watch};
 pub use stiction_parameters::FrictionLaw;
 pub use stiction_workflows::export::{
-    ExportOptions, Exported, ExportedRobot, Feedforward, Safety, Target, export, export_file,
-    export_robot_file,
+    Draws, ExportOptions, Exported, ExportedRobot, Feedforward, Safety, Target, Width, export,
+    export_file, export_robot_file,
 };
 pub use stiction_workflows::identify::{CostKind, Method, Prediction, Procedures, Searching};
 pub use stiction_workflows::study::{StudyOutcome, simulate};

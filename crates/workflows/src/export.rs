@@ -2,6 +2,7 @@
 
 mod adapting;
 mod asked;
+mod domain;
 mod doubts;
 mod law;
 mod reserve;
@@ -13,7 +14,7 @@ mod wrapped;
 use crate::compile;
 use crate::error::Error;
 use std::path::Path;
-use stiction_export::{Backlash, Model, Parameter, Provenance};
+use stiction_export::{Backlash, Domain, Model, Parameter, Provenance};
 use stiction_files::ModelFile;
 use stiction_files::Warning;
 use stiction_files::model::ReadModel;
@@ -22,14 +23,14 @@ use stiction_friction::ParamError;
 use stiction_friction::compensator::{Adaptation, Compensator};
 use stiction_say::Notice;
 
-use asked::within;
+use asked::{few_enough, within};
 use doubts::{another_rate, doubts, less, untrusted};
 use law::{Unfit, bent, friction, quadratic};
 use settings::{asked, settings_of_law};
 
 pub(crate) use asked::check;
 pub use robot::{ExportedJoint, ExportedRobot, export_robot_file};
-pub use stiction_export::{Error as ExportError, File, Platform, Target};
+pub use stiction_export::{Draws, Error as ExportError, File, Platform, Target, Width};
 pub use terms::Feedforward;
 
 /// What code to write, and the settings of the compensator.
@@ -55,6 +56,8 @@ pub struct ExportOptions {
     /// Levels that follow the machine while it runs ([`Adaptation`]), from the force of the drive; not for
     /// simulated joints, maps, `tf5200` and `drive-table`.
     pub adapt: bool,
+    /// Draws of what simulators take; for `domain-json`, `mujoco`, `isaaclab`, `newton` and `bam` ([`Target::takes_draws`]).
+    pub draws: Option<Draws>,
     /// What is fed forward beside friction, of what the model has; not for simulated joints, maps, `tf5200` and `drive-table`.
     pub feedforward: Feedforward,
 }
@@ -85,6 +88,7 @@ impl ExportOptions {
             gain: None,
             safety: Safety::default(),
             adapt: false,
+            draws: None,
             feedforward: Feedforward::default(),
         }
     }
@@ -299,6 +303,9 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
     let mut taken = beside.as_ref().map_or(Vec::new(), |b| b.taken.clone());
     if table && terms.levels.is_some() {
         taken.extend(quadratic(file));
+        if options.target == Target::Bam {
+            taken.extend(law::of_the_transmitted(file));
+        }
     }
     let mut warnings = match options.target.is_map() {
         true => untrusted(file).into_iter().collect(),
@@ -334,7 +341,7 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
         };
         warnings.push(short.into());
     }
-    let model = Model {
+    let mut model = Model {
         title,
         identifier,
         rotary: file.kind == "rotary",
@@ -375,6 +382,8 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
                 given: gap.ci95.is_none(),
             }))
             .collect(),
+        domain: Domain::default(),
+        draws: options.draws,
         notes: vec![],
         provenance: Provenance {
             version: env!("CARGO_PKG_VERSION").into(),
@@ -387,6 +396,10 @@ fn resolve(read: &ReadModel, options: &ExportOptions) -> Result<(Model, Vec<Warn
                 .collect(),
         },
     };
+    if options.target.is_simulated() {
+        model.domain = domain::of(file, &model, None);
+        few_enough(options, [&model].into_iter())?;
+    }
     Ok((model, warnings))
 }
 

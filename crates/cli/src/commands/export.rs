@@ -6,7 +6,7 @@ use crate::next::with_value;
 use crate::output;
 use clap::ValueEnum;
 use stiction::commands::{Looks, looks};
-use stiction::{Error, ExportOptions, Feedforward, Target};
+use stiction::{Draws, Error, ExportOptions, Feedforward, Target, Width};
 
 /// Writes the code.
 pub fn run(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
@@ -24,6 +24,14 @@ pub fn run(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
     options.safety.slew = export.slew;
     options.safety.window = export.window;
     options.adapt = export.adapt;
+    options.draws = export.draws.map(|count| Draws {
+        count,
+        seed: export.seed,
+        width: match export.width {
+            arguments::Width::Repeatability => Width::Repeatability,
+            arguments::Width::Transfer => Width::Transfer,
+        },
+    });
     let parts = export.feedforward.iter().map(String::as_str);
     options.feedforward = Feedforward::from_names(parts).map_err(fed_line)?;
     if looks(&export.model) == Some(Looks::Robot) {

@@ -30,7 +30,7 @@ fn the_commands_of_the_examples() {
         .lines()
         .filter_map(|l| l.strip_prefix("stiction "))
         .collect();
-    assert_eq!(commands.len(), 17);
+    assert_eq!(commands.len(), 20);
     for command in commands {
         let output = Command::new(env!("CARGO_BIN_EXE_stiction"))
             .args(command.split(' '))

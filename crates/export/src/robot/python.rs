@@ -1,7 +1,7 @@
 //! Texts in Python.
 
 /// A text as a literal of plain ASCII.
-pub(super) fn literal(text: &str) -> String {
+pub(crate) fn literal(text: &str) -> String {
     let mut out = String::from("\"");
     for c in text.chars() {
         match c {

@@ -16,6 +16,7 @@ mod mujoco;
 mod robot;
 mod ros2;
 mod rust;
+mod simulators;
 mod st;
 mod texts;
 mod tf5200;

@@ -124,6 +124,7 @@ fn robot() -> Robot {
         }),
         joints,
         feeds_rigid: false,
+        draws: None,
         notes: vec!["the URDF is another one".into()],
         provenance,
     }
@@ -440,6 +441,45 @@ print(call.func.id, given["stiffness"], given["damping"], *(len(given[k]) for k 
     assert_eq!(lines[3], "ImplicitActuatorCfg None None 3 3 3 3");
 }
 
+/// Every joint has its numbers by its name for Newton, BAM and in the document, the same as for Isaac Lab.
+#[test]
+fn newton_bam_and_the_document_have_every_joint() {
+    let mut robot = robot();
+    robot.draws = Some(stiction_export::Draws {
+        count: 3,
+        seed: 1,
+        width: stiction_export::Width::Transfer,
+    });
+    let (dir, files) = exported(&robot, Target::Newton);
+    let paths: Vec<&str> = files.iter().map(|f| f.path.as_str()).collect();
+    let due = [
+        "arm.urdf",
+        "arm_newton.py",
+        "arm_domain.json",
+        "arm_domain.py",
+    ];
+    assert_eq!(paths, due);
+    for file in export_robot(&robot, Target::Bam).unwrap() {
+        std::fs::write(dir.path().join(&file.path), &file.bytes).unwrap();
+    }
+    let read = r#"
+import json
+import arm_newton, arm_domain
+domain = arm_domain.load()
+nominal = arm_domain.numbers(domain)
+for (name, own), code in zip(arm_newton.JOINTS.items(), ["arm_rail", "arm_shoulder_1", "arm_elbow"]):
+    assert own == {key: nominal[name][of] for key, of in [("armature", "armature"), ("friction", "frictionloss"), ("damping", "damping")]}
+    bam = json.load(open(code + "_bam.json"))
+    print(name, own["armature"], own["friction"], own["damping"], nominal[name]["static_friction"], bam["model"], bam["armature"])
+"#;
+    std::fs::write(dir.path().join("read.py"), read).unwrap();
+    let said = python("read.py", &[], dir.path());
+    let lines: Vec<&str> = said.lines().collect();
+    assert_eq!(lines[1], "shoulder \"1\" 0.02 0.25 0.333333 18.0 m2 0.02");
+    assert_eq!(lines[2], "elbow 0.11 7.25 0.333333 17.0 m1 0.11");
+    assert_eq!(lines.len(), 3);
+}
+
 /// yaml-cpp reads the parameters of all joints from one file, and each joint's class takes them.
 #[test]
 fn ros_2_takes_it() {
@@ -494,7 +534,7 @@ fn what_cannot_be_exported_is_refused() {
     for target in Target::ALL {
         if export_robot(&robot(), target).is_err() {
             let said = refused(&robot(), target);
-            let due = "takes no robot; allowed: urdf, mujoco, isaaclab, ros2 and c; or export the model.toml of a joint";
+            let due = "takes no robot; allowed: urdf, mujoco, isaaclab, newton, bam, domain-json, ros2 and c; or export the model.toml of a joint";
             assert!(said.contains(due), "{said}");
         }
     }

@@ -18,7 +18,8 @@ pub fn exported(exported: &Exported, dir: &Path) -> String {
     let most = format!("force at most {} {unit}", short(exported.limit));
     let what = match exported.target {
         "mujoco" => format!("for a time step of {} s", exported.cycle_time),
-        "urdf" | "sdf" | "isaaclab" => "as friction of a joint".into(),
+        "urdf" | "sdf" | "isaaclab" | "newton" | "bam" => "as friction of a joint".into(),
+        "domain-json" => "as numbers with ranges".into(),
         "modelica" => "as friction between two flanges".into(),
         "tf5200" => format!("with {most}"),
         "drive-table" => "as numbers of drives".into(),

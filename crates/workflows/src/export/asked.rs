@@ -2,12 +2,17 @@
 
 use super::{ExportOptions, Feedforward};
 use crate::error::Error;
-use stiction_export::Target;
+use stiction_export::{Model, Target};
 use stiction_files::ModelFile;
 use stiction_friction::compensator::{Friction, Terms};
 
 /// Longest ramp and window, and longest time in which the slew limit lets friction at standstill through, s.
 const LONGEST: f64 = 3600.0;
+
+/// Most draws.
+const MOST_DRAWS: usize = 100_000;
+/// Most numbers in all draws, some 200 MB of text.
+const MOST_NUMBERS: usize = 20_000_000;
 
 /// Shortest ramp that is one, and shortest such time, s: below any cycle time.
 const SHORTEST: (f64, f64) = (1e-6, 1e-9);
@@ -19,6 +24,20 @@ pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
         return Err(Error::usage(found, "only tf5200 takes one"));
     }
     let target = options.target.name();
+    if let Some(draws) = &options.draws {
+        if !options.target.takes_draws() {
+            return Err(Error::usage(
+                format!("draws for the target {target}"),
+                "domain-json, mujoco, isaaclab, newton and bam take them",
+            ));
+        }
+        if !(1..=MOST_DRAWS).contains(&draws.count) {
+            return Err(Error::usage(
+                format!("{} draws", draws.count),
+                format!("from 1 to {MOST_DRAWS}"),
+            ));
+        }
+    }
     let simulated = options.target.is_simulated();
     let map = options.target.is_map();
     let numbers = options.target == Target::DriveTable || map;
@@ -90,6 +109,21 @@ pub(crate) fn check(options: &ExportOptions) -> Result<(), Error> {
         ));
     }
     Ok(())
+}
+
+/// Refuses draws of more numbers than a file should have.
+pub(super) fn few_enough<'a>(
+    options: &ExportOptions,
+    models: impl Iterator<Item = &'a Model>,
+) -> Result<(), Error> {
+    let numbers: usize = models.map(|model| model.domain.numbers.len()).sum();
+    match options.draws {
+        Some(draws) if draws.count * numbers > MOST_NUMBERS => Err(Error::usage(
+            format!("{} draws of {numbers} numbers", draws.count),
+            format!("at most {} draws here", MOST_NUMBERS / numbers),
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Refuses settings that do not go with the law: a slew limit that keeps the force from following friction, a dead zone that takes

@@ -4,7 +4,7 @@ use stiction_export::Target;
 use stiction_files::ModelFile;
 use stiction_files::model::Lowered;
 use stiction_friction::ParamError;
-use stiction_friction::compensator::{Friction, Levels, Terms};
+use stiction_friction::compensator::{Channels, Friction, Levels, Terms};
 use stiction_parameters::{FrictionLaw, LawError, Name, ParameterSet, Quantity, Side};
 
 /// Why no law that can be exported follows from the numbers of a model.
@@ -66,27 +66,54 @@ fn resolved(file: &ModelFile, values: &mut ParameterSet, cycle_time: f64) -> Opt
     })
 }
 
-/// Quadratic viscous friction of what holds the steady force and nothing else: tables, and joints with two numbers of it.
+/// Quadratic viscous friction of what holds the steady force and nothing else: tables, and joints with two numbers of it. For BAM
+/// also what the level grows by with the transmitted torque.
 pub(super) fn bent(file: &ModelFile, friction: &Friction<f64>, target: Target) -> Terms<f64> {
     let steady = !matches!(target, Target::Mujoco | Target::Modelica);
-    let levels = file.dependences(friction.coulomb()).levels;
-    let levels = levels.filter(|l| steady && l.quadratic != [0.0; 2]);
+    let known = file.dependences(friction.coulomb());
+    let loaded = target == Target::Bam;
+    let share = |sides: [f64; 2]| if loaded { sides } else { [0.0; 2] };
+    let levels = known.levels.map(|l| Levels {
+        quadratic: l.quadratic,
+        top_speed: l.top_speed,
+        transmitted: share(l.transmitted),
+        driven: share(l.driven),
+        ..Levels::default()
+    });
+    let channels = Channels {
+        transmitted: known.channels.transmitted,
+        ..Channels::default()
+    };
     Terms {
-        levels: levels.map(|l| Levels {
-            quadratic: l.quadratic,
-            top_speed: l.top_speed,
-            ..Levels::default()
-        }),
+        channels: if loaded {
+            channels
+        } else {
+            Channels::default()
+        },
+        levels: levels.filter(|l| steady && *l != Levels::default()),
         ..Terms::default()
     }
 }
 
 /// The parameters of quadratic viscous friction.
 pub(super) fn quadratic(file: &ModelFile) -> impl Iterator<Item = String> + '_ {
+    parameters(file, |quantity| quantity == Quantity::QuadraticViscous)
+}
+
+/// Those with which friction grows with the transmitted torque.
+pub(super) fn of_the_transmitted(file: &ModelFile) -> impl Iterator<Item = String> + '_ {
+    parameters(file, |quantity| {
+        matches!(
+            quantity,
+            Quantity::CoulombTransmitted | Quantity::CoulombDriven
+        )
+    })
+}
+
+fn parameters(file: &ModelFile, is: fn(Quantity) -> bool) -> impl Iterator<Item = String> + '_ {
     let names = file.parameter.iter().map(|p| &p.name);
-    let is = |name: &Name| name.quantity == Quantity::QuadraticViscous;
     names
-        .filter(move |name| name.parse().is_ok_and(|name: Name| is(&name)))
+        .filter(move |name| name.parse().is_ok_and(|name: Name| is(name.quantity)))
         .cloned()
 }
 

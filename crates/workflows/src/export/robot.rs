@@ -1,6 +1,7 @@
 //! A robot file with identified joints to code and files of simulators.
 
-use super::{ExportOptions, File, check, place, resolve};
+use super::asked::few_enough;
+use super::{ExportOptions, File, check, domain, place, resolve};
 use crate::error::Error;
 use crate::robot::read_urdf;
 use std::path::{Path, PathBuf};
@@ -109,6 +110,7 @@ pub fn export_robot_file(
         .map(|w: &Warning| w.message.clone())
         .collect();
     let joints = joints(found, options, &mut warnings)?;
+    few_enough(options, joints.iter().map(|(_, joint)| &joint.model))?;
     let exported = stiction_export::Robot {
         identifier,
         urdf: read.text,
@@ -120,6 +122,7 @@ pub fn export_robot_file(
             center: tool.center,
         }),
         feeds_rigid: options.feedforward.rigid,
+        draws: options.draws,
         notes,
         provenance: Provenance {
             model_sha256: robot.file().map_or(String::new(), |(_, sum)| sum.into()),
@@ -215,9 +218,14 @@ fn joints(
     options.feedforward.rigid = false;
     let steady = options.target.is_simulated();
     // In MuJoCo most joints have two numbers, as they have in a URDF.
-    let advised = if steady { Target::Urdf } else { options.target };
+    let advised = match options.target {
+        Target::Bam | Target::DomainJson => options.target,
+        _ if steady => Target::Urdf,
+        own => own,
+    };
     let each = found.joints.iter().map(|joint: &IdentifiedJoint| {
         let mut read = ReadModel::read(&joint.model)?;
+        let whole = read.model.clone();
         // The inertia beside friction is that of the rotor, which the robot file has.
         read.model.parameter.retain(|p| p.name != "mass");
         let (mut model, mut doubts) = resolve(&read, &options)?;
@@ -243,6 +251,13 @@ fn joints(
             let message = format!("joint {}: {}", joint.name, w.message);
             Warning::new(w.code, message)
         }));
+        if steady {
+            let known = domain::Known {
+                armature: joint.armature,
+                line: simulators,
+            };
+            model.domain = domain::of(&whole, &model, Some(known));
+        }
         let joint = RobotJoint {
             name: joint.name.clone(),
             model,
@@ -346,6 +361,21 @@ mod tests {
             (Target::Mujoco, "arm_joints.xml", "armature=\"0.25\""),
             (Target::IsaacLab, "arm_friction.py", "\"shoulder\": 0.25"),
             (
+                Target::Newton,
+                "arm_newton.py",
+                "\"shoulder\": {\"armature\": 0.25, \"friction\": 1.5, \"damping\": 0.5}",
+            ),
+            (
+                Target::Bam,
+                "arm_shoulder_bam.json",
+                "\"friction_base\": 1.5",
+            ),
+            (
+                Target::DomainJson,
+                "arm_domain.json",
+                "\"frictionloss\": {\"unit\": \"N m\", \"nominal\": 1.5, \"repeatability\": null",
+            ),
+            (
                 Target::Ros2,
                 "config/arm_friction.yaml",
                 "arm_shoulder_friction:",
@@ -432,7 +462,7 @@ mod tests {
             (
                 Target::St,
                 &(|_: &mut ExportOptions| {}) as &dyn Fn(&mut ExportOptions),
-                "target st takes no robot; allowed: urdf, mujoco, isaaclab, ros2 and c; or export the model.toml of a joint",
+                "target st takes no robot; allowed: urdf, mujoco, isaaclab, newton, bam, domain-json, ros2 and c; or export the model.toml of a joint",
             ),
             (
                 Target::C,

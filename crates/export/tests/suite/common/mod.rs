@@ -8,7 +8,7 @@ pub mod terms;
 use rand::{Rng, RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::io::Read;
-use stiction_export::{File, Model, Parameter, Provenance};
+use stiction_export::{Domain, File, Model, Parameter, Provenance};
 use stiction_friction::compensator::{
     Adaptation, Compensator, Friction, Input, Settings, Source, Trip, Watchdog,
 };
@@ -16,7 +16,7 @@ use stiction_friction::{
     CoulombViscous, Damping, Direction, ElastoPlastic, Element, LuGre, MaxwellSlip, Shape, Stribeck,
 };
 
-fn side(
+pub fn side(
     coulomb: f64,
     static_friction: f64,
     stribeck_velocity: f64,
@@ -163,6 +163,8 @@ pub fn model(friction: Friction<f64>) -> Model {
                 given: false,
             },
         ],
+        domain: Domain::default(),
+        draws: None,
         notes: vec![],
         provenance: Provenance {
             version: "0.0.0".into(),

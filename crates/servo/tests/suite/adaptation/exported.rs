@@ -59,6 +59,8 @@ impl Exported {
             rated_force: None,
             top_speed: None,
             parameters: vec![],
+            domain: stiction_export::Domain::default(),
+            draws: None,
             notes: vec![],
             provenance: Provenance {
                 version: "0".into(),
