@@ -22,6 +22,7 @@ mod pasted;
 mod plan;
 mod procedures;
 #[cfg(unix)]
+mod replayed;
 mod resumed;
 mod robot;
 mod rows;
