@@ -138,10 +138,18 @@ pub(super) fn unfiltered(
 fn is_sought(asked: Asked, loaded: &Loaded) -> bool {
     // A force of the wrong sign looks late, by half of a period.
     let is_inverted = super::logs::has_wrong_sign;
+    // A force made of the positions themselves is of their instants.
+    let is_made = |source: &Source| {
+        let drive = source.log.mapping.drive;
+        source.log.mapping.force.is_none() && drive.is_some_and(|own| own.position_loop.is_some())
+    };
     asked.axis.terms.delay == Delay::Fitted
         && asked.options.procedures.method.fits_force()
         && loaded.contradicted.is_none()
-        && !loaded.sources.iter().any(is_inverted)
+        && !loaded
+            .sources
+            .iter()
+            .any(|source| is_inverted(source) || is_made(source))
 }
 
 impl Loaded {
