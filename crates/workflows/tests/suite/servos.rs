@@ -1,6 +1,7 @@
 //! Measured servos without a torque sensor: a magnitude whose sign the following error has, and a torque made of command and position.
 
 use serde_json::Value;
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 use stiction_identify::Silent;
 use stiction_testkit::recordings;
@@ -189,4 +190,109 @@ fn one_line_for_a_servo_predicts_better_than_its_published_set() {
     );
     println!("up_and_down, sin_sin fitted: {fitted:.4} rad, published set {known:.4} rad");
     assert!(fitted <= known, "{fitted} {known}");
+}
+
+/// A joint of an SO-101: name, origin (m) and turn (quarter turns) of its frame in that of the link before, mass (kg) and centre (m) of
+/// its link.
+type Joint = (&'static str, [f64; 3], [f64; 3], f64, [f64; 3]);
+
+const SO101: [Joint; 6] = [
+    (
+        "shoulder_pan",
+        [0.0388, 0.0, 0.0624],
+        [2.0, 0.0, -2.0],
+        0.1,
+        [-0.0308, 0.0, -0.0253],
+    ),
+    (
+        "shoulder_lift",
+        [-0.0304, -0.0183, -0.0542],
+        [-1.0, -1.0, 0.0],
+        0.103,
+        [-0.0899, -0.0084, 0.0184],
+    ),
+    (
+        "elbow_flex",
+        [-0.1126, -0.028, 0.0],
+        [0.0, 0.0, 1.0],
+        0.104,
+        [-0.0981, 0.0032, 0.0183],
+    ),
+    (
+        "wrist_flex",
+        [-0.1349, 0.0052, 0.0],
+        [0.0, 0.0, -1.0],
+        0.079,
+        [0.0, -0.0386, 0.0281],
+    ),
+    (
+        "wrist_roll",
+        [0.0, -0.0611, 0.0181],
+        [1.0, 0.031, 2.0],
+        0.087,
+        [0.0, 0.0, -0.0252],
+    ),
+    (
+        "gripper",
+        [0.0202, 0.0188, -0.0234],
+        [1.0, 0.0, 0.0],
+        0.012,
+        [-0.0016, -0.03, 0.0193],
+    ),
+];
+
+fn urdf() -> String {
+    let shown = |x: [f64; 3]| x.map(|x| x.to_string()).join(" ");
+    let mut out = "<robot name=\"so101\"><link name=\"base\"/>".to_string();
+    let mut before = "base";
+    for (name, origin, turn, mass, center) in SO101 {
+        let inertia = 1e-4;
+        out += &format!(
+            "<link name=\"{name}_link\"><inertial><origin xyz=\"{}\"/><mass value=\"{mass}\"/><inertia ixx=\"{inertia}\" ixy=\"0\" ixz=\"0\" \
+             iyy=\"{inertia}\" iyz=\"0\" izz=\"{inertia}\"/></inertial></link>\
+             <joint name=\"{name}\" type=\"continuous\"><parent link=\"{before}\"/><child link=\"{name}_link\"/>\
+             <origin xyz=\"{}\" rpy=\"{}\"/><axis xyz=\"0 0 1\"/></joint>",
+            shown(center),
+            shown(origin),
+            shown(turn.map(|x| x * FRAC_PI_2))
+        );
+        before = Box::leak(format!("{name}_link").into_boxed_str());
+    }
+    out + "</robot>"
+}
+
+/// The bristles of gears smooth the friction of short strokes as a low-pass does, which these torques did not pass: their steps of one
+/// count are all there.
+#[test]
+fn an_arm_of_servos_has_no_low_pass_in_its_torques() {
+    let Some(data) = recordings() else { return };
+    let folder = data.join("robots/so101/coupled_joints");
+    let control = folder.join("control.csv");
+    let mut toml = "[columns]\ntime = { column = \"timestamp\", unit = \"us\" }\n".to_string();
+    for (i, (name, ..)) in SO101.iter().enumerate() {
+        let column = |of: &str| format!("column = \"{of}(:,{})\"", i + 1);
+        toml += &format!(
+            "[joint.{name}]\nposition = {{ {}, unit = \"rad\" }}\n\
+             torque = {{ {}, unit = \"N m\", sign = \"following-error\" }}\n\
+             reference = {{ file = {control:?}, {}, unit = \"rad\", time = {{ column = \"timestamp\", unit = \"us\" }} }}\n",
+            column("positions"),
+            column("torques"),
+            column("positions")
+        );
+    }
+    let folder_of_files = tempfile::tempdir().unwrap();
+    let written = |name: &str, text: &str| {
+        let path = folder_of_files.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let files = stiction_workflows::robot::Files {
+        logs: vec![folder.join("state_motor.csv")],
+        urdf: Some(written("so101.urdf", &urdf())),
+        robot: Some(written("arm.toml", &toml)),
+        ..Default::default()
+    };
+    let found = stiction_workflows::robot::robot(&files, &Default::default(), &mut Silent).unwrap();
+    assert_eq!(found.result.conditioning.torque_cutoff_hz, None);
+    assert!(found.result.joints.iter().all(|joint| joint.fit.is_some()));
 }
