@@ -46,6 +46,15 @@ impl Joint {
             }
             both => both,
         };
+        // What the log itself shows comes first: the law may have terms that a joint has not.
+        let known = ["frictionloss", "damping"].map(|name| {
+            let found = model.domain.numbers.iter().find(|own| own.name == name);
+            found.map(|own| own.nominal)
+        });
+        let [friction, damping] = match known {
+            [Some(friction), Some(damping)] => [friction, damping],
+            _ => [friction, damping],
+        };
         let (friction, damping) = (six_digits(friction), six_digits(damping));
         Joint {
             friction,

@@ -186,8 +186,12 @@ impl Log {
         }
         let completed = mapping.complete(&table)?;
         let mut mapping = completed.mapping;
-        mapping.drive = mapping.drive.map(|drive| drive.of_log(&table.scalars));
         let mut findings = completed.findings;
+        if let Some(drive) = mapping.drive {
+            let (drive, assumed) = drive.of_log(&table.scalars);
+            mapping.drive = Some(drive);
+            findings.extend(assumed.filter(|_| mapping.force.is_none()));
+        }
         let mut sources = Vec::new();
         for role in Role::ALL {
             if let Some(mut source) = Source::of(&mapping, &table, role)? {
@@ -477,11 +481,10 @@ impl Log {
         self.valid().into_iter().map(|valid| !valid).collect()
     }
 
-    /// Whether a gap begins after a sample.
+    /// Whether a gap begins after a sample, or another recording.
     pub(crate) fn gap_after(&self, sample: usize) -> bool {
-        self.gaps
-            .binary_search_by_key(&sample, |g| g.start_index)
-            .is_ok()
+        let gap = self.gaps.binary_search_by_key(&sample, |g| g.start_index);
+        gap.is_ok() || self.resumed.binary_search(&(sample + 1)).is_ok()
     }
 
     /// Whether a segment begins with this sample.

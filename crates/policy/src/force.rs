@@ -12,7 +12,7 @@ thresholds! {
     MAX_STEP_CHANGES: usize = 2, "1", "Changes of a force that is one step.", "choice: there, and back";
     MIN_NET_WORK: f64 = -0.3, "1", "Net work over the sum of its magnitudes, below which the sign is wrong.", "choice: friction as a force gives -1";
     MAX_UNSIGNED_DIFFERENCE: f64 = 0.25, "1", "Difference of the mean force of both directions over their sum, up to which a force of one sign is a magnitude.", "SO-101, four joints of two recordings: 0.005 to 0.05; a weight in balance with friction has 1";
-    MAX_UNSIGNED_LOW: f64 = 0.1, "mean forces", "First percentile of such a force.", "SO-101: 0; a weight beyond friction does not reach zero";
+    MAX_UNSIGNED_LOW: f64 = 0.1, "mean forces", "Least value of such a force.", "SO-101: 0; a weight beyond friction does not reach zero";
     MAX_NET_TRAVEL: f64 = 0.5, "paths", "Net travel of a motion to and fro.", "choice";
     MAX_DEAD: f64 = 0.03, "usual forces", "Force that counts as none.", "choice: friction of a moving axis is more";
     MAX_NEAR_DEAD: f64 = 4.0 * MAX_DEAD, "usual forces", "Force up to which a stretch without force is followed.", "choice: a force that changes its sign passes here";

@@ -315,6 +315,8 @@ pub enum Found {
     CoarseForce { step: Value, range: f64, few: bool },
     /// The force does negative work.
     ForceBrakes { part: f64, turn: Turn },
+    /// The P gain, or the supply, V, of a servo's loop is the usual one, since nothing states it.
+    ServoAssumed { kp: Option<f64>, supply: Option<f64> },
     /// The force is a magnitude, and whether the log has a reference.
     Magnitude { reference: bool },
     /// A force on a rotary axis, or a torque on a linear one.
@@ -401,7 +403,9 @@ impl Found {
             Self::CoarseForce { .. } => Code::CoarseForce,
             Self::ForceBrakes { .. } | Self::Magnitude { .. } => Code::ForceSign,
             Self::ForceUnit { .. } => Code::ForceUnit,
-            Self::ForceIsVoltage { .. } | Self::Uncalibrated { .. } => Code::ForceNotCalibrated,
+            Self::ForceIsVoltage { .. } | Self::Uncalibrated { .. } | Self::ServoAssumed { .. } => {
+                Code::ForceNotCalibrated
+            }
             Self::NoForce { .. } => Code::NoForce,
             Self::Velocity(_) => Code::VelocityMismatch,
             Self::Acceleration(_) => Code::AccelerationMismatch,
@@ -539,6 +543,12 @@ impl Found {
                 };
                 format!("inverted force sign: the force brakes, with a net work of -{} of all the work it does. {cure}", percent(*part))
             }
+            Self::ServoAssumed { kp, supply } => {
+                let kp = kp.map(|kp| (format!("a P gain of {}", short(kp)), "kp = GAIN"));
+                let supply = supply.map(|volt| (format!("a supply of {} V", short(volt)), "supply = \"VOLTAGE V\""));
+                let (said, lines): (Vec<_>, Vec<_>) = kp.into_iter().chain(supply).unzip();
+                format!("the torque of the servo is assumed to be that of {}, and every force scales with it. State what was set, under [drive] in {axis}: {}", said.join(" and "), lines.join(" and "))
+            }
             Self::Magnitude { reference } => {
                 let cure = match reference {
                     true => "Write sign = \"following-error\" beside its column",
@@ -553,7 +563,7 @@ impl Found {
             Self::NoForce { columns, line } => {
                 let cure = match line {
                     ForceLine::Column { line, open_unit } => format!("Name it in {axis} under [columns], such as {line}{} (for the voltage, the duty or the current of a motor see [drive] in docs/axis.md)", if *open_unit { ", where UNIT is N of a force, N m of a torque, A of a current" } else { "" }),
-                    ForceLine::OtherFile => format!("Join one of another file by its time stamps, in {axis} under [columns]: force = {{ file = \"FILE\", column = \"NAME\", unit = \"UNIT\" }}"),
+                    ForceLine::OtherFile => format!("Join one of another file by its time stamps, in {axis} under [columns]: force = {{ file = \"FILE\", column = \"NAME\", unit = \"UNIT\" }}; of a servo that follows a commanded position write servo = \"MODEL\" (docs/lerobot.md)"),
                     ForceLine::Nanometres { column, line } => format!("The name of {column} is that of a force, but nm are nanometres; newton metres are Nm or N m: write that in the log, or in {axis} under [columns]: {line}"),
                     ForceLine::Counts { column, line } => format!("The name of {column} is that of a force, but the size of its counts is missing: give it in {axis} under [columns], such as {line}"),
                 };

@@ -12,6 +12,9 @@ use super::object::{named, object};
 use super::offer::{MOST_OFFERED, Offer};
 use super::seen::Seen;
 
+/// Longest tag of a description, bytes; theirs have some hundred.
+const LONGEST_TAG: usize = 1 << 15;
+
 /// A number of a process data object, without a place.
 struct Part {
     index: u16,
@@ -22,6 +25,11 @@ struct Part {
 
 /// The map that a description gives; nothing where it is none, or fits nothing of the capture.
 pub(super) fn offers(text: &str, seen: &Seen) -> Vec<Offer> {
+    // Attributes of one tag are compared with each other.
+    let is_long = |tag: &str| tag.find('>').unwrap_or(tag.len()) > LONGEST_TAG;
+    if text.split('<').any(is_long) {
+        return Vec::new();
+    }
     let Ok(document) = Document::parse(text) else {
         return Vec::new();
     };

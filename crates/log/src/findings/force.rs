@@ -174,22 +174,21 @@ pub(crate) fn sign_of_another_clock(findings: &mut [Finding]) {
 }
 
 /// Whether a force is the magnitude of one that changes its sign: it has one sign, falls to nearly nothing, and is the same both ways
-/// but for this part.
-fn is_magnitude(force: &[f64], difference: f64) -> bool {
-    let mut sizes: Vec<f64> = force
-        .iter()
-        .map(|f| f.abs())
-        .filter(|f| f.is_finite())
-        .collect();
+/// but for this part. A stretch without force is a drive that was off.
+fn is_magnitude(log: &Log, force: &[f64], difference: f64) -> bool {
     let one_sign = [1.0, -1.0].map(|sign| force.iter().all(|f| sign * f >= 0.0 || f.is_nan()));
-    let mean = sizes.iter().sum::<f64>() / sizes.len() as f64;
+    let sizes = || force.iter().map(|f| f.abs()).filter(|f| f.is_finite());
+    let mean = sizes().sum::<f64>() / sizes().count().max(1) as f64;
     let alike = mean > 0.0 && difference <= force::MAX_UNSIGNED_DIFFERENCE;
     if !alike || !one_sign.contains(&true) {
         return false;
     }
-    let at = sizes.len() / 100;
-    let (_, low, _) = sizes.select_nth_unstable_by(at, f64::total_cmp);
-    *low <= force::MAX_UNSIGNED_LOW * mean
+    let off = (force::MIN_DEAD_TIME * log.rate_hz).max(1.0) as usize;
+    let runs = runs_where(force, off, |f| f == 0.0);
+    let mut driven = vec![true; force.len()];
+    runs.into_iter().for_each(|run| driven[run].fill(false));
+    let low = force.iter().zip(driven).filter(|(_, driven)| *driven);
+    low.map(|(f, _)| f.abs()).fold(f64::INFINITY, f64::min) <= force::MAX_UNSIGNED_LOW * mean
 }
 
 /// Compares work done along and against the motion: a force that drives an axis with friction
@@ -215,7 +214,7 @@ pub(super) fn sign(log: &mut Log) {
     let to_and_fro = travel.abs() < force::MAX_NET_TRAVEL * path;
     // Of a force that never changes its sign the work each way is its mean times the travel.
     let [ahead, back] = [1.0, -1.0].map(|way| (gross + way * net) / (path + way * travel));
-    if to_and_fro && is_magnitude(force, (ahead - back).abs() / (ahead + back)) {
+    if to_and_fro && is_magnitude(log, force, (ahead - back).abs() / (ahead + back)) {
         let reference = log.reference.is_some();
         log.findings
             .push(Finding::warning(Found::Magnitude { reference }));

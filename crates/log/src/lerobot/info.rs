@@ -76,6 +76,10 @@ impl Info {
                 .filter(|(_, c)| c.name.starts_with(&list))
                 .map(|(at, _)| at)
                 .collect();
+            // Names that are no text name nothing.
+            if feature.elements.iter().any(String::is_empty) {
+                continue;
+            }
             let names: Vec<String> = (feature.elements.iter())
                 .map(|element| format!("{}.{element}", feature.name))
                 .collect();
@@ -111,13 +115,12 @@ impl Info {
     }
 }
 
-/// The names of elements: a list of them, as in `{"motors": ["elbow", ..]}` too, or the place of each, `{"x": 0, "y": 1}`. Of several
-/// lists each has its key in front.
+/// The names of elements: a list of them, as in `{"motors": ["elbow", ..]}` too, or the place of each, `{"x": 0, "y": 1}`.
 fn elements(names: &Value) -> Vec<String> {
     let list = |value: &Value| -> Vec<String> {
         let texts = value.as_array().into_iter().flatten();
         texts
-            .filter_map(|name| name.as_str().map(str::to_owned))
+            .map(|name| name.as_str().unwrap_or_default().to_owned())
             .collect()
     };
     let Some(object) = names.as_object() else {
@@ -130,15 +133,10 @@ fn elements(names: &Value) -> Vec<String> {
         places.sort();
         return places.into_iter().map(|(_, name)| name.clone()).collect();
     }
+    // The order of several lists is that of the file, which a map does not keep.
     match object.len() {
         1 => object.values().flat_map(list).collect(),
-        _ => (object.iter())
-            .flat_map(|(key, value)| {
-                list(value)
-                    .into_iter()
-                    .map(move |name| format!("{key}.{name}"))
-            })
-            .collect(),
+        _ => Vec::new(),
     }
 }
 
@@ -152,10 +150,8 @@ mod tests {
             (r#"["a.pos", "b.pos"]"#, vec!["a.pos", "b.pos"]),
             (r#"{"motors": ["a", "b"]}"#, vec!["a", "b"]),
             (r#"{"y": 1, "x": 0}"#, vec!["x", "y"]),
-            (
-                r#"{"left": ["a"], "right": ["a"]}"#,
-                vec!["left.a", "right.a"],
-            ),
+            (r#"{"right": ["a"], "left": ["a"]}"#, vec![]),
+            (r#"["a", null, "b"]"#, vec!["a", "", "b"]),
             ("null", vec![]),
             ("3", vec![]),
         ] {

@@ -93,9 +93,16 @@ pub(crate) fn read(path: &Path, limits: Limits) -> Result<(Table, Vec<Part>), Er
     Ok((table, parts))
 }
 
-/// Gives the table of one Parquet file what the data set says of it, where it is of one.
-pub(crate) fn complete(path: &Path, table: Table) -> Result<Table, Error> {
+/// Gives the table of one Parquet file what the data set says of it, where it is of one. A file by itself still begins anew where its
+/// episodes change.
+pub(crate) fn complete(path: &Path, mut table: Table) -> Result<Table, Error> {
     let Some(root) = root(path) else {
+        if table.columns.iter().any(|column| column.name == EPISODE) {
+            let begins = episodes(&table);
+            table
+                .starts
+                .extend(begins.into_iter().filter(|row| *row > 0));
+        }
         return Ok(table);
     };
     let info = Info::read(&root.join(INFO[0]).join(INFO[1]))?;

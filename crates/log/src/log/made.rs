@@ -30,10 +30,11 @@ pub(super) fn force(
 ) -> Result<(), Error> {
     let by_error =
         mapping.force.as_ref().and_then(|f| f.sign.as_ref()) == Some(&Sign::FollowingError);
+    let invert = mapping.force.as_ref().is_some_and(|force| force.invert);
     let position_loop = mapping.drive.and_then(|drive| drive.position_loop);
     let position_loop = position_loop.filter(|_| mapping.force.is_none());
     let source = match (sign, by_error || position_loop.is_some()) {
-        (Some(sign), _) => sign,
+        (Some(sign), _) => signed(sign),
         (None, false) => return Ok(()),
         (None, true) => following_error(columns, by_error)?,
     };
@@ -46,13 +47,22 @@ pub(super) fn force(
         for (force, source) in force.iter_mut().zip(source) {
             // Without an error the loop commands nothing.
             let sign = if source == 0.0 { 0.0 } else { source.signum() };
-            *force = force.abs() * sign;
+            *force = force.abs() * if invert { -sign } else { sign };
         }
     }
     Ok(())
 }
 
-/// Reference less position, rad or m.
+/// The numbers of a sign; of a direction bit, 0 and 1, 0 is back.
+fn signed(mut sign: Vec<f64>) -> Vec<f64> {
+    if sign.iter().all(|x| [0.0, 1.0].contains(x) || x.is_nan()) {
+        sign.iter_mut().for_each(|x| *x = 2.0 * *x - 1.0);
+    }
+    sign
+}
+
+/// Reference less position, rad or m; for a duty the mean error about the sample: a command is held until the next one, while the axis
+/// moves on.
 fn following_error(columns: &mut Columns, of_sign: bool) -> Result<Vec<f64>, Error> {
     let mut taken = |role: Role| columns.get_mut(role).map(|values| values.clone());
     let (Some(position), Some(reference)) = (taken(Role::Position), taken(Role::Reference)) else {
@@ -64,5 +74,11 @@ fn following_error(columns: &mut Columns, of_sign: bool) -> Result<Vec<f64>, Err
         let allowed = "the commanded position under [columns]: reference = { column = \"NAME\", unit = \"rad\" }, with file = \"FILE\" if it is in another file";
         return Err(Error::new(Kind::Missing, found, allowed).of_setting(setting));
     };
-    Ok(reference.iter().zip(position).map(|(r, x)| r - x).collect())
+    let before = |i: usize| match i {
+        0 => reference[0],
+        _ if of_sign => reference[i],
+        _ => reference[i - 1],
+    };
+    let error = |(i, x): (usize, &f64)| 0.5 * (before(i) + reference[i]) - x;
+    Ok(position.iter().enumerate().map(error).collect())
 }

@@ -2,6 +2,7 @@
 
 use super::channel::Motion;
 use super::servos::Servo;
+use crate::findings::{Finding, Found};
 use crate::table::Scalar;
 use crate::{Dimension, Error, Kind};
 use std::ops::RangeInclusive;
@@ -65,18 +66,25 @@ pub(crate) struct Gain {
 }
 
 impl Drive {
-    /// With the P gain and the supply of a log that states them beside its columns, as BAM's do (`kp`, `vin`), or the usual ones.
-    pub(crate) fn of_log(mut self, scalars: &[Scalar]) -> Self {
+    /// With the P gain and the supply of a log that states them beside its columns, as BAM's do (`kp`, `vin`), or the usual ones, which
+    /// is found then.
+    pub(crate) fn of_log(mut self, scalars: &[Scalar]) -> (Self, Option<Finding>) {
         let stated = |name: &str| {
             let own = scalars.iter().find(|scalar| scalar.name == name);
             own.map(|scalar| scalar.value).filter(|x| *x > 0.0)
         };
-        if let Some(own) = &mut self.position_loop {
-            own.kp = own.kp.or_else(|| stated("kp")).or(Some(own.servo.kp));
-            let usual = || stated("vin").filter(|x| SUPPLIES.contains(x));
-            self.supply = self.supply.or_else(usual).or(Some(own.servo.supply));
-        }
-        self
+        let Some(own) = &mut self.position_loop else {
+            return (self, None);
+        };
+        own.kp = own.kp.or_else(|| stated("kp"));
+        let of_file = || stated("vin").filter(|x| SUPPLIES.contains(x));
+        self.supply = self.supply.or_else(of_file);
+        let kp = own.kp.is_none().then_some(own.servo.kp);
+        let supply = self.supply.is_none().then_some(own.servo.supply);
+        (own.kp, self.supply) = (own.kp.or(kp), self.supply.or(supply));
+        let assumed = kp.is_some() || supply.is_some();
+        let found = Found::ServoAssumed { kp, supply };
+        (self, assumed.then(|| Finding::warning(found)))
     }
 
     /// How the force follows from a column of this dimension.

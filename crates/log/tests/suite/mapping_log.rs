@@ -737,8 +737,8 @@ fn a_magnitude_is_found_and_takes_its_sign_from_what_has_it() {
         assert_eq!(warnings(&log), [""; 0]);
         assert_eq!(log.force.as_ref().unwrap(), &force);
         let inverted = Log::from_table(&table, &mapping(own.inverted())).unwrap();
-        // The magnitude has no sign to invert.
-        assert_eq!(inverted.force.as_ref().unwrap(), &force);
+        let back: Vec<f64> = force.iter().map(|f| -f).collect();
+        assert_eq!(inverted.force.as_ref().unwrap(), &back);
     }
     let own = Channel {
         sign: Some(Sign::FollowingError),
@@ -820,7 +820,9 @@ fn a_servo_makes_its_torque_of_command_and_position() {
         let log = Log::from_table(&table, &mapping).unwrap();
         assert_eq!(log.force_unit, "N*m");
         for (i, force) in log.force.as_ref().unwrap().iter().enumerate() {
-            let duty = (kp * gain * (goal[i] - position[i])).clamp(-1.0, 1.0);
+            // A command is held until the next one: the mean about the sample is of it and of the one before.
+            let held = 0.5 * (goal[i] + goal[i.saturating_sub(1)]);
+            let duty = (kp * gain * (held - position[i])).clamp(-1.0, 1.0);
             let wanted = 0.3867 * supply * duty / 4.017;
             assert!((force - wanted).abs() < 1e-12, "{i}: {force} {wanted}");
         }

@@ -4,6 +4,7 @@ use stiction_export::{Domain, Model, Number, Scale};
 use stiction_files::ModelFile;
 use stiction_files::model::{ModelParameter, square_root};
 use stiction_parameters::{Name, Quantity};
+use stiction_policy::interval;
 
 /// Half width of a logarithm up to which a number that the force is linear in counts as normal in it.
 const MOST_OF_A_LOGARITHM: f64 = 0.5;
@@ -49,6 +50,14 @@ pub(super) fn of(file: &ModelFile, model: &Model, robot: Option<Known>) -> Domai
         (None, None) => {}
     }
     let line = robot.and_then(|known| known.line);
+    let logged = || {
+        Some([
+            file.line.as_ref()?.coulomb.value,
+            file.line.as_ref()?.viscous.value,
+        ])
+    };
+    let logged = || logged().map(|own| own.map(|x| x.max(0.0)));
+    let line = line.or_else(logged);
     let nominal = line.unwrap_or_else(|| stiction_export::nearest_line(model));
     let force = file.force_unit.replace(['*', '·'], " ");
     let per_speed = format!("{force} s/{}", if model.rotary { "rad" } else { "m" });
@@ -65,6 +74,7 @@ pub(super) fn of(file: &ModelFile, model: &Model, robot: Option<Known>) -> Domai
                 let half = [Some(known[k].repeat), Some(known[k].transfer)];
                 let number = Number {
                     half,
+                    is_determined: known[k].repeat <= interval::MAX_HALF_WIDTH * nominal[k],
                     ..plain(name, unit, nominal[k])
                 };
                 (number, Source::Line(k))
@@ -125,7 +135,7 @@ fn plain(name: &str, unit: String, nominal: f64) -> Number {
         nominal,
         half: [None; 2],
         scale: Scale::NotNegative,
-        is_determined: true,
+        is_determined: false,
     }
 }
 
@@ -155,20 +165,21 @@ fn named(p: &ModelParameter, name: &str, nominal: f64) -> Number {
     // What the data bound on no side is not varied.
     let half = [repeat, p.transfer.filter(|_| repeat.is_some())];
     let is_wide = (half.iter().flatten()).any(|half| *half > MOST_OF_A_LOGARITHM * p.value);
+    let half = half.map(|half| {
+        let scaled = half.map(|half| half * size.abs());
+        scaled.filter(|_| nominal != 0.0 || !is_log)
+    });
     Number {
         name: name.into(),
         unit: p.unit.replace(['*', '·'], " "),
         nominal,
-        half: half.map(|half| {
-            half.map(|half| half * size.abs())
-                .filter(|_| nominal != 0.0 || !is_log)
-        }),
+        half,
         scale: match (is_log && !(is_linear && is_wide), is_positive) {
             (true, _) => Scale::Log,
             (false, true) => Scale::NotNegative,
             (false, false) => Scale::Any,
         },
-        is_determined: p.identifiable || p.origin == "given",
+        is_determined: p.origin == "given" || p.identifiable && half[0].is_some(),
     }
 }
 

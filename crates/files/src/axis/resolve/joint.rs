@@ -37,6 +37,7 @@ impl Axis {
         };
         let resolver = Resolver::default();
         resolver.mapping(root, &mut axis.mapping)?;
+        drive(root, &mut axis.mapping)?;
         let folder = source.file.parent().unwrap_or(Path::new(""));
         columns(root, &mut axis.mapping, folder)?;
         let given = Role::ALL.into_iter().filter(|role| *role != Role::Time);
@@ -84,7 +85,9 @@ impl Axis {
         let folder = self.file.parent().unwrap_or(Path::new(""));
         let mapping = &mut axis.mapping;
         axis.joined = roles(table, &ROLES, mapping, folder)?;
-        drive(table, mapping)?;
+        if table.find("servo").is_some() || table.find("drive").is_some() {
+            drive(table, mapping)?;
+        }
         let resolver = Resolver::default();
         let within = |key, dimensions: &[Dimension], range| {
             let given = table.get(key);
