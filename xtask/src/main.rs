@@ -5,6 +5,7 @@ mod debian;
 mod exports;
 mod instructions;
 mod interpreter;
+mod library;
 mod licences;
 mod package;
 mod peers;
@@ -102,6 +103,11 @@ const TASKS: &[Task] = &[
         name: "validation",
         help: "identify the measured recordings and rewrite docs/validation.md",
         run: validation,
+    },
+    Task {
+        name: "library",
+        help: "identify the machines of the library anew from the recordings; URDFs from STICTION_URDFS or example-robot-data in .venv",
+        run: library::run,
     },
     Task {
         name: "searches",

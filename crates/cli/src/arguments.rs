@@ -62,6 +62,8 @@ pub enum Command {
     Reproduce(Reproduce),
     /// Write the compensator of a model as code or tables for a controller.
     Export(Export),
+    /// Machines that are identified already: list them, or write the files of one, ready for export.
+    Library(Library),
     /// Open a folder on a local page: logs, identification, studies and exports by looking.
     #[cfg(feature = "studio")]
     Studio(Studio),
@@ -160,6 +162,7 @@ pub const COMMANDS: &[&str] = &[
     "simulate",
     "reproduce",
     "export",
+    "library",
     #[cfg(feature = "studio")]
     "studio",
     "completions",
@@ -331,6 +334,19 @@ pub struct Batch {
     pub out: PathBuf,
     /// Write into a folder that holds something else; files of the same names are replaced.
     #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Library {
+    /// A machine of the library [default: all are listed].
+    #[arg(value_name = "MACHINE", value_parser = PossibleValuesParser::new(stiction::library::Library::names()))]
+    pub machine: Option<String>,
+    /// Folder for its files [default: nothing is written].
+    #[arg(long, value_name = "DIR", requires = "machine")]
+    pub out: Option<PathBuf>,
+    /// Write into a folder that holds something else; files of the same names are replaced.
+    #[arg(long, requires = "out")]
     pub force: bool,
 }
 

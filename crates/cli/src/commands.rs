@@ -7,6 +7,7 @@ mod demo;
 mod drift;
 mod export;
 mod identify;
+mod library;
 mod plan;
 mod reproduce;
 mod robot;
@@ -56,6 +57,7 @@ pub fn run(arguments: &Arguments) -> Exit {
         Command::Simulate(typed) => simulate::run(typed, common),
         Command::Reproduce(typed) => reproduce::run(typed, common),
         Command::Export(typed) => export::run(typed, common),
+        Command::Library(typed) => library::run(typed, common),
         #[cfg(feature = "studio")]
         Command::Studio(typed) => studio::run(typed, common),
         Command::Completions(wanted) => text(&brought::completions(wanted.shell), common),

@@ -97,6 +97,7 @@
 //! | a fit | law, prediction, compensator, files | [`Fit::law`], [`Fit::predict`], [`Fit::compensator`], [`Fit::write`] |
 //! | a model | code for a controller | [`export()`] |
 //! | logs of a robot and its URDF | its rigid body and a fit of each joint | [`robot`] |
+//! | a name in the library | a machine that is identified already | [`library`] |
 //! | a study file | tracking errors with and without compensation | [`Study::read`], [`simulate`] |
 //!
 //! SI throughout; a force that the log has in A or V stays in it. Results do not depend on the number of threads. A result
@@ -109,6 +110,7 @@ pub mod commands;
 mod fit;
 mod fit_csv;
 mod identify;
+pub mod library;
 mod log;
 mod parameter;
 pub mod robot;

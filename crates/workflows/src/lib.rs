@@ -9,6 +9,7 @@
 //! - [`reproduce`]: published experiments run again.
 //! - [`plan`](plan::plan): the motion to record, within the limits of an axis.
 //! - [`export`](export::export): a model as code for a target.
+//! - [`Library`](library::Library): machines that are identified already.
 //! - [`demo`](demo::demo): a known axis, simulated, identified and held against the truth.
 //!
 //! Begin with [`identify`](identify::identify), which goes from paths to an outcome, or with
@@ -49,6 +50,7 @@ mod entries;
 mod error;
 pub mod export;
 pub mod identify;
+pub mod library;
 pub mod plan;
 pub mod reproduce;
 pub mod robot;

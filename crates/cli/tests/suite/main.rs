@@ -10,6 +10,7 @@ mod faults;
 mod killed;
 mod leads;
 mod level_map;
+mod library;
 #[cfg(unix)]
 mod linuxcnc;
 mod nameplate;

@@ -106,6 +106,6 @@ fn refuse_foreign(dir: &Path, files: &[(&str, &[u8])]) -> Result<(), Error> {
     };
     match there.find(|file| !is_own(file)) {
         None => Ok(()),
-        Some((name, _)) => refuse(&dir.join(name), "is not as stiction export wrote it"),
+        Some((name, _)) => refuse(&dir.join(name), "is not as stiction wrote it"),
     }
 }
