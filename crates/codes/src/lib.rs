@@ -154,6 +154,7 @@ codes! {
     BadCheckpoint = "bad-checkpoint": "a checkpoint is damaged or belongs to another search",
     Usage = "usage": "the command as typed cannot be carried out",
     Internal = "internal": "stiction failed by a fault of its own",
+    Device = "device": "a device cannot be reached or recorded from",
     Output = "output": "the output folder or file cannot be used",
     ModelInDoubt = "model-in-doubt": "the model of a study, or what a plan is made from, is not trustworthy",
     NotInStudy = "not-in-study": "the model has terms that a study does not simulate",

@@ -1,6 +1,6 @@
 //! For tests only: where measured recordings are, what must hold on them, an interpreter and a compiler of Structured Text, other
 //! programs of the set-up, LinuxCNC, the plain midpoint step, simulated logs of worlds that an identification does, or does not,
-//! assume ([`worlds`]), joints behind gears ([`geared`]), and whole robots ([`robots`]).
+//! assume ([`worlds`]), joints behind gears ([`geared`]), whole robots ([`robots`]), and servers that stand for devices ([`devices`]).
 //!
 //! Start with [`recordings`] for a test on measured data, and with [`st::Library`] for one that runs Structured Text:
 //!
@@ -17,6 +17,7 @@
 //! ```
 
 mod cases;
+pub mod devices;
 pub mod geared;
 #[cfg(unix)]
 pub mod hal;
