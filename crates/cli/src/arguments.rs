@@ -42,6 +42,8 @@ pub struct Common {
 pub enum Command {
     /// A known axis, a realistic log, identify it, compare with the truth: no input needed.
     Demo(Demo),
+    /// Record a log from a TwinCAT PLC (ADS) or a Universal Robots arm (RTDE); only reads.
+    Record(Record),
     /// What was read and detected, and what this log can and cannot determine.
     Check(Check),
     /// Identify a friction law from logs of one axis.
@@ -141,6 +143,26 @@ fn budget(text: &str) -> Result<f64, String> {
     )
 }
 
+/// A time to record.
+fn recording_time(text: &str) -> Result<f64, String> {
+    let allowed = "a time above 0 is allowed, such as 30s or 2min";
+    let time = time(text, allowed)?;
+    (time > 0.0).then_some(time).ok_or_else(|| allowed.into())
+}
+
+/// A rate with or without its unit, in Hz.
+fn rate(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let (digits, by) = match (text.strip_suffix("kHz"), text.strip_suffix("Hz")) {
+        (Some(digits), _) => (digits, 1e3),
+        (None, Some(digits)) => (digits, 1.0),
+        (None, None) => (text, 1.0),
+    };
+    let rate = number(digits).ok().map(|number| by * number);
+    let rate = rate.filter(|rate| *rate > 0.0);
+    rate.ok_or_else(|| "a rate above 0 is allowed, such as 500Hz or 1kHz".into())
+}
+
 /// A time of a controller.
 fn seconds(text: &str) -> Result<f64, String> {
     time(
@@ -152,6 +174,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 /// The names of all commands.
 pub const COMMANDS: &[&str] = &[
     "demo",
+    "record",
     "check",
     "identify",
     "robot",
@@ -201,6 +224,23 @@ pub struct Demo {
     /// Run the motion of a plan on the axis of the demo instead, as if it were the machine, and write its log.
     #[arg(long, value_name = "PLAN.toml", conflicts_with = "procedures")]
     pub plan: Option<PathBuf>,
+}
+
+#[derive(Clone, Debug, Args)]
+pub struct Record {
+    /// ads://NETID:PORT/SYMBOL with further symbols behind it, or rtde://HOST. Where the first four numbers of the NetID are not
+    /// the address of the PLC: ads://NETID:PORT@HOST/SYMBOL. A symbol may have a unit: MAIN.fPos=mm.
+    #[arg(required = true, value_name = "URL")]
+    pub device: Vec<String>,
+    /// Samples a second, such as 500Hz or 1kHz: for ADS that of the task [default: 1kHz for ADS, 125Hz for RTDE].
+    #[arg(long, value_name = "RATE", allow_negative_numbers = true, value_parser = rate)]
+    pub rate: Option<f64>,
+    /// Time to record, such as 30s or 2min [default: until Ctrl-C].
+    #[arg(long, value_name = "TIME", allow_negative_numbers = true, value_parser = recording_time)]
+    pub time: Option<f64>,
+    /// The log, .csv or .parquet; a file that exists is kept.
+    #[arg(long, value_name = "LOG")]
+    pub out: PathBuf,
 }
 
 #[derive(Clone, Debug, Args)]

@@ -9,6 +9,7 @@ mod export;
 mod identify;
 mod library;
 mod plan;
+mod record;
 mod reproduce;
 mod robot;
 mod simulate;
@@ -47,6 +48,7 @@ pub fn run(arguments: &Arguments) -> Exit {
     }
     let result = match &arguments.command {
         Command::Demo(typed) => demo::run(typed, common),
+        Command::Record(typed) => record::run(typed, common),
         Command::Check(typed) => check::run(typed, common),
         Command::Identify(typed) => identify::run(typed, common),
         Command::Robot(typed) => robot::run(typed, common),

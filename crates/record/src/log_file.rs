@@ -26,7 +26,10 @@ pub(crate) struct LogFile {
     end: u64,
     rows: u64,
     pending: Vec<u8>,
-    pending_rows: u64,
+    /// Time stamps of the rows that wait.
+    waiting: Vec<f64>,
+    /// Those of the first and the last row in the file.
+    stamps: Option<(f64, f64)>,
     due: f64,
 }
 
@@ -68,7 +71,8 @@ impl LogFile {
             end: 0,
             rows: 0,
             pending: Vec::new(),
-            pending_rows: 0,
+            waiting: Vec::new(),
+            stamps: None,
             due: f64::INFINITY,
         })
     }
@@ -86,7 +90,7 @@ impl LogFile {
             self.due = sample.time + BETWEEN;
         }
         row(&mut self.pending, sample);
-        self.pending_rows += 1;
+        self.waiting.push(sample.time);
         if sample.time >= self.due || self.pending.len() >= MOST_PENDING {
             self.due = sample.time + BETWEEN;
             self.flush()?;
@@ -101,20 +105,24 @@ impl LogFile {
         };
         let result = write_rows(file, &self.pending);
         let (kept, rows) = match &result {
-            Ok(()) => (self.pending.len(), self.pending_rows),
+            Ok(()) => (self.pending.len(), self.waiting.len()),
             Err((kept, _)) => {
-                let lines = self.pending[..*kept]
-                    .iter()
-                    .filter(|b| **b == b'\n')
-                    .count() as u64;
+                let lines = self.pending[..*kept].iter().filter(|b| **b == b'\n');
                 // The header is a line too.
-                (*kept, lines.saturating_sub(u64::from(self.end == 0)))
+                (
+                    *kept,
+                    lines.count().saturating_sub(usize::from(self.end == 0)),
+                )
             }
         };
         self.end += kept as u64;
-        self.rows += rows;
+        self.rows += rows as u64;
+        if let Some(last) = rows.checked_sub(1) {
+            let first = self.stamps.map_or(self.waiting[0], |(first, _)| first);
+            self.stamps = Some((first, self.waiting[last]));
+        }
         self.pending.clear();
-        self.pending_rows = 0;
+        self.waiting.clear();
         result.map_err(|(_, e)| {
             // A row that was begun is no row. Where even that fails, so does the reader, at that row.
             let _ = file.set_len(self.end);
@@ -125,6 +133,11 @@ impl LogFile {
     /// Rows that are in the file.
     pub fn rows(&self) -> u64 {
         self.rows
+    }
+
+    /// Time from the first to the last of them, s.
+    pub fn span(&self) -> f64 {
+        self.stamps.map_or(0.0, |(first, last)| last - first)
     }
 
     /// Gives the log its name: where it is, and what went wrong on the way, after which it is CSV. Without a row there is none.

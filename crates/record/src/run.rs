@@ -175,7 +175,7 @@ pub fn record(
     let incomplete = source.incomplete();
     let found = pace.found();
     let flushed = log.flush();
-    let rows = log.rows();
+    let (rows, span) = (log.rows(), log.span());
     let (path, fault) = log.finish();
     let end = match (end, flushed.err().or(fault)) {
         (End::Failed(e), _) => End::Failed(e),
@@ -185,7 +185,7 @@ pub fn record(
     Ok(Recorded {
         path,
         rows,
-        span: pace.span(),
+        span,
         rate: found.rate,
         asked: source.rate(),
         gaps: found.gaps,

@@ -129,6 +129,8 @@ pub enum Stage {
     Counts,
     /// Law comparison on held-out blocks.
     CrossValidation,
+    /// Samples taken from a device.
+    Recording,
     /// Logs, each identified by itself.
     Logs {
         /// How many are done.

@@ -19,6 +19,11 @@ pub mod drift {
     };
 }
 
+/// Recording from a device, read-only.
+pub mod record {
+    pub use stiction_record::{Device, End, Error, Fault, Options, Recorded, Source, record};
+}
+
 /// A recording in SI with how its columns were understood.
 pub mod recording {
     pub use stiction_log::{Channel, Log, Mapping, Motion, Role, Selector, Understood};
@@ -50,6 +55,7 @@ pub fn stage(stage: stiction_identify::Stage) -> &'static str {
         Stage::Coarse => "first descents",
         Stage::Fine | Stage::Finish => "least squares",
         Stage::CrossValidation => "comparing laws",
+        Stage::Recording => "recording",
         Stage::Logs { .. } => "identifying",
         Stage::Experiments { .. } => "simulating",
     }

@@ -81,6 +81,9 @@ pub enum Error {
         /// Why.
         source: Box<stiction_rigid::Error>,
     },
+    /// A recording from a device could not begin.
+    #[error("{0}")]
+    Record(#[from] stiction_record::Error),
     /// The options do not go together with each other or with the logs.
     #[error("{found}; {allowed}")]
     Usage {
@@ -129,6 +132,7 @@ impl Error {
             | Error::NotFed { .. }
             | Error::NoMap { .. } => Code::NotExported,
             Error::Urdf { .. } => Code::BadUrdf,
+            Error::Record(e) => e.code(),
             Error::Usage { .. } | Error::SameLog { .. } => Code::Usage,
         }
     }

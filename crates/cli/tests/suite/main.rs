@@ -22,6 +22,7 @@ mod paper;
 mod pasted;
 mod plan;
 mod procedures;
+mod record;
 #[cfg(unix)]
 mod replayed;
 mod resumed;

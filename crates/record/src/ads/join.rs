@@ -78,3 +78,35 @@ impl Join {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Join;
+
+    #[test]
+    fn rows_are_whole_whatever_the_order_of_columns() {
+        let mut join = Join::new(2);
+        // All of one column, then all of the other.
+        assert_eq!(join.add(10, 0, 1.0), None);
+        assert_eq!(join.add(20, 0, 2.0), None);
+        assert_eq!(join.add(10, 1, 3.0), Some(vec![1.0, 3.0]));
+        assert_eq!(join.add(20, 1, 4.0), Some(vec![2.0, 4.0]));
+        assert_eq!((join.incomplete(), join.hopeless()), (0, 0));
+        // A value that never comes.
+        assert_eq!(join.add(30, 0, 5.0), None);
+        assert_eq!(join.add(40, 0, 6.0), None);
+        assert_eq!(join.add(40, 1, 7.0), Some(vec![6.0, 7.0]));
+        assert_eq!(join.incomplete(), 1);
+    }
+
+    #[test]
+    fn columns_of_different_instants_are_hopeless_and_bounded() {
+        let mut join = Join::new(2);
+        for k in 0..50_000_u64 {
+            assert_eq!(join.add(10 * k + k % 2, (k % 2) as usize, 1.0), None);
+        }
+        assert_eq!(join.hopeless(), 50_000);
+        assert!(join.open.len() <= super::MANY);
+        assert_eq!(join.incomplete(), 0);
+    }
+}
