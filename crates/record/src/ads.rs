@@ -15,7 +15,7 @@ use join::Join;
 use packet::{Packet, frame_length, notifications};
 use request::{Addresses, Request};
 use std::net::IpAddr;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 pub use symbol::{NetId, Symbol};
 use symbol::{Place, remedy};
 
@@ -31,6 +31,8 @@ pub(crate) const MAX_SYMBOLS: usize = 500;
 const OWN_PORT: u16 = 50126;
 /// Ticks of the clock in a second.
 const TICKS: f64 = 1e7;
+/// Longest wait for the answer to the last request.
+const GOODBYE: Duration = Duration::from_millis(500);
 /// Time stamps without a whole row after which there will be none.
 const HOPELESS: usize = 2000;
 
@@ -224,13 +226,22 @@ impl Source for Ads {
 
     fn close(&mut self) {
         if let Some((mut link, mut ends, handles)) = self.link.take() {
+            let mut last = 0;
             for handle in handles {
-                let (bytes, _) = ends.packet(&Request::Forget(handle));
+                let (bytes, id) = ends.packet(&Request::Forget(handle));
                 // The connection ends anyway.
                 if link.send(&bytes).is_err() {
-                    break;
+                    return;
                 }
+                last = id;
             }
+            // A connection that is closed with bytes unread may take requests with it.
+            let until = Instant::now() + GOODBYE;
+            while Instant::now() < until
+                && let Ok(Some(frame)) = link.frame(GOODBYE)
+                && Packet::read(&frame)
+                    .is_ok_and(|packet| packet.is_notification() || packet.id != last)
+            {}
         }
     }
 }

@@ -34,6 +34,7 @@ pub struct Script {
 struct Server {
     at: SocketAddr,
     over: Arc<AtomicBool>,
+    busy: Arc<AtomicBool>,
     refused: Arc<Mutex<Vec<String>>>,
     thread: Option<JoinHandle<()>>,
 }
@@ -52,7 +53,8 @@ impl Server {
         let at = listener.local_addr().expect("a bound port");
         let over = Arc::new(AtomicBool::new(false));
         let refused = Arc::new(Mutex::new(Vec::new()));
-        let (ends, refuses) = (over.clone(), refused.clone());
+        let busy = Arc::new(AtomicBool::new(false));
+        let (ends, refuses, works) = (over.clone(), refused.clone(), busy.clone());
         let thread = std::thread::spawn(move || {
             for stream in listener.incoming() {
                 if ends.load(Ordering::SeqCst) {
@@ -67,7 +69,10 @@ impl Server {
                     over: &ends,
                     refused: &refuses,
                 };
-                if !serve(served) {
+                works.store(true, Ordering::SeqCst);
+                let goes_on = serve(served);
+                works.store(false, Ordering::SeqCst);
+                if !goes_on {
                     return;
                 }
             }
@@ -75,13 +80,17 @@ impl Server {
         Self {
             at,
             over,
+            busy,
             refused,
             thread: Some(thread),
         }
     }
 
-    /// Commands that were refused: with a client that only reads, none.
+    /// Commands that were refused, once the last client is gone: with one that only reads, none.
     fn refused(&self) -> Vec<String> {
+        while self.busy.load(Ordering::SeqCst) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
         let refused = self.refused.lock();
         refused.unwrap_or_else(PoisonError::into_inner).clone()
     }

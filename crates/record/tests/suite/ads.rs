@@ -83,6 +83,27 @@ fn lost_samples_and_connections_are_gaps() {
     assert_eq!((done.lost, done.gaps, done.reconnects), (60, 2, 1));
 }
 
+/// The PLC has sent all, so it reads what is asked of it at the end.
+#[test]
+fn the_end_of_a_recording_writes_nothing_either() {
+    let dir = tempfile::tempdir().unwrap();
+    let script = Script {
+        samples: 700,
+        ..Script::default()
+    };
+    let plc = Plc::start(&VARIABLES, 1000.0, script);
+    let done = recorded(
+        &words(&plc, &SYMBOLS),
+        1000.0,
+        0.699,
+        &dir.path().join("log.csv"),
+    );
+    let done = done.unwrap();
+    assert_holds(&done, &plc, &(0..700).collect::<Vec<_>>());
+    assert_eq!(plc.refused(), [""; 0]);
+    assert_eq!(plc.forgotten(), VARIABLES.len());
+}
+
 #[test]
 fn a_symbol_that_is_none_is_refused_by_name() {
     let dir = tempfile::tempdir().unwrap();

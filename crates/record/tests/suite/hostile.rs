@@ -74,7 +74,7 @@ fn answers_that_are_cut_or_refused_say_so() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    #![proptest_config(ProptestConfig::with_cases(60))]
 
     #[test]
     fn any_bytes_of_a_robot_are_an_error(bytes in prop::collection::vec(any::<u8>(), 0..200)) {
@@ -92,6 +92,24 @@ proptest! {
         data in prop::collection::vec(prop_oneof![Just(0_u8), 0..6_u8, any::<u8>()], 0..80),
     ) {
         connected(ADS, packet(command, 0, 1, &data));
+    }
+
+    /// Whole set-up, then anything as packages.
+    #[test]
+    fn any_data_of_a_robot_are_taken_or_an_error(
+        data in prop::collection::vec(prop_oneof![Just(0_u8), Just(b'U'), 0..6_u8, any::<u8>()], 0..700),
+    ) {
+        let kinds = b"\x01DOUBLE,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D,VECTOR6D";
+        let outputs = [&[0, 3 + kinds.len() as u8, b'O'][..], kinds].concat();
+        // A first package of the right length with any numbers.
+        let numbers: Vec<u8> = data.iter().copied().cycle().take(8 * 37 * usize::from(!data.is_empty())).collect();
+        let first = [&[(300_u16 >> 8) as u8, 300_u16 as u8, b'U', 1][..], &numbers].concat();
+        let sent = [&[0, 4, b'V', 1][..], &outputs, &[0, 4, b'S', 1], &first, &data];
+        let (at, thread) = answers(sent.concat());
+        let dir = tempfile::tempdir().unwrap();
+        let done = recorded(&[format!("rtde://{at}")], 125.0, 1.0, &dir.path().join("log.csv"));
+        thread.join().unwrap();
+        prop_assert!(done.is_err() || done.unwrap().rows > 0);
     }
 
     /// Whole set-up, then anything as notifications.

@@ -3,6 +3,8 @@
 use super::{Script, Served, Server, value};
 use std::io::Write;
 use std::net::SocketAddr;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// Time stamp of the first sample, 100 ns since 1601.
 const BEGIN: u64 = 133_801_632_000_000_123;
@@ -64,11 +66,13 @@ impl Variable {
 /// The server; it ends with the value.
 pub struct Plc {
     server: Server,
+    forgotten: Arc<AtomicUsize>,
     variables: Vec<Variable>,
     rate: f64,
 }
 
 struct State {
+    forgotten: Arc<AtomicUsize>,
     variables: Vec<Variable>,
     rate: f64,
     script: Script,
@@ -78,7 +82,9 @@ struct State {
 impl Plc {
     /// Starts a PLC whose task has a rate in Hz. Samples come once every variable is asked for.
     pub fn start(variables: &[Variable], rate: f64, script: Script) -> Self {
+        let forgotten = Arc::new(AtomicUsize::new(0));
         let mut state = State {
+            forgotten: forgotten.clone(),
             variables: variables.to_vec(),
             rate,
             script,
@@ -87,6 +93,7 @@ impl Plc {
         let server = Server::start(move |served| state.serve(served));
         Self {
             server,
+            forgotten,
             variables: variables.to_vec(),
             rate,
         }
@@ -97,9 +104,15 @@ impl Plc {
         self.server.at
     }
 
-    /// Commands that it refused.
+    /// Commands that it refused; waits until no client is connected.
     pub fn refused(&self) -> Vec<String> {
         self.server.refused()
+    }
+
+    /// Notifications that were ended; waits as [`Plc::refused`] does.
+    pub fn forgotten(&self) -> usize {
+        self.server.refused();
+        self.forgotten.load(Ordering::SeqCst)
     }
 
     /// Time of a sample after the first, s.
@@ -149,7 +162,10 @@ impl State {
                         .flat_map(|n| n.to_le_bytes())
                         .collect()
                 }
-                7 => 0_u32.to_le_bytes().to_vec(),
+                7 => {
+                    self.forgotten.fetch_add(1, Ordering::SeqCst);
+                    0_u32.to_le_bytes().to_vec()
+                }
                 _ => {
                     served.refuse(format!("ADS command {command} with {data:?}"));
                     0x701_u32.to_le_bytes().to_vec()

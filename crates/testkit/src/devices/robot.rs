@@ -37,7 +37,7 @@ impl Robot {
         self.server.at
     }
 
-    /// Commands that it refused.
+    /// Commands that it refused; waits until no client is connected.
     pub fn refused(&self) -> Vec<String> {
         self.server.refused()
     }
