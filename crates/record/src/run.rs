@@ -152,6 +152,7 @@ pub fn record(
         if let Some(e) = fault {
             // Before the first sample there is nothing to lose, and a refusal stays one.
             if taken == 0 {
+                source.close();
                 return Err(e);
             }
             connected = false;

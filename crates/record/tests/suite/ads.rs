@@ -105,6 +105,26 @@ fn the_end_of_a_recording_writes_nothing_either() {
 }
 
 #[test]
+fn a_plc_that_sends_nothing_is_left_as_it_was() {
+    let dir = tempfile::tempdir().unwrap();
+    let plc = Plc::start(&VARIABLES, 1000.0, Script::default());
+    let out = dir.path().join("log.csv");
+    let e = recorded(&words(&plc, &SYMBOLS), 1000.0, 1.0, &out).unwrap_err();
+    assert!(
+        matches!(
+            e,
+            Error::Device {
+                fault: Fault::Silent,
+                ..
+            }
+        ),
+        "{e}"
+    );
+    assert_eq!(plc.refused(), [""; 0]);
+    assert_eq!(plc.forgotten(), VARIABLES.len());
+}
+
+#[test]
 fn a_symbol_that_is_none_is_refused_by_name() {
     let dir = tempfile::tempdir().unwrap();
     let variables = [Variable::Lreal("MAIN.x"), Variable::Text("MAIN.s")];
