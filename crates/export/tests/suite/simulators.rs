@@ -148,7 +148,13 @@ import re, types, mujoco
 import x_axis_domain as own
 domain = own.load()
 third = own.numbers(domain, 2)["x_axis_joint"]
-model = mujoco.MjModel.from_xml_path("x_axis_friction.xml")
+try:
+    own.mujoco(mujoco.MjModel.from_xml_path("x_axis_friction.xml"), domain, 2)
+    raise SystemExit("bristles were doubled")
+except ValueError as e:
+    assert "bristles={'x_axis_joint': 'x_axis_friction'}" in str(e), e
+model = mujoco.MjModel.from_xml_string(
+    "<mujoco><worldbody><body><joint name='x_axis_joint' type='slide'/><geom size='1'/></body></worldbody></mujoco>")
 own.mujoco(model, domain, 2)
 print(model.dof_armature[0] - third["armature"], model.dof_frictionloss[0] - third["frictionloss"], model.dof_damping[0] - third["damping"])
 builder = types.SimpleNamespace(joint_label=["a/base", "a/x_axis_joint", "b/base", "b/x_axis_joint"], joint_qd_start=[0, 0, 1, 1],

@@ -125,8 +125,8 @@ fn the_same_model_gives_the_same_bytes() {
             files.into_iter().map(|(_, bytes)| bytes).collect()
         };
         assert_eq!(bytes(&a), bytes(&b));
-        if target == Target::Fmu {
-            continue; // Archives; what is in them is looked at in the crate.
+        if matches!(target, Target::Fmu | Target::Bam | Target::DomainJson) {
+            continue; // Archives, and documents that have no comments; what is in them is looked at in the crate.
         }
         let head = String::from_utf8(contents(&a.path("out"))[0].1.clone()).unwrap();
         assert!(
