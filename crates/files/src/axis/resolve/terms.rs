@@ -33,17 +33,13 @@ impl Resolver {
         let drive = axis.mapping.drive;
         axis.terms.gravity = drive.is_some_and(|drive| drive.position_loop.is_some());
         axis.gravity_is_stated = axis.terms.gravity;
-        // A torque that is made of positions has no offset of a sensor, which a weight over a short stroke looks like.
-        let offset = axis.terms.gravity.then_some(false);
-        axis.offset = offset;
         let Some(table) = root.table("terms")? else {
             return Ok(());
         };
         let gravity = table.flag("gravity")?;
         axis.gravity_is_stated |= gravity.is_some();
         axis.terms.gravity = gravity.unwrap_or(axis.terms.gravity);
-        let usual = offset.filter(|_| axis.terms.gravity);
-        axis.offset = table.flag("offset")?.or(usual);
+        axis.offset = table.flag("offset")?;
         axis.terms.cogging = self.pitches(table.get("cogging"))?;
         axis.terms.quadratic_viscous = table.flag("quadratic_viscous")?.unwrap_or(false);
         axis.terms.dependences = self.dependences(&table)?;
