@@ -102,7 +102,7 @@ fn the_same_model_gives_the_same_bytes() {
             let exported = bench.export_to("out", &options).unwrap();
             // 20 N + 60 N s/m v is 60 N at 0.67 m/s, and 80 N at 1 m/s, where the table ends.
             let (codes, limit): (&[&str], f64) = match target {
-                Target::Mujoco | Target::Modelica => (&[], 60.0),
+                Target::Mujoco | Target::Modelica | Target::DomainJson => (&[], 60.0),
                 Target::Tf5200 => (&[], 80.0),
                 Target::Backlash => (&[], 60.0),
                 // Of a linear axis there is no map over a turn.
