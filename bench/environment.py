@@ -52,3 +52,17 @@ def example(name):
 def target():
     """Where cargo builds."""
     return ROOT / os.environ.get("CARGO_TARGET_DIR", "target")
+
+
+def described(*packages, is_timed=True):
+    """Date, machine and versions, for the line over a table."""
+    import datetime
+    import importlib.metadata
+
+    cpu = next((line.split(":")[1].strip() for line in open("/proc/cpuinfo") if "model name" in line), "unknown processor")
+    load = f" under a load of {os.getloadavg()[0]:.0f}" if is_timed else ""
+    commit = subprocess.check_output(["git", "rev-parse", "--short=8", "HEAD"], cwd=ROOT, text=True).strip()
+    rustc = subprocess.check_output(["rustc", "--version"], text=True).split()[1]
+    versions = [f"{name} {importlib.metadata.version(name)}" for name in packages]
+    about = [f"{datetime.date.today()}", f"commit {commit}", f"{cpu}, {os.cpu_count()} cores{load}"]
+    return "; ".join([*about, ", ".join([f"Python {sys.version.split()[0]}", *versions, f"rustc {rustc}"])])

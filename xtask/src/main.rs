@@ -3,12 +3,12 @@
 
 mod debian;
 mod exports;
+mod figures;
 mod instructions;
 mod interpreter;
 mod library;
 mod licences;
 mod package;
-mod peers;
 mod python;
 mod release;
 mod shell;
@@ -115,9 +115,14 @@ const TASKS: &[Task] = &[
         run: searches,
     },
     Task {
-        name: "peers",
-        help: "compare with the searches of Python and rewrite their part of docs/performance.md",
-        run: peers::run,
+        name: "front",
+        help: "README's first table and picture: recordings beside published models and scipy",
+        run: figures::front,
+    },
+    Task {
+        name: "performance",
+        help: "measure everything in docs/performance.md anew, beside its peers: on a quiet machine, an hour",
+        run: figures::performance,
     },
     Task {
         name: "policy",

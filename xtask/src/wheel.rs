@@ -34,6 +34,13 @@ pub fn built() -> Outcome {
     test()
 }
 
+/// Builds the wheel of the tests; gives its path.
+pub fn unpublished() -> Result<String, String> {
+    shell::run(shell::linted(cargo(BUILD)))?;
+    let wheel = packed(&python::environment()?, &shell::target().join(FOLDER))?;
+    Ok(text(&wheel))
+}
+
 /// Builds the same for the free-threaded Python, then runs the tests that it has packages for.
 pub fn built_free_threaded() -> Outcome {
     let python = interpreter::find()?;
