@@ -1,7 +1,6 @@
 """How long reading a log takes in each format, beside the reader of Python that the tests compare with.
 
-    cargo build --release -p stiction-log --example speed
-    .venv/bin/python bench/formats/compare.py target/release/examples/speed
+    python3 bench/formats/compare.py
 
 One log of 200 000 rows (time, position, torque, and a reference) is written in every format; each reader takes all columns as
 64-bit floats, the least of five rounds. SVB is written by the layout in `crates/log/tests/python/write_svb.py`: no reader of
@@ -16,6 +15,12 @@ import tempfile
 import time
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import environment
+
+# What the tests read with.
+environment.enter(environment.ROOT / ".venv", environment.ROOT / "xtask/requirements.txt")
+
 import h5py
 import numpy as np
 import openpyxl
@@ -24,7 +29,6 @@ import pyarrow.csv
 import pyarrow.feather
 import pyarrow.parquet
 import scipy.io
-from asammdf import MDF, Signal
 from asammdf import MDF, Signal
 from mcap_ros2.reader import read_ros2_messages
 from mcap_ros2.writer import Writer
@@ -167,7 +171,8 @@ def least(read, file):
 
 
 def main():
-    program = sys.argv[1]
+    program = environment.example("speed")
+    print(environment.described("numpy", "pyarrow", "scipy", "h5py", "nptdms", "asammdf", "openpyxl") + ".\n")
     print("| format | numbers | file, MB | stiction, ms | million numbers a second | beside, ms | reader |\n|---|---:|---:|---:|---:|---:|---|")
     with tempfile.TemporaryDirectory() as folder:
         for name, file, rows, write, read, reader in FORMATS:

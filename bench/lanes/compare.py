@@ -8,9 +8,7 @@ record (3 s at 10 kHz, the velocity a sine, 1 % noise on the force) with the sam
 least time of each in ns per candidate and sample, on one core.
 """
 
-import datetime
 import os
-import platform
 import subprocess
 import sys
 from pathlib import Path
@@ -184,13 +182,10 @@ def main():
                 continue
             name, ns = line.split()
             least[name] = min(least.get(name, float("inf")), float(ns))
-    cpu = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo") if "model name" in l), "?")
-    print(f"{datetime.date.today()}, {cpu}, {os.cpu_count()} cores, {platform.system()}")
-    print(f"numba {numba.__version__}, llvmlite {llvmlite.__version__}, numpy {np.__version__},", end=" ")
-    print(subprocess.check_output(["rustc", "--version"], text=True).strip())
-    print(head[2:])
+    print(f"{environment.described('numba', 'llvmlite', 'numpy')}; {head[2:]}.\n")
+    print("| what | ns per candidate and sample | numba takes, times as long |\n|---|---:|---:|")
     for name, ns in least.items():
-        print(f"{name:18} {ns:8.2f} ns   numba takes {least['numba'] / ns:5.2f} times as long")
+        print(f"| {name} | {ns:.2f} | {least['numba'] / ns:.2f} |")
 
 
 if __name__ == "__main__":

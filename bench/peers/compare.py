@@ -1,11 +1,7 @@
 #!/usr/bin/env python3
 """stiction beside the searches that a Python user would take, on the same logs, in the same box, for the same optimum.
 
-    cargo xtask peers           # or: python3 bench/peers/compare.py
-
-prints the tables and writes them to docs/performance.md. With other limits it only prints them:
-
-    python3 bench/peers/compare.py EVALUATIONS MINUTES
+    python3 bench/peers/compare.py [EVALUATIONS MINUTES]
 """
 
 import sys
@@ -18,8 +14,6 @@ from methods import METHODS
 from problem import FOUND
 from table import expected, number, table
 
-PAGE = machine.ROOT / "docs/performance.md"
-START, END = "<!-- peers -->", "<!-- end peers -->"
 AXES = ("C95", "machine")
 RATE = 2000
 # Evaluations of a run, the same for all.
@@ -28,14 +22,6 @@ MOST = 20_000
 MINUTES = 7.0
 # Optima of two models of the same law may differ by this part, far less than what counts as found.
 AGREE = 1e-5
-
-
-def write(text):
-    """Puts the text between the marks of the page."""
-    page = PAGE.read_text()
-    before, rest = page.split(START)
-    _, after = rest.split(END)
-    PAGE.write_text(f"{before}{START}\n{text}\n{END}{after}")
 
 
 def section(log, ours, file, theirs, optimum, minutes):
@@ -55,7 +41,6 @@ def section(log, ours, file, theirs, optimum, minutes):
 
 
 def main():
-    # A run with other limits than those of the page is for trying things out.
     most = int(sys.argv[1]) if len(sys.argv) > 1 else MOST
     minutes = float(sys.argv[2]) if len(sys.argv) > 2 else MINUTES
     maker = stiction.build()
@@ -70,8 +55,6 @@ def main():
     parts = [section(name, ours[name], files[name], theirs[name], optima[name], minutes) for name in AXES]
     text = "\n\n".join([f"{about}.", *parts])
     print(text)
-    if (most, minutes) == (MOST, MINUTES):
-        write(text)
 
 
 if __name__ == "__main__":

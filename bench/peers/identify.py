@@ -16,6 +16,7 @@ import subprocess
 import sys
 import time
 
+import by_mujoco
 import numpy as np
 from model import NAMES, Model
 from scipy.optimize import least_squares
@@ -50,6 +51,7 @@ class Peer:
         centre = np.log(TRUTH)
         low, high = centre - np.log(10.0), centre + np.log(10.0)
         draws = np.random.default_rng(7).uniform(low, high, (STARTS, 6))
+        self.starts, self.bounds = draws, [low, high]
         self.solve = lambda i: least_squares(
             lambda x: model.force(np.exp(x)) - force,
             draws[i],
@@ -87,22 +89,24 @@ def main():
             name, value = line.split()
             ours[name] = min(ours.get(name, float("inf")), float(value)) if name in TIMES else float(value)
 
-    print(machine.described("scipy", "numba", "numpy"))
+    mujoco, cost = by_mujoco.identify(AMPLITUDE, STEP, force, peer.starts, peer.bounds)
+    print(machine.described("scipy", "numba", "numpy", "mujoco") + ".\n")
     hits = peer.found()
     best, middle = peer.ms[hits[0]], peer.ms[hits[len(hits) // 2]]
-    whole = ours["search"] + ours["estimate"]
-    print(f"scipy: {len(hits)} of {STARTS} starts find the optimum; the fastest of them {best:.1f} ms, the middle one {middle:.1f} ms")
-    print(f"stiction: search {ours['search']:.2f} ms, estimate {ours['estimate']:.2f} ms, intervals {ours['intervals']:.2f} ms;", end=" ")
-    print(f"{ours['evaluations']:.0f} evaluations, {ours['thinned']:.0f} of them on a thinned record")
-    print(f"scipy's middle start takes {middle / ours['search']:.1f} times the search, {middle / whole:.1f} times search and estimate")
-    print(f"scipy's fastest start takes {best / ours['search']:.1f} times the search, {best / whole:.1f} times search and estimate")
-    print(f"two threads on a batch: {ours['batch-1'] / ours['batch-2']:.2f} times the throughput of one;", end=" ")
-    print(f"on its halves, nothing shared: {ours['batch-1'] / ours['apart-2']:.2f}")
-    theirs = np.exp(peer.results[hits[0]].x)
-    ours["drop"] = ours["static"] - ours["coulomb"]
-    print(f"cost: scipy {2 * peer.results[hits[0]].cost:.6g}, stiction {ours['cost']:.6g}")
-    for name, truth, found in zip(NAMES, TRUTH, theirs):
-        print(f"{name:18} truth {truth:<10.5g} scipy {found:<12.6g} stiction {ours[name]:<12.6g}")
+    whole = ours["search"] + ours["estimate"] + ours["intervals"]
+    rows = [
+        ("stiction, search", ours["search"]),
+        ("stiction, search, estimate and intervals", whole),
+        ("scipy, one start, the fastest of those that find the optimum", best),
+        (f"scipy, one start, the median of those ({len(hits)} of {STARTS})", middle),
+        (f"mujoco.minimize over mujoco.rollout, the best of {by_mujoco.STARTS} starts", mujoco),
+    ]
+    print("| what | ms | times the search |\n|---|---:|---:|")
+    for name, ms in rows:
+        print(f"| {name} | {ms:.4g} | {ms / ours['search']:.1f} |")
+    print(f"\nTwo threads on a batch: {ours['batch-1'] / ours['batch-2']:.2f} times the throughput of one.", end=" ")
+    found = 2 * peer.results[hits[0]].cost
+    print(f"Least cost: scipy {found:.6g}, stiction {ours['cost']:.6g}, MuJoCo {cost:.6g}.")
 
 
 if __name__ == "__main__":

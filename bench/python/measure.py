@@ -8,6 +8,7 @@ Run it with the Python that the wheel is installed in, on a machine that does no
 
 from __future__ import annotations
 
+import os
 import resource
 import subprocess
 import sys
@@ -18,6 +19,16 @@ import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import environment
+
+BUILT = environment.target() / "python"
+if len(sys.argv) == 1:
+    # What `cargo xtask wheel` has built and installed.
+    wheel = next((BUILT / "release").glob("*.whl"))
+    python = BUILT / "venv/bin/python"
+    os.execv(python, [str(python), __file__, str(environment.target() / "dist/examples/timed"), str(wheel)])
 
 import stiction
 
@@ -98,12 +109,13 @@ class Bars:
 def main(timed: str, wheel: str | None) -> list[str]:
     """The bars that are missed."""
     bars = Bars()
+    print(environment.described("numpy") + ".\n\n| what | measured |\n|---|---|")
     if wheel:
         size = Path(wheel).stat().st_size / 1e6
-        print(f"wheel {size:.2f} MB")
+        print(f"| size of the wheel | {size:.2f} MB |")
         bars.hold("a wheel of at most 8 MB", size <= 8.0)
     own = importing("stiction")
-    print(f"import stiction {1e3 * own:.0f} ms, numpy {1e3 * importing('numpy'):.0f} ms")
+    print(f"| `import stiction`; of that numpy | {1e3 * own:.0f}; {1e3 * importing('numpy'):.0f} ms |")
     bars.hold("an import within 60 ms", own < 0.06)
     with tempfile.TemporaryDirectory() as folder:
         whole = stiction.write_demo_log(Path(folder) / "whole.csv", seed=1)
@@ -115,22 +127,22 @@ def main(timed: str, wheel: str | None) -> list[str]:
             ours += [identified(log) for _ in range(3)]
             theirs.append(float(subprocess.run([timed, path, "3"], capture_output=True, text=True, check=True).stdout))
         python, rust = min(ours), min(theirs)
-        print(f"identify, {SAMPLES} samples: Rust {rust:.4f} s, Python {python:.4f} s, {100 * (python / rust - 1):+.1f} %")
+        print(f"| `identify`, {SAMPLES} samples; the same in Rust | {python:.4f}; {rust:.4f} s |")
         bars.hold("identify at most 5 % over Rust", python <= 1.05 * rust)
         held = min(with_the_interpreter(log) for _ in range(ROUNDS))
-        print(f"processor time of the calling thread: {100 * held:.2f} % of that of the search")
+        print(f"| processor time of the calling thread | {100 * held:.2f} % of that of the search |")
         one = min(at_once(lambda: identified(log), 1) for _ in range(ROUNDS))
         two = min(at_once(lambda: identified(log), 2) for _ in range(ROUNDS))
-        print(f"two threads do {2 * one / two:.2f} times the work of one")
+        print(f"| two threads with a search each | {2 * one / two:.2f} times the work of one |")
         bars.hold("two threads 1.8 times one", 2 * one >= 1.8 * two)
         fit = stiction.identify(log, law="lugre", compare_laws=False)
         one = min(at_once(lambda: stepped(fit), 1) for _ in range(ROUNDS))
         two = min(at_once(lambda: stepped(fit), 2) for _ in range(ROUNDS))
-        print(f"two threads that call a law from Python do {2 * one / two:.2f} times the work of one")
+        print(f"| two threads that call a law | {2 * one / two:.2f} times the work of one |")
         is_free = not getattr(sys, "_is_gil_enabled", lambda: True)()
         bars.hold("without a lock of the interpreter they do 1.6 times", not is_free or 2 * one >= 1.6 * two)
     growth = kept(10_000)
-    print(f"10 000 identifications: {growth:+.1f} MB")
+    print(f"| memory after 10 000 identifications | {growth:+.1f} MB |")
     bars.hold("no growth over 10 000 calls", growth < 10.0)
     return bars.missed
 

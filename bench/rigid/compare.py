@@ -57,5 +57,7 @@ for _ in range(ROUNDS):
     for name, program in programs.items():
         time = float(subprocess.check_output([program, UR10, str(SAMPLES)]))
         times[name] = min(times[name], time)
+print(environment.described("pin") + ".\n")
+print("| regressor of the UR10 | ns a state |\n|---|---:|")
 for name, time in times.items():
-    print(f"{name}: {time:.0f} ns")
+    print(f"| {name} | {time:.0f} |")

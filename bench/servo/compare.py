@@ -8,16 +8,14 @@ speed, acceleration fed forward) on a mass with LuGre friction along a sine of 2
 step a control step; no encoder steps, delay or lag. numba holds z exactly and takes semi-implicit Euler for the
 motion, of first order; stiction's step is implicit and of second order. Both compute the sine of the reference in the
 loop; with `-shared` in the name stiction reads it from samples, as the runs of a study do. Prints the least time of each
-in ns per control step, on one core, and with `study` as second argument what 1000 runs of a study take.
+in ns per control step, on one core, and what 1000 runs of a study take.
 
-With `accuracy` as second argument both take more and more plant steps in a control step of the first loop, and their tracking
+Then both take more and more plant steps in a control step of the first loop, and their tracking
 errors are compared with those that very many steps give, of each its own: ns per control step and the rms of the difference in
 parts of that of the tracking error, then the time to equal accuracy; the curve goes to `docs/servo-accuracy.svg`.
 """
 
-import datetime
 import math
-import os
 import subprocess
 import sys
 import time
@@ -147,16 +145,12 @@ def accuracy(rounds):
     lines = subprocess.check_output(command, text=True).splitlines()
     ours = [(int(n), float(ns), float(off)) for n, ns, off in map(str.split, lines)]
     numbas = numba_accuracy(rounds)
-    for name, points in [("stiction", ours), ("numba", numbas)]:
-        for parts, ns, off in points:
-            print(f"{name} {parts} {ns:.1f} {off:.2e}")
+    print("| error of the tracking error | stiction, ns | numba, ns | times as long |\n|---:|---:|---:|---:|")
     for _, ns, off in ours:
         other = time_to(numbas, off)
-        last = numbas[-1]
-        words = f"{other:.0f} ns, {other / ns:.1f} times as long"
-        if math.isinf(other):
-            words = f"more than {last[1]:.0f} ns, in which it gets to {last[2]:.1e}"
-        print(f"accuracy {off:.1e}: stiction {ns:.1f} ns, numba {words}")
+        over = ">" if math.isinf(other) else ""
+        other = min(other, numbas[-1][1])
+        print(f"| {off:.1e} | {ns:.1f} | {over} {other:.0f} | {over} {other / ns:.1f} |")
     figure([("stiction, implicit, second order", "#0072B2", ours), ("numba, semi-implicit Euler", "#D55E00", numbas)])
 
 
@@ -175,8 +169,6 @@ def figure(curves):
 
 def main():
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 10
-    if sys.argv[2:3] == ["accuracy"]:
-        return accuracy(rounds)
     program = environment.example("loops")
     least = {}
     for turn in range(rounds):
@@ -187,16 +179,19 @@ def main():
                 loop(STEPS, 1.0 / RATE, MASS, LAW, compensated)
                 spent = (time.perf_counter() - start) * 1e9 / STEPS
                 least[name] = min(least.get(name, math.inf), spent)
-        study = sys.argv[2:3] if turn == 0 else []
+        study = ["study"] if turn == 0 else []
         command = [program, "30", *study]
         for line in subprocess.check_output(command, text=True).splitlines():
             name, value = line.split()
             least[name] = min(least.get(name, math.inf), float(value))
-    cpu = next((l.split(":")[1].strip() for l in open("/proc/cpuinfo") if "model name" in l), "?")
-    print(f"{datetime.date.today()}, {cpu}, {os.cpu_count()} cores under a load of {os.getloadavg()[0]:.0f};", end=" ")
-    print(f"numba {numba.__version__}")
+    print(environment.described("numba") + ".\n")
+    print("| loop, one plant step a control step | ns per control step |\n|---|---:|")
     for name, value in least.items():
-        print(f"{name} {value:.1f}")
+        if not name.startswith("study"):
+            print(f"| {name} | {value:.1f} |")
+    one, two = least["study-1"], least["study-2"]
+    print(f"\n1000 runs of a study, 3 s at 4 kHz with encoder, delay, current loop and compensator: {one:.2f} s on one thread, {two:.2f} s on two.\n")
+    accuracy(rounds)
 
 
 if __name__ == "__main__":
