@@ -8,9 +8,9 @@ use crate::{instructions, interpreter, package, python, setup, tools, wheel};
 
 /// The one crate with features, without them: its lints and its tests.
 const BARE_LINTS: &str =
-    "clippy --package stiction-log --no-default-features --all-targets -- -D warnings";
+    "clippy --package stiction-formats --no-default-features --all-targets -- -D warnings";
 const BARE: &str =
-    "nextest run --package stiction-log --no-default-features --tests --no-fail-fast";
+    "nextest run --package stiction-formats --no-default-features --tests --no-fail-fast";
 
 /// Runs it all; about three quarters of an hour on two cores, and a quarter more where the free-threaded Python is to be built.
 pub fn run() -> Outcome {

@@ -12,7 +12,7 @@ use stiction_say::Notice;
 pub enum Error {
     /// A recording was refused.
     #[error("{0}")]
-    Log(#[from] stiction_log::Error),
+    Log(#[from] stiction_formats::Error),
     /// An axis, model or study file was refused.
     #[error("{}: {place}{found}; {allowed}", .file.display())]
     Config {

@@ -27,8 +27,8 @@ impl Hash {
 /// Where it cannot be read.
 pub fn sha256(path: &Path) -> Result<String, Error> {
     let fail = |e: std::io::Error| {
-        let kind = stiction_log::Kind::Io;
-        Error::Log(stiction_log::Error::new(kind, e.to_string(), "").in_file(path))
+        let kind = stiction_formats::Kind::Io;
+        Error::Log(stiction_formats::Error::new(kind, e.to_string(), "").in_file(path))
     };
     let mut file = std::fs::File::open(path).map_err(fail)?;
     let mut hash = Hash::default();

@@ -12,7 +12,8 @@ use crate::error::Error;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use stiction_log::{Channel, Dimension, Motion, Role};
+use stiction_formats::Dimension;
+use stiction_log::{Channel, Motion, Role};
 
 /// What the file is called where there is none.
 const IN_MEMORY: &str = "robot.toml";

@@ -1,8 +1,8 @@
 //! Rows of a robot's log that were sent again: a publisher whose rate is above that of its source repeats a reading now and then,
 //! and stamps all rows with its own clock.
 
+use crate::Table;
 use crate::mapping::JointColumns;
-use crate::table::Table;
 use crate::{Role, Selector};
 use stiction_policy::clock;
 

@@ -7,7 +7,7 @@ pub mod batch {
         BatchFile, COLUMNS, Listed, LogRow, ParameterRow, RESULTS, Results, SCHEMA, is_list,
         read_list, read_results, rows_while, seconds_of,
     };
-    pub use stiction_log::Cells;
+    pub use stiction_formats::Cells;
     pub use stiction_workflows::batch::{Batch, Called, Done, batch_of};
 }
 
@@ -30,11 +30,11 @@ pub mod recording {
 }
 
 /// Why a recording was refused.
-pub use stiction_log::{Error as LogError, Kind as LogKind, is_recording_folder, is_regular};
+pub use stiction_formats::{Error as LogError, Kind as LogKind, is_recording_folder, is_regular};
 
 /// A table as its file has it.
 pub mod log_table {
-    pub use stiction_log::Table;
+    pub use stiction_formats::Table;
 }
 
 /// Forms of files, and how they are written.

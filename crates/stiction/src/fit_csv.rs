@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 use stiction_files::symbols;
-use stiction_log::Column;
+use stiction_formats::Column;
 use stiction_workflows::identify::{Outcome, Simulated};
 
 /// Bytes of one number and its comma, of most numbers.

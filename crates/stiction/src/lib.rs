@@ -129,9 +129,9 @@ pub use stepped::{SteppedLaw, forces_along};
 pub use stiction_codes::Code;
 pub use stiction_files::study::Study;
 pub use stiction_files::{Axis, ModelFile, Warning, model, result};
+pub use stiction_formats::{Reading, allow_memory, allowed_memory, watch};
 pub use stiction_friction::compensator::{Compensator, Input};
 pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
-pub use stiction_log::{Reading, allow_memory, allowed_memory, watch};
 pub use stiction_parameters::FrictionLaw;
 pub use stiction_workflows::export::{
     Draws, ExportOptions, Exported, ExportedRobot, Feedforward, Safety, Target, Width, export,

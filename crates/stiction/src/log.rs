@@ -6,7 +6,8 @@ use stiction_identify::Samples;
 use stiction_log::Motion;
 use stiction_workflows::source::{self, Source};
 
-pub use stiction_log::{Column, Finding, Severity};
+pub use stiction_formats::Column;
+pub use stiction_log::{Finding, Severity};
 
 /// A recording in SI units, checked, with what was detected and what is wrong with it.
 #[derive(Clone, Debug)]

@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use stiction_files::result::SCHEMA;
 use stiction_files::{Bundle, Error as FileError, ModelFile, check_folder};
-use stiction_log::Column;
+use stiction_formats::Column;
 use stiction_parameters::{FrictionLaw, LawError};
 
 /// Its files; the last two are not in every folder.

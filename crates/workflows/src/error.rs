@@ -211,8 +211,8 @@ fn of_the_log(source: &stiction_identify::Error) -> String {
     rest.unwrap_or(said)
 }
 
-impl From<stiction_log::Error> for Error {
-    fn from(e: stiction_log::Error) -> Self {
+impl From<stiction_formats::Error> for Error {
+    fn from(e: stiction_formats::Error) -> Self {
         Error::File(e.into())
     }
 }

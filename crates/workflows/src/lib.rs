@@ -17,7 +17,7 @@
 //!
 //! ```
 //! use stiction_files::Axis;
-//! use stiction_log::Column;
+//! use stiction_formats::Column;
 //! use stiction_workflows::{Error, source};
 //!
 //! let column = |name: &str, unit: &str, values: Vec<f64>| Column {

@@ -8,10 +8,9 @@ use stiction_codes::Code;
 use stiction_files::axis::{JoinedColumn, ListedLog, OtherFile, Use};
 use stiction_files::result::{AssumedEntry, ExcludedEntry, Input, JoinedEntry, NotEnabledEntry};
 use stiction_files::{Axis, Hash};
+use stiction_formats::{Column, Kind, ReadOptions, Table, read_table, read_wanted};
 use stiction_identify::{Samples, Terms};
-use stiction_log::{
-    Column, Joined, Kind, Log, Mapping, ReadOptions, Role, Table, read_table, read_wanted,
-};
+use stiction_log::{Joined, Log, Mapping, Role};
 
 /// Beginning of an entry of `detected` about a column that was not read.
 const LEFT_OUT: &str = "left out: ";
@@ -49,7 +48,7 @@ pub fn table(path: impl AsRef<Path>, axis: &Axis) -> Result<Table, Error> {
 }
 
 /// The refusal of a recording, at the key of the axis file that it is about, or that lists a file which is not there.
-fn at_entry(path: &Path, axis: &Axis, mut error: stiction_log::Error) -> Error {
+fn at_entry(path: &Path, axis: &Axis, mut error: stiction_formats::Error) -> Error {
     let listed = axis.listed(path);
     if let Some(log) = listed.filter(|_| error.kind == Kind::Io) {
         let allowed = "a recording that is there, from the folder of the axis file";
@@ -102,7 +101,7 @@ fn hashed_of(
     path: &Path,
     axis: &Axis,
     wanted: &dyn Fn(&Table) -> Vec<bool>,
-) -> Result<(Table, String), stiction_log::Error> {
+) -> Result<(Table, String), stiction_formats::Error> {
     let mut hash = Hash::default();
     let take = |bytes: &[u8]| hash.take(bytes);
     let table = read_wanted(path, &options(axis), take, wanted)?;
@@ -209,7 +208,7 @@ pub(crate) fn mapped(
     let own = listed.and_then(|log| log.mapping(part));
     let mapping = own.as_ref().unwrap_or(&axis.mapping);
     let refused =
-        |e: stiction_log::Error| Error::from(axis.at_listed(e.in_file(path), listed, part));
+        |e: stiction_formats::Error| Error::from(axis.at_listed(e.in_file(path), listed, part));
     let left_out: Vec<String> = table
         .skipped
         .iter()
@@ -246,7 +245,7 @@ fn joined(
     path: &Path,
     table: Table,
     (mapping, axis): (&Mapping, &Axis),
-    refused: impl Fn(stiction_log::Error) -> Error,
+    refused: impl Fn(stiction_formats::Error) -> Error,
 ) -> Result<(Log, Vec<JoinedEntry>), Error> {
     let own: Vec<&JoinedColumn> = axis.joined.iter().filter(|j| j.file.is_none()).collect();
     // Rows may be thinned, and columns with stamps of their own have others.
@@ -313,7 +312,7 @@ pub(crate) fn usage_at(axis: &Axis, key: &str, found: String, allowed: &'static 
 }
 
 /// The refusal of another file, at the key that names it where it is not of one of its own.
-fn named_by(role: Role, mut error: stiction_log::Error) -> stiction_log::Error {
+fn named_by(role: Role, mut error: stiction_formats::Error) -> stiction_formats::Error {
     if error.allowed.is_empty() {
         error.allowed = "name a recording that is there, from the folder of the axis file, or with {log} from that of the log".into();
     }
@@ -461,7 +460,7 @@ impl Source {
     }
 
     /// The first term that lacks its column, and what to say of it.
-    fn missing_channel(&self, terms: &Terms) -> Option<(&'static str, stiction_log::Error)> {
+    fn missing_channel(&self, terms: &Terms) -> Option<(&'static str, stiction_formats::Error)> {
         let lacks = |channel: &&str| match *channel {
             "load" => self.log.load.is_none(),
             "temperature" => self.log.temperature.is_none(),
@@ -492,7 +491,7 @@ impl Source {
                 format!("name it in the axis file: [columns] {channel} = \"...\""),
             ),
         };
-        let error = stiction_log::Error::new(stiction_log::Kind::Missing, found, allowed);
+        let error = stiction_formats::Error::new(stiction_formats::Kind::Missing, found, allowed);
         Some((name, error.in_file(&self.path)))
     }
 
@@ -526,8 +525,8 @@ impl Source {
             columns => format!(" (left out is {})", columns.join(", ")),
         };
         let missing = |what: &str, key: &str| {
-            let error = stiction_log::Error::new(
-                stiction_log::Kind::Missing,
+            let error = stiction_formats::Error::new(
+                stiction_formats::Kind::Missing,
                 format!("no {what} column{left_out}"),
                 format!("name it in the axis file: [columns] {key} = \"...\""),
             );

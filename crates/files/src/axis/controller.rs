@@ -3,8 +3,9 @@
 use super::gain::Gain;
 use super::values::Axis;
 use crate::error::Error;
+use stiction_formats::{Dimension, Unit, Value};
 use stiction_identify::Controller;
-use stiction_log::{Dimension, Log, Motion, Unit, Value};
+use stiction_log::{Log, Motion};
 
 impl Axis {
     /// The controller in the units of a log: gains in the unit of its force after scaling.

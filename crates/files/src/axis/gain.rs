@@ -1,6 +1,6 @@
 //! The known controller of an axis as typed: its units are known with the log.
 
-use stiction_log::Value;
+use stiction_formats::Value;
 
 /// A gain with the place where it stands; its unit must suit the force of the log.
 #[derive(Clone, Debug)]

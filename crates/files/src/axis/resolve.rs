@@ -18,10 +18,11 @@ use crate::config::{Form, Given, Places, Source, Table};
 use crate::error::Error;
 use resolver::{Resolver, SPEEDS};
 use std::path::Path;
+use stiction_formats::Dimension;
+use stiction_formats::text::{Decimal, MAX_PREAMBLE_LINES, Separator, TextOptions};
 use stiction_identify::{Conditioning, Cutoff, Source as Signal};
 use stiction_log::mapping::RATES;
-use stiction_log::text::{Decimal, MAX_PREAMBLE_LINES, Separator, TextOptions};
-use stiction_log::{Dimension, Mapping, Motion};
+use stiction_log::{Mapping, Motion};
 
 /// What the text of an axis is called in messages where it is in no file.
 const IN_MEMORY: &str = "axis";

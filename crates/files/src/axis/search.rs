@@ -3,7 +3,8 @@
 use super::gain::Gain;
 use super::values::Axis;
 use crate::error::Error;
-use stiction_log::{Dimension, Log, Unit};
+use stiction_formats::{Dimension, Unit};
+use stiction_log::Log;
 use stiction_search::Method;
 
 /// Keys of `[search.box]`, in the order of the six parameters of a genome: sigma0, sigma1, sigma2, Fc, Fs - Fc, vs.

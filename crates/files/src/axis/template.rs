@@ -1,7 +1,8 @@
 //! `check --init`: an axis file to fill in, with what was detected already in it.
 
 use std::fmt::Write;
-use stiction_log::{Channel, Dimension, Mapping, Motion, OwnStamps, Role, Selector, Sign, Table};
+use stiction_formats::{Dimension, Table};
+use stiction_log::{Channel, Mapping, Motion, OwnStamps, Role, Selector, Sign};
 
 /// Words of the examples, for one kind of axis.
 struct Words {

@@ -1,6 +1,7 @@
 //! Values whose unit fits one kind of axis only: checked when the log says which it is.
 
-use stiction_log::{Dimension, Motion};
+use stiction_formats::Dimension;
+use stiction_log::Motion;
 
 /// A value of the file with its place, text and dimension.
 #[derive(Clone, Debug)]

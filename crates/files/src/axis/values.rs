@@ -10,9 +10,9 @@ use crate::config::Places;
 use crate::error::Error;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
+use stiction_formats::ethercat::ProcessData;
+use stiction_formats::text::TextOptions;
 use stiction_identify::{Conditioning, Delay, Hold, Mass, Terms};
-use stiction_log::ethercat::ProcessData;
-use stiction_log::text::TextOptions;
 use stiction_log::{Elsewhere, Log, Mapping, Motion};
 use stiction_number::short;
 
@@ -247,7 +247,7 @@ impl Axis {
     }
 
     /// The refusal of a recording, at the key of this file that it is about, where it is about one.
-    pub fn at_key(&self, error: stiction_log::Error) -> Error {
+    pub fn at_key(&self, error: stiction_formats::Error) -> Error {
         each(self.named_in(error), |error| self.at_own_key(error))
     }
 
@@ -263,11 +263,11 @@ impl Axis {
         }
     }
 
-    fn named_in(&self, error: stiction_log::Error) -> stiction_log::Error {
+    fn named_in(&self, error: stiction_formats::Error) -> stiction_formats::Error {
         error.reworded(&|text| self.named(text))
     }
 
-    fn at_own_key(&self, error: stiction_log::Error) -> Error {
+    fn at_own_key(&self, error: stiction_formats::Error) -> Error {
         match error.setting().map(String::from) {
             Some(key) => self.at(&key, error),
             None => error.into(),
@@ -277,7 +277,7 @@ impl Axis {
     /// The refusal of a part of a log that the file may list, at the key of that log that it is about.
     pub fn at_listed(
         &self,
-        error: stiction_log::Error,
+        error: stiction_formats::Error,
         listed: Option<&ListedLog>,
         part: Use,
     ) -> Error {
@@ -290,7 +290,7 @@ impl Axis {
     }
 
     /// The refusal of a recording, at this key, where the file has it.
-    pub fn at(&self, key: &str, error: stiction_log::Error) -> Error {
+    pub fn at(&self, key: &str, error: stiction_formats::Error) -> Error {
         let mut found = error.clone();
         let allowed = std::mem::take(&mut found.allowed);
         let refused = self.refuse(key, found.to_string(), allowed, error.kind.code());
@@ -324,7 +324,7 @@ impl Axis {
 }
 
 /// Everything that is wrong with a recording, each at its own key.
-fn each(error: stiction_log::Error, place: impl Fn(stiction_log::Error) -> Error) -> Error {
+fn each(error: stiction_formats::Error, place: impl Fn(stiction_formats::Error) -> Error) -> Error {
     let all: Vec<Error> = error.clone().each().into_iter().map(place).collect();
     // Nothing is about a key: it stays the error of one recording.
     match all.iter().all(|error| matches!(error, Error::Log(_))) {

@@ -43,7 +43,7 @@ const LARGEST: u64 = 1 << 30;
 /// Whether a file is a list of logs, rather than a log: text whose first line has a cell `path` and mostly columns of a list, or
 /// nothing but other columns of one, which is refused for what is missing.
 pub fn is_list(file: &Path) -> bool {
-    if !stiction_log::is_regular(file) {
+    if !stiction_formats::is_regular(file) {
         return false;
     }
     let Ok(opened) = File::open(file) else {

@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::hash::{Hash, sha256_of};
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_log::{Cells, Limits, read_cells};
+use stiction_formats::{Cells, Limits, read_cells};
 
 /// The tables of a path: itself, or where it is a folder those in it, as [`crate::batch`] names and orders them.
 ///
@@ -44,7 +44,7 @@ fn tables(path: &Path) -> Result<Vec<PathBuf>, Error> {
 
 /// Refuses a file that is no table of a batch by its first bytes.
 fn refuse_other(file: &Path) -> Result<(), Error> {
-    let is_text = || crate::looks(file).filter(|_| !stiction_log::is_binary_recording(file));
+    let is_text = || crate::looks(file).filter(|_| !stiction_formats::is_binary_recording(file));
     let Some(looks) = is_text() else {
         return Ok(());
     };

@@ -76,7 +76,7 @@ impl Looks {
 
 /// What a file looks like by its first lines; `None` where nothing tells it.
 pub fn looks(file: &Path) -> Option<Looks> {
-    if stiction_log::is_binary_recording(file) {
+    if stiction_formats::is_binary_recording(file) {
         return Some(Looks::Log);
     }
     let text = head(file)?;
@@ -122,7 +122,7 @@ pub fn refuse_as_log(file: &Path) -> Result<(), Error> {
 
 /// The beginning of a file, as text; `None` where it is none.
 fn head(file: &Path) -> Option<String> {
-    if !stiction_log::is_regular(file) {
+    if !stiction_formats::is_regular(file) {
         return None;
     }
     let mut head = Vec::new();
@@ -279,7 +279,7 @@ pub(super) fn of_file(file: &Path) -> Option<String> {
     if file.is_dir() {
         return Some("a folder".into());
     }
-    if stiction_log::is_binary_recording(file) {
+    if stiction_formats::is_binary_recording(file) {
         return Some(RECORDING.into());
     }
     of_text(&head(file)?)

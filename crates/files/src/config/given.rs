@@ -8,7 +8,7 @@ use crate::error::Error;
 use std::ops::RangeInclusive;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_log::{Dimension, Value};
+use stiction_formats::{Dimension, Value};
 use stiction_number::full;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};

@@ -7,8 +7,8 @@ use super::swept::Swept;
 use crate::error::Error;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
+use stiction_formats::Dimension;
 use stiction_friction::ParamError;
-use stiction_log::Dimension;
 use stiction_number::full;
 use toml::de::DeTable;
 

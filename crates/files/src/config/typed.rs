@@ -4,7 +4,7 @@ use super::form::{self, Form};
 use crate::error::Error;
 use crate::output::whole;
 use std::path::Path;
-use stiction_log::{Irregular, regular};
+use stiction_formats::{Irregular, regular};
 
 /// Largest file that is read, bytes.
 pub(super) const MAX_BYTES: u64 = 1 << 20;
@@ -55,7 +55,7 @@ pub(super) fn text(file: &Path, form: Form) -> Result<String, NotRead> {
         return Err(other().unwrap_or(NotRead::Faulty(found, allowed)));
     }
     let bytes = std::fs::read(&content).map_err(unreadable)?;
-    if stiction_log::is_binary_recording(&content) {
+    if stiction_formats::is_binary_recording(&content) {
         return Err(other().unwrap_or(NotRead::Faulty("a recording".into(), what.into())));
     }
     String::from_utf8(bytes)

@@ -8,7 +8,8 @@ mod units;
 use super::covariance;
 use super::form::{ModelFile, ModelParameter};
 use super::refusal::Fault;
-use stiction_log::{Dimension, Motion, Unit};
+use stiction_formats::{Dimension, Unit};
+use stiction_log::Motion;
 use stiction_parameters::{LawKind, Name, Quantity, Side};
 pub(super) use units::same_unit;
 

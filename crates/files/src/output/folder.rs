@@ -94,7 +94,7 @@ fn refuse_foreign(dir: &Path, files: &[(&str, &[u8])]) -> Result<(), Error> {
     }
     let is_own = |(name, content): &(&str, &[u8])| {
         let path = dir.join(name);
-        let text = if stiction_log::is_regular(&path) {
+        let text = if stiction_formats::is_regular(&path) {
             fs::read(&path)
         } else {
             Ok(vec![])

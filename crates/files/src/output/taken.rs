@@ -182,7 +182,7 @@ pub(super) fn is_ours(mark: &Path, kind: &str) -> bool {
 /// The schema of a file that stiction wrote, such as `stiction.result/1`; `None` for any other.
 fn schema_of(mark: &Path, kind: &str) -> Option<String> {
     // Opening a pipe of this name, or a link to a file of the kernel, would wait for ever.
-    let file = stiction_log::is_regular(mark)
+    let file = stiction_formats::is_regular(mark)
         .then(|| fs::File::open(mark).ok())
         .flatten();
     let mut head = Vec::new();

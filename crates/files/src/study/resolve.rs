@@ -29,7 +29,7 @@ pub(super) use entry::MOST_WAY;
 use entry::{few, once, seen};
 use inputs::input;
 use std::path::Path;
-use stiction_log::Dimension;
+use stiction_formats::Dimension;
 
 /// Most entries of a list of a study: paths, contours, controllers, compensators, kinds of wrong parameters.
 const MOST_ENTRIES: usize = 32;

@@ -16,7 +16,8 @@ use std::process::Command;
 use std::time::{Duration, Instant};
 use stiction_files::study::Study;
 use stiction_files::{Axis, ModelFile};
-use stiction_log::{Limits, Log, Mapping, ReadOptions, Table, read_table, read_wanted};
+use stiction_formats::{Limits, ReadOptions, Table, read_table, read_wanted};
+use stiction_log::{Log, Mapping};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -104,7 +105,7 @@ impl Bench {
         let python = std::env::var_os("STICTION_PYTHON")
             .map_or_else(|| workspace().join(".venv/bin/python"), PathBuf::from);
         for script in [
-            "crates/log/tests/python/write_small.py",
+            "crates/formats/tests/python/write_small.py",
             "crates/files/tests/fuzz/seeds.py",
         ] {
             let mut command = Command::new(&python);

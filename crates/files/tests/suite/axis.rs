@@ -5,11 +5,9 @@ use proptest::prelude::*;
 use std::fmt::Write;
 use stiction_files::axis::{Found, ListedLog, Use, template};
 use stiction_files::{Axis, Error};
+use stiction_formats::{Column, Table, Unit, Value};
 use stiction_identify::{Cutoff, Hold, Source};
-use stiction_log::{
-    Channel, Column, Log, Mapping, Motion, Offset, Parts, Role, Selector, Sign, Table, Unit, Value,
-    Wrap,
-};
+use stiction_log::{Channel, Log, Mapping, Motion, Offset, Parts, Role, Selector, Sign, Wrap};
 use stiction_search::Method;
 use stiction_search::genetic::{self, Annealing, Crossover, Rates, Ratio, Selection};
 

@@ -1,7 +1,7 @@
 //! `[ethercat]` of an axis file: the map of a capture, what it takes from the objects of a drive, and what is refused.
 
 use stiction_files::Axis;
-use stiction_log::ethercat::{Address, Direction, Entry, ProcessData, Type};
+use stiction_formats::ethercat::{Address, Direction, Entry, ProcessData, Type};
 
 fn entry(
     name: &str,

@@ -3,9 +3,9 @@
 use super::channel::Motion;
 use super::servos::Servo;
 use crate::findings::{Finding, Found};
-use crate::table::Scalar;
 use crate::{Dimension, Error, Kind};
 use std::ops::RangeInclusive;
+use stiction_formats::Scalar;
 use stiction_number::short;
 
 /// Force constants, N/A (N m/A).

@@ -4,8 +4,8 @@ use super::channel::{Channel, Motion, Role};
 use super::choose::allows;
 use super::convert::of_role;
 use super::names::{self, Hint};
-use crate::text::unit::is_known;
 use crate::{Dimension, Table, Unit};
+use stiction_formats::unit::is_known;
 
 /// The endings that are units. Those of one letter are other things too: a motor, a phase, an axis, a sample.
 const UNITS: &[&str] = &[

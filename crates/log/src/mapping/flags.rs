@@ -1,6 +1,7 @@
 //! Columns of 0 and 1: something that is on or off, no quantity.
 
-use crate::{Passed, Table};
+use crate::Table;
+use stiction_formats::Passed;
 
 /// Whether a column holds 0 and 1 alone and at least one 1, without a unit: a flag. A column of zeros may be a quantity at rest.
 pub(super) fn is_flag(table: &Table, index: usize) -> bool {

@@ -2,9 +2,9 @@
 
 use super::channel::Selector;
 use super::describe::{columns, key, listed};
-use crate::unit::nearest;
 use crate::{Error, Kind, Table};
 use std::fmt::Display;
+use stiction_formats::unit::nearest;
 
 /// The position of the column that a selector means; `role` is what it is called in messages.
 pub(crate) fn select(

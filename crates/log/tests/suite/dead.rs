@@ -2,7 +2,8 @@
 
 use crate::mapping_common::{column, noise, table, warnings};
 use std::f64::consts::TAU;
-use stiction_log::{Log, Mapping, Table};
+use stiction_formats::Table;
+use stiction_log::{Log, Mapping};
 
 /// Samples a second, Hz, and seconds.
 const RATE: f64 = 1000.0;

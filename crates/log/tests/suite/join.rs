@@ -2,7 +2,8 @@
 
 use crate::mapping_common::{axis, column, message, table};
 use proptest::prelude::*;
-use stiction_log::{Channel, Elsewhere, Error, Joined, Log, Mapping, Offset, Role, Table};
+use stiction_formats::{Error, Table};
+use stiction_log::{Channel, Elsewhere, Joined, Log, Mapping, Offset, Role};
 
 /// The clean axis without its force, at 1 kHz from 100 s on.
 fn log() -> Table {

@@ -2,9 +2,8 @@
 
 use crate::mapping_common::{column, message, noise, table};
 use proptest::prelude::*;
-use stiction_log::{
-    Channel, Elsewhere, Error, Found, Joined, Kind, Log, Mapping, Offset, Role, Table,
-};
+use stiction_formats::{Error, Kind, Table};
+use stiction_log::{Channel, Elsewhere, Found, Joined, Log, Mapping, Offset, Role};
 use stiction_testkit::worlds::{Machine, Motion, Recording, World, record};
 
 /// The clock of the other file is behind by this, s.

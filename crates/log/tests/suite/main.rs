@@ -3,8 +3,6 @@
 // The errors are those of the crate, which carry the place and the words.
 #![allow(clippy::result_large_err)]
 
-#[cfg(feature = "all")]
-mod binary;
 mod dead;
 mod join;
 mod join_offset;
@@ -17,10 +15,9 @@ mod mapping_faults;
 mod mapping_filled;
 mod mapping_log;
 mod mapping_parts;
+mod mapping_recordings;
 mod mapping_units;
 mod rests;
 mod stamped;
-mod text;
 mod undecided;
 mod wanted;
-mod without_readers;

@@ -1,7 +1,7 @@
 //! Codes of refused recordings; that each has a page is held by the crate of the codes.
 
 use std::collections::BTreeSet;
-use stiction_log::Kind;
+use stiction_formats::Kind;
 
 const KINDS: [Kind; 8] = [
     Kind::Io,

@@ -1,11 +1,9 @@
 //! Which columns are recognised, what is assumed, and what is refused with the choices.
 
 use crate::mapping_common::{axis, codes, column, message, table, told};
-use stiction_log::text::{TextOptions, read};
-use stiction_log::{
-    Channel, Elsewhere, Joined, Kind, Log, Mapping, Motion, Offset, Role, Selector, Table, Unit,
-    Value,
-};
+use stiction_formats::text::{TextOptions, read};
+use stiction_formats::{Kind, Table, Unit, Value};
+use stiction_log::{Channel, Elsewhere, Joined, Log, Mapping, Motion, Offset, Role, Selector};
 
 /// A table with these headers; samples that move, each column its own.
 fn headed(headers: &[&str]) -> Table {

@@ -2,7 +2,8 @@
 
 use crate::mapping_common::{axis, codes, column, message, noise, warnings};
 use proptest::prelude::*;
-use stiction_log::{Log, Mapping, Role, Severity, Table};
+use stiction_formats::Table;
+use stiction_log::{Log, Mapping, Role, Severity};
 
 const ROWS: usize = 4000;
 

@@ -2,7 +2,8 @@
 
 use crate::mapping_common::{axis, codes, column, message, table, told, warnings};
 use proptest::prelude::*;
-use stiction_log::{Enable, Log, Mapping, Selector, Table};
+use stiction_formats::Table;
+use stiction_log::{Enable, Log, Mapping, Selector};
 
 fn enable(name: &str, equals: Option<f64>) -> Mapping {
     Mapping {

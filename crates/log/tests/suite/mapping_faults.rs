@@ -3,9 +3,8 @@
 
 use crate::mapping_common::{codes, column, noise, table, told, warnings};
 use proptest::prelude::*;
-use stiction_log::{
-    Channel, Code, Column, Kind, Log, Mapping, Motion, Selector, Sign, Table, Wrap,
-};
+use stiction_formats::{Column, Kind, Table};
+use stiction_log::{Channel, Code, Log, Mapping, Motion, Selector, Sign, Wrap};
 
 /// An axis that follows two sines; force from mass, Coulomb and viscous friction, with noise.
 #[derive(Clone, Debug)]

@@ -2,7 +2,8 @@
 
 use crate::mapping_common::{axis, codes, column, message, noise, table};
 use proptest::prelude::*;
-use stiction_log::{Kind, Log, Mapping, Table};
+use stiction_formats::{Kind, Table};
+use stiction_log::{Log, Mapping};
 
 /// Sets every `nth` sample of a column to a value.
 fn fill(table: &mut Table, column: usize, nth: usize, value: f64) {

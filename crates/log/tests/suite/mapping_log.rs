@@ -3,10 +3,9 @@
 use crate::mapping_common;
 use crate::mapping_common::{Axis, axis, codes, column, message, noise, table, told, warnings};
 use std::f64::consts::PI;
+use stiction_formats::{Kind, Scalar, Table, Unit, Value};
 use stiction_log::mapping::{PositionLoop, servo};
-use stiction_log::{
-    Channel, Drive, Kind, Log, Mapping, Motion, Scalar, Selector, Sign, Table, Unit, Value, Wrap,
-};
+use stiction_log::{Channel, Drive, Log, Mapping, Motion, Selector, Sign, Wrap};
 
 fn read(table: &Table) -> Log {
     let log = Log::from_table(table, &Mapping::default()).unwrap_or_else(|e| panic!("{e}"));

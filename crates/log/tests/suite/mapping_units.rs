@@ -3,7 +3,8 @@
 use crate::mapping_common::{axis, message};
 use proptest::prelude::*;
 use std::f64::consts::PI;
-use stiction_log::{Dimension as D, Kind, Log, Mapping, Motion, Unit, Value};
+use stiction_formats::{Dimension as D, Kind, Unit, Value};
+use stiction_log::{Log, Mapping, Motion};
 
 /// Unit, dimension, SI value of one by definition (BIPM brochure; international inch and pound).
 fn definitions() -> Vec<(&'static str, D, f64)> {
@@ -283,7 +284,7 @@ proptest! {
 /// Torque of CiA 402 is in thousandths of the rated one: objects 6071h and 6077h.
 #[test]
 fn a_torque_in_thousandths_of_the_rated_one_asks_for_it() {
-    let unit = |text: &str| stiction_log::Unit::parse(text).unwrap().to_si(1.0);
+    let unit = |text: &str| stiction_formats::Unit::parse(text).unwrap().to_si(1.0);
     for text in ["0.1%", "0.1 %", "[0.1%]", "0,1 %", "permille", "‰"] {
         assert_eq!(unit(text), 1e-3, "{text}");
     }

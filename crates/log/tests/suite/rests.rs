@@ -2,8 +2,9 @@
 
 use crate::mapping_common::{column, message, noise, table};
 use std::f64::consts::TAU;
+use stiction_formats::Table;
 use stiction_log::mapping::Rests;
-use stiction_log::{Code, Log, Mapping, Severity, Table};
+use stiction_log::{Code, Log, Mapping, Severity};
 
 /// Samples a second, Hz.
 const RATE: f64 = 1000.0;

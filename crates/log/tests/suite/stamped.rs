@@ -1,6 +1,7 @@
 //! Time stamps have a unit of their own, which says nothing of the other columns.
 
-use stiction_log::{Log, Mapping, ReadOptions, Table, read_table};
+use stiction_formats::{ReadOptions, Table, read_table};
+use stiction_log::{Log, Mapping};
 
 /// A motion of a second as text, JSON with dates, and JSON with seconds and nanoseconds as ROS has them; `unit` stands behind the
 /// position.

@@ -1,7 +1,8 @@
 //! Everything that has to be decided before a table is a log is told at once, and what is written for each of it is enough.
 
 use crate::mapping_common::{column, message, table, warnings};
-use stiction_log::{Channel, Code, Error, Kind, Log, Mapping, Selector, Table, Unit};
+use stiction_formats::{Error, Kind, Table, Unit};
+use stiction_log::{Channel, Code, Log, Mapping, Selector};
 
 /// A second of a sine with a force of two sensors, in milliseconds and without units.
 fn bare() -> Table {

@@ -3,10 +3,8 @@
 use proptest::prelude::*;
 use proptest::sample::select;
 use std::path::Path;
-use stiction_log::{
-    Channel, Elsewhere, Enable, Joined, Log, Mapping, Offset, ReadOptions, Role, Selector, Table,
-    read_table, read_wanted,
-};
+use stiction_formats::{ReadOptions, Table, read_table, read_wanted};
+use stiction_log::{Channel, Elsewhere, Enable, Joined, Log, Mapping, Offset, Role, Selector};
 
 /// What columns are called: clear names, names that several axes have, errors and states, units that tell, nothing.
 const HEADS: [&str; 26] = [
@@ -135,7 +133,10 @@ fn mapping() -> impl Strategy<Value = Mapping> {
 }
 
 /// A log, or what is said of it.
-fn understood(table: Result<Table, stiction_log::Error>, mapping: &Mapping) -> Result<Log, String> {
+fn understood(
+    table: Result<Table, stiction_formats::Error>,
+    mapping: &Mapping,
+) -> Result<Log, String> {
     table
         .and_then(|table| Log::of_table(table, mapping))
         .map_err(|e| format!("{e} {:?} {:?}", e.place, e.setting()))
@@ -144,7 +145,7 @@ fn understood(table: Result<Table, stiction_log::Error>, mapping: &Mapping) -> R
 fn both(
     file: &Path,
     wanted: &dyn Fn(&Table) -> Vec<bool>,
-) -> [Result<Table, stiction_log::Error>; 2] {
+) -> [Result<Table, stiction_formats::Error>; 2] {
     let options = ReadOptions::default();
     [
         read_table(file, &options),

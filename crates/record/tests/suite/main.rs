@@ -7,7 +7,7 @@ mod rtde;
 
 use std::path::Path;
 use std::time::Duration;
-use stiction_log::{ReadOptions, read_table};
+use stiction_formats::{ReadOptions, read_table};
 use stiction_record::{Device, Error, Options, Recorded, record};
 
 /// Records so many seconds; waits are short.

@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use stiction_files::batch::{Listed, is_list, read_list};
 use stiction_files::shell;
-use stiction_log::{Irregular, is_of_kernel};
+use stiction_formats::{Irregular, is_of_kernel};
 
 /// The logs, each once, in the order of the inputs, those of a folder and a pattern in alphabetical order; but for what is in `out`.
 ///
@@ -60,13 +60,13 @@ pub(super) fn found(
                 ));
             }
             all.extend(listed);
-        } else if let Err(e) = stiction_log::regular(input) {
-            let kind = stiction_log::Kind::Io;
+        } else if let Err(e) = stiction_formats::regular(input) {
+            let kind = stiction_formats::Kind::Io;
             let allowed = match e {
                 Irregular::Io(_) => "",
                 Irregular::Other(_) => "recordings, lists of them, folders and patterns",
             };
-            let refused = stiction_log::Error::new(kind, e.to_string(), allowed);
+            let refused = stiction_formats::Error::new(kind, e.to_string(), allowed);
             return Err(refused.in_file(input).into());
         } else {
             all.push(log(input.clone()));
@@ -117,7 +117,7 @@ fn is_outcome(folder: &Path) -> bool {
     };
     ["result.json", "batch.json", "study.json", "drift.json"]
         .into_iter()
-        .any(|name| stiction_log::is_regular(&folder.join(name)) && begins(name).is_some())
+        .any(|name| stiction_formats::is_regular(&folder.join(name)) && begins(name).is_some())
 }
 
 /// Whether a file has messages of a recording of rosbag2, by its name.
@@ -140,12 +140,12 @@ fn walk(folder: &Path, out: &Path, all: &mut (&mut Vec<Listed>, &mut Vec<PathBuf
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
     paths.sort();
-    if let Some(data_set) = stiction_log::data_set_of(folder) {
+    if let Some(data_set) = stiction_formats::data_set_of(folder) {
         all.0.push(log(data_set));
         return;
     }
     // Its files are one log, by the list of them.
-    if stiction_log::bag_of(folder).is_some() {
+    if stiction_formats::bag_of(folder).is_some() {
         paths.retain(|path| !has_messages(path));
     }
     for path in paths {

@@ -9,7 +9,7 @@ use std::sync::RwLock;
 use stiction_codes::Code;
 use stiction_files::batch::LogRow;
 use stiction_files::{sha256, shell};
-use stiction_log::{is_regular, within_memory};
+use stiction_formats::{is_regular, within_memory};
 use stiction_search::Observer;
 
 /// Where the report of a log is put.

@@ -109,7 +109,7 @@ fn digest_of(path: &Path, axis: &Option<Axis>) -> String {
 /// SHA-256 of a file, or that it cannot be read.
 fn hash_of(path: &Path) -> String {
     // Opening a pipe would wait for ever.
-    let hash = stiction_log::is_regular(path)
+    let hash = stiction_formats::is_regular(path)
         .then(|| sha256(path).ok())
         .flatten();
     hash.unwrap_or_else(|| "unreadable".into())

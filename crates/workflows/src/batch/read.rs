@@ -9,7 +9,7 @@ const LONGEST: u64 = 1 << 28;
 /// The `batch.json` of a folder; `None` where there is none that can be read.
 pub fn batch_of(dir: &Path) -> Option<BatchFile> {
     let file = dir.join(SUMMARY);
-    let about = stiction_log::regular(&file).ok()?;
+    let about = stiction_formats::regular(&file).ok()?;
     let text = (about.len() <= LONGEST).then(|| std::fs::read_to_string(&file).ok())?;
     serde_json::from_str(&text?).ok()
 }

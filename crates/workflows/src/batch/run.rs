@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError, RwLock};
 use stiction_files::batch::{BatchFile, Failure, Levels, LogRow, Named, RESULTS, Results};
 use stiction_files::{Error as FileError, Journal};
-use stiction_log::allowed_memory;
+use stiction_formats::allowed_memory;
 use stiction_search::{Control, Observer, Progress, Shared};
 
 /// The logs of a batch that are done.

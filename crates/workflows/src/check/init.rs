@@ -5,7 +5,8 @@ use crate::source;
 use std::path::Path;
 use stiction_files::Axis;
 use stiction_files::axis::{Addition, Found, extend, template};
-use stiction_log::{Channel, Finding, Found as Kind, Log, Mapping, Role, Table};
+use stiction_formats::Table;
+use stiction_log::{Channel, Finding, Found as Kind, Log, Mapping, Role};
 
 /// An axis file to write, and what is in it that was not given.
 #[derive(Clone, Debug)]

@@ -1,7 +1,7 @@
 //! Limits that the user sets.
 
 use crate::error::Error;
-use stiction_log::Unit;
+use stiction_formats::Unit;
 
 /// On which side of a limit a level is beyond it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

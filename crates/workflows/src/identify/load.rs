@@ -9,8 +9,9 @@ use crate::source::Source;
 use crate::wording::Setting;
 use std::time::Instant;
 use stiction_files::{Axis, Warning};
+use stiction_formats::Limits;
 use stiction_identify::{ForceFilter, LawKind};
-use stiction_log::{Limits, Log, Motion, Role, Understood};
+use stiction_log::{Log, Motion, Role, Understood};
 
 /// What is asked, of which axis, and since when.
 #[derive(Clone, Copy)]

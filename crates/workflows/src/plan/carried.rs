@@ -6,7 +6,8 @@ use super::judged::refused;
 use super::outcome::Planned;
 use crate::error::Error;
 use crate::wording::Setting;
-use stiction_log::{Dimension, Motion, Value};
+use stiction_formats::{Dimension, Value};
+use stiction_log::Motion;
 use stiction_plan::carrier::{Carried, Carrier, Job};
 use stiction_plan::{HandMade, Motion as Path, hand_made};
 

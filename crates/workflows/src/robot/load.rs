@@ -10,9 +10,10 @@ use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use stiction_files::Robot;
 use stiction_files::axis::{Use, entry};
+use stiction_formats::Table;
 use stiction_identify::Machine;
 use stiction_log::mapping::{JointColumns, Parts, assume_units, joints};
-use stiction_log::{Found, Motion, Role, Selector, Table, republished};
+use stiction_log::{Found, Motion, Role, Selector, republished};
 use stiction_number::short;
 use stiction_rigid as rigid;
 use stiction_rigid::urdf::Kind;
@@ -390,7 +391,7 @@ pub(crate) fn read_urdf(path: &Path) -> Result<Urdf, Error> {
             "a URDF of the robot",
         )
     };
-    let about = stiction_log::regular(path).map_err(|_| refused("cannot be read".into()))?;
+    let about = stiction_formats::regular(path).map_err(|_| refused("cannot be read".into()))?;
     if about.len() > LARGEST_URDF {
         return Err(refused(format!("has {} bytes", about.len())));
     }

@@ -5,10 +5,9 @@ use crate::axis::values::JoinedColumn;
 use crate::config::{Given, Table};
 use crate::error::Error;
 use std::path::Path;
+use stiction_formats::{Dimension, Unit, Value};
 use stiction_log::mapping::SCALES;
-use stiction_log::{
-    Channel, Dimension, Elsewhere, Enable, Mapping, Offset, Role, Selector, Sign, Unit, Value,
-};
+use stiction_log::{Channel, Elsewhere, Enable, Mapping, Offset, Role, Selector, Sign};
 
 /// The names under which the force may stand.
 const FORCE_KEYS: [&str; 3] = ["force", "torque", "current"];

@@ -2,10 +2,11 @@
 
 use crate::config::Table;
 use crate::error::Error;
+use stiction_formats::Dimension;
 use stiction_log::mapping::{
     self, BACK_EMFS, FORCE_CONSTANTS, PositionLoop, RESISTANCES, SERVOS, SUPPLIES, Servo,
 };
-use stiction_log::{Dimension, Drive, Mapping, Motion};
+use stiction_log::{Drive, Mapping, Motion};
 
 /// P gains of a servo's firmware.
 const GAINS: std::ops::RangeInclusive<f64> = 1e-6..=1e6;

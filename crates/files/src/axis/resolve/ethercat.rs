@@ -2,7 +2,7 @@
 
 use crate::config::Table;
 use crate::error::Error;
-use stiction_log::ethercat::{Address, Direction, Entry, ProcessData, Type, object};
+use stiction_formats::ethercat::{Address, Direction, Entry, ProcessData, Type, object};
 
 /// Most entries of a map.
 const MOST: usize = 1024;

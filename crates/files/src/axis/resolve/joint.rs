@@ -8,8 +8,9 @@ use crate::axis::values::Axis;
 use crate::config::{Form, Places, Source, Table};
 use crate::error::Error;
 use std::path::Path;
+use stiction_formats::{Dimension, Unit, Value};
 use stiction_log::mapping::{FORCE_LIMITS, RESOLUTIONS};
-use stiction_log::{Dimension, Mapping, Role, Unit, Value};
+use stiction_log::{Mapping, Role};
 
 /// Roles that the columns of a joint may have.
 const ROLES: [Role; 5] = [

@@ -4,7 +4,8 @@ use crate::axis::limits::AxisLimits;
 use crate::config::machine::{ACCELERATIONS, FORCES, JERKS, MASSES, SPEEDS, STROKES};
 use crate::config::{Given, Table};
 use crate::error::Error;
-use stiction_log::{Dimension, Motion};
+use stiction_formats::Dimension;
+use stiction_log::Motion;
 
 /// The keys of `[limits]`.
 const KEYS: [&str; 9] = [

@@ -7,8 +7,9 @@ use crate::config::{Given, Table};
 use crate::error::Error;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use stiction_formats::Dimension;
 use stiction_log::mapping::{FORCE_LIMITS, RESOLUTIONS, WRAP_COUNTS, WRAPS};
-use stiction_log::{Dimension, Mapping, Rests, Wrap};
+use stiction_log::{Mapping, Rests, Wrap};
 
 /// Most logs that an axis file may list.
 const MOST_LOGS: usize = 1000;

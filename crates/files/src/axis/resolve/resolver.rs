@@ -5,7 +5,7 @@ use crate::config::Given;
 use crate::error::Error;
 use std::cell::RefCell;
 use std::ops::RangeInclusive;
-use stiction_log::Dimension;
+use stiction_formats::Dimension;
 
 /// Dimensions of a position.
 pub(super) const LENGTHS: [Dimension; 2] = [Dimension::LENGTH, Dimension::ANGLE];

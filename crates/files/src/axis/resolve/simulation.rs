@@ -5,8 +5,8 @@ use crate::axis::gain::{ControllerValues, Gain};
 use crate::axis::values::Axis;
 use crate::config::{Given, Table};
 use crate::error::Error;
+use stiction_formats::Dimension;
 use stiction_identify::Hold;
-use stiction_log::Dimension;
 use stiction_log::mapping::SCALES;
 
 impl Resolver {

@@ -4,8 +4,8 @@ use super::resolver::{LENGTHS, Resolver};
 use crate::axis::values::Axis;
 use crate::config::{Given, Table};
 use crate::error::Error;
+use stiction_formats::Dimension;
 use stiction_identify::{Delay, Dependence, GMS_FEWEST, GMS_MOST, Map, Mass, Transmitted};
-use stiction_log::Dimension;
 use stiction_log::mapping::WRAPS;
 use stiction_parameters::Quantity;
 

@@ -3,7 +3,8 @@
 use super::Fault;
 use crate::model::form::ModelFile;
 use crate::symbols;
-use stiction_log::{Motion, Unit};
+use stiction_formats::Unit;
+use stiction_log::Motion;
 use stiction_parameters::{Dimension, Quantity};
 
 /// Whether two texts are one unit, however written.

@@ -5,7 +5,7 @@ use super::entry::{below_half_the_rate, name};
 use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::{Machine, Named};
-use stiction_log::Dimension;
+use stiction_formats::Dimension;
 use stiction_servo::cascade::Cascade;
 use stiction_servo::controller::Controller;
 use stiction_servo::fuzzy::FuzzyPid;

@@ -5,7 +5,8 @@ use super::entry::MOST_SAMPLES;
 use crate::config::Table;
 use crate::error::Error;
 use crate::study::plan::Machine;
-use stiction_log::{Dimension, Motion};
+use stiction_formats::Dimension;
+use stiction_log::Motion;
 use stiction_servo::motion::{Limits, Move, Moves};
 
 /// Most velocities of an entry.

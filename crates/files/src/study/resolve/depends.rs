@@ -3,8 +3,8 @@
 use crate::config::{Given, Table};
 use crate::error::Error;
 use crate::study::model::Model;
+use stiction_formats::{Dimension, Unit};
 use stiction_friction::compensator::Channel;
-use stiction_log::{Dimension, Unit};
 use stiction_number::four_digits as short;
 use stiction_parameters::Quantity;
 use stiction_servo::law::AxisLaw;

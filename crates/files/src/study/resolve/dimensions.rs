@@ -1,6 +1,7 @@
 //! Dimensions of what a study file gives.
 
-use stiction_log::{Dimension, Motion};
+use stiction_formats::Dimension;
+use stiction_log::Motion;
 use stiction_parameters::{Dimension as Measured, Quantity};
 
 /// Dimensions that depend on the kind of axis.

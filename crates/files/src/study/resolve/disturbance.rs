@@ -7,7 +7,7 @@ use crate::error::{Error, Warning};
 use crate::study::result::StudyInput;
 use std::f64::consts::PI;
 use std::path::Path;
-use stiction_log::Dimension;
+use stiction_formats::Dimension;
 use stiction_number::shortest;
 use stiction_servo::disturbance::{Disturbance, Recorded};
 

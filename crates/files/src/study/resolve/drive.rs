@@ -4,7 +4,7 @@ use super::dimensions::Dimensions;
 use crate::config::Table;
 use crate::config::machine::LEAST_BANDWIDTH;
 use crate::error::Error;
-use stiction_log::Dimension;
+use stiction_formats::Dimension;
 use stiction_servo::drive::Drive;
 
 /// Keys that a motor on an amplifier that gives a voltage does not have beside it, and what is there instead.

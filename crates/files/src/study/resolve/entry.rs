@@ -3,7 +3,7 @@
 use crate::config::Table;
 use crate::config::machine::LEAST_BANDWIDTH;
 use crate::error::Error;
-use stiction_log::Dimension;
+use stiction_formats::Dimension;
 use stiction_number::{four_digits as short, shortest};
 use stiction_servo::run::sample_count;
 

@@ -8,7 +8,7 @@ use crate::config::machine::MASSES;
 use crate::error::{Error, Warning};
 use crate::study::plan::{Event, Scheme, Study};
 use stiction_codes::Code;
-use stiction_log::Dimension;
+use stiction_formats::Dimension;
 use stiction_number::four_digits as short;
 
 /// Range of the factor on friction, dimensionless: what a compensator's level can follow is up to 2.

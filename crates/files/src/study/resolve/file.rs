@@ -6,7 +6,7 @@ use crate::error::{Error, Warning};
 use crate::hash::Hash;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
-use stiction_log::{Column, Dimension, Kind, ReadOptions, Unit, read_table_with};
+use stiction_formats::{Column, Dimension, Kind, ReadOptions, Unit, read_table_with};
 use stiction_number::{four_digits as short, full};
 
 /// Largest file, bytes.

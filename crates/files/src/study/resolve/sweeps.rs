@@ -4,7 +4,7 @@ use crate::config::{Given, Source, Swept, Table};
 use crate::error::Error;
 use crate::study::plan::{Sweep, SweepPoint};
 use std::cell::Cell;
-use stiction_log::{Dimension, Kind, Value};
+use stiction_formats::{Dimension, Kind, Value};
 use toml::de::DeTable;
 
 /// Most sweeps, and most values of one: each is a study in memory, with its paths.

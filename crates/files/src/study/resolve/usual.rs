@@ -3,7 +3,8 @@
 use super::dimensions::Dimensions;
 use crate::config::Table;
 use crate::error::Error;
-use stiction_log::{Dimension, Motion};
+use stiction_formats::Dimension;
+use stiction_log::Motion;
 use stiction_servo::motion::Limits;
 
 /// What is usual on a kind of axis.

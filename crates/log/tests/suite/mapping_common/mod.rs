@@ -1,7 +1,8 @@
 //! Tables of known motions, and small helpers for tests of the mapping.
 #![allow(dead_code)]
 
-use stiction_log::{Column, Log, Severity, Table};
+use stiction_formats::{Column, Table};
+use stiction_log::{Log, Severity};
 
 /// A column with a name such as `Position [mm]`.
 pub fn column(header: &str, values: Vec<f64>) -> Column {

@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::Path;
 use stiction_files::sha256_of;
 use stiction_files::{check_writable, write_atomic};
-use stiction_log::regular;
+use stiction_formats::regular;
 use stiction_search::{Finished, Run, Searcher};
 
 /// Name of the schema.
