@@ -51,7 +51,7 @@ const TASKS: &[Task] = &[
     },
     Task {
         name: "package",
-        help: "pack every crate as it would be published",
+        help: "pack the three crates that are published, in target/package",
         run: package::run,
     },
     Task {

@@ -32,8 +32,9 @@ pub fn run() -> Outcome {
         "\nleft to do, each after a look at the one before:\n    \
          cargo xtask test && cargo xtask soak\n    \
          git tag --annotate v{version} --message 'stiction {version}' && git push --tags\n    \
-         cargo publish --workspace --exclude stiction-testkit --exclude stiction-python --exclude xtask\n    \
-         attach the files above to the release of the tag"
+         {}\n    \
+         attach the files above to the release of the tag",
+        package::publishing().join("\n    ")
     );
     Ok(())
 }

@@ -1,5 +1,6 @@
-//! The public interface beside that of the last release.
+//! The public interface of the three packages beside that of the last release on crates.io.
 
+use crate::package;
 use crate::shell::{self, Outcome};
 use crate::tools;
 
@@ -14,9 +15,12 @@ pub fn compare() -> Outcome {
         );
         return Ok(());
     };
+    // The packages as they are published: in the workspace most of the interface is in crates that nobody sees.
+    package::assembled()?;
     let check = format!(
-        "semver-checks --workspace --exclude stiction-testkit --exclude xtask --baseline-rev {}",
-        tag.trim()
+        "semver-checks --manifest-path {} --workspace --baseline-version {}",
+        package::workspace(),
+        tag.trim().trim_start_matches('v')
     );
     shell::run(tools::command(&tools::SEMVER, &check)?)
 }
