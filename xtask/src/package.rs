@@ -106,10 +106,10 @@ pub fn assembled() -> Outcome {
 /// Assembles the packages and packs them; whether they also build is for [`verified`] to say.
 pub fn run() -> Outcome {
     assemble::all()?;
-    shell::run(cargo(&format!(
-        "package --workspace --manifest-path {} --quiet --offline --no-verify",
-        workspace()
-    )))?;
+    let mut pack = cargo("package --workspace --quiet --offline --no-verify --manifest-path");
+    pack.arg(workspace())
+        .env("CARGO_TARGET_DIR", shell::target());
+    shell::run(pack)?;
     for name in names() {
         let packed = assemble::packed(&name)?;
         let size = fs::metadata(&packed).map_err(|e| format!("{}: {e}", packed.display()))?;

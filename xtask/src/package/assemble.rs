@@ -35,12 +35,9 @@ pub fn packed(name: &str) -> Result<PathBuf, String> {
     let mut known = workspace.pairs("workspace.package");
     let version = known.find(|(key, _)| *key == "version");
     let version = version.map_or("", |(_, value)| value.trim_matches('"'));
-    let built = shell::target().join("package");
-    let own = folder().join("target/package");
-    let file = format!("{name}-{version}.crate");
-    let there = [own, built].into_iter().map(|folder| folder.join(&file));
-    let mut there = there.filter(|path| path.exists());
-    there.next().ok_or_else(|| format!("{file} was not packed"))
+    Ok(shell::target()
+        .join("package")
+        .join(format!("{name}-{version}.crate")))
 }
 
 /// Copies the parts, with the paths of the package in them.
