@@ -7,11 +7,11 @@ use stiction_friction::{Elements, Gms, GmsState, MOST_ELEMENTS, MaxwellSlip, Sta
 /// ([`FrictionLaw::capped`]).
 ///
 /// ```
-/// use stiction::{FrictionLaw, LawKind, SteppedLaw};
-/// # use stiction_parameters::ParameterSet;
-/// # let values = [("sigma0", 1.2e5), ("sigma1", 600.0), ("sigma2", 60.0), ("coulomb", 20.0), ("static", 30.0),
-/// #     ("stribeck_velocity", 5e-3)];
-/// # let law = ParameterSet::from_text(LawKind::LuGre, values).law()?;
+/// use stiction::{FrictionLaw, SteppedLaw};
+/// # use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+/// # let both = Direction { coulomb: 20.0, static_friction: 30.0, stribeck_velocity: 5e-3, viscous: 60.0 };
+/// # let curve = Stribeck::symmetric(Shape::Gaussian, both, 0.0)?;
+/// # let law = FrictionLaw::LuGre(LuGre::new(1.2e5, Damping::Capped(600.0), curve)?);
 /// let mut law = SteppedLaw::new(law); // of `Fit::law`
 /// for _ in 0..4000 {
 ///     law.step(250e-6, 0.1); // 1 s at 0.1 m/s

@@ -1,5 +1,5 @@
-//! The packed crates on their own: each from its archive, without the workspace. They build, the first example of the
-//! documentation runs, the program writes what that of the workspace writes, and no module shows that is internal.
+//! The packed crates on their own: each from its archive, without the workspace. They build, the examples of the
+//! documentation run, the program writes what that of the workspace writes, and no module shows that is internal.
 
 use super::assemble::{copy, packed, read, write};
 use super::{PACKAGES, folder, name, names};
@@ -23,6 +23,11 @@ pub fn all() -> Outcome {
     demo(&program, &theirs)?;
     equal(&own, &theirs)?;
     shell::run(within(&unpacked, "run --quiet --package program"))?;
+    let packages: String = names()
+        .iter()
+        .map(|name| format!(" --package {name}"))
+        .collect();
+    shell::run(within(&unpacked, &format!("test --quiet --doc{packages}")))?;
     documented(&unpacked)
 }
 
