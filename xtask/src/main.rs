@@ -28,6 +28,15 @@ struct Task {
     run: fn() -> shell::Outcome,
 }
 
+impl Task {
+    /// Whether this was typed. A last word in capitals stands for any.
+    fn is(&self, typed: &str) -> bool {
+        let begin = self.name.strip_suffix("TARGET");
+        let last = begin.and_then(|begin| typed.strip_prefix(begin));
+        typed == self.name || last.is_some_and(|last| !last.is_empty() && !last.contains(' '))
+    }
+}
+
 const TASKS: &[Task] = &[
     Task {
         name: "setup",
@@ -65,14 +74,34 @@ const TASKS: &[Task] = &[
         run: release::archive,
     },
     Task {
+        name: "archive --target TARGET",
+        help: "the archive for another kind of machine, such as aarch64-unknown-linux-gnu; its demo is run under qemu",
+        run: release::archive_of_target,
+    },
+    Task {
+        name: "twice",
+        help: "archive and wheel of the commit, built in two folders: the bytes must be the same",
+        run: release::twice,
+    },
+    Task {
         name: "python",
         help: "build the Python package and run its tests, and nothing else",
         run: wheel::built,
     },
     Task {
         name: "wheel",
-        help: "the Python wheel as users get it, tested and measured: target/python/release",
+        help: "the Python wheel and source distribution as users get them, tested and measured: target/python/release",
         run: wheel::release,
+    },
+    Task {
+        name: "wheel --only",
+        help: "the same, neither tested nor measured",
+        run: wheel::only,
+    },
+    Task {
+        name: "wheel --target TARGET",
+        help: "the same for another kind of machine",
+        run: wheel::of_target,
     },
     Task {
         name: "interpreter",
@@ -182,7 +211,7 @@ fn main() -> ExitCode {
             }
             return ExitCode::SUCCESS;
         }
-        name => TASKS.iter().find(|task| task.name == name),
+        name => TASKS.iter().find(|task| task.is(name)),
     };
     let Some(task) = task else {
         let known: Vec<&str> = TASKS.iter().map(|task| task.name).collect();

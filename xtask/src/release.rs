@@ -3,11 +3,18 @@
 
 mod archive;
 mod notices;
+mod sbom;
 mod semver;
+pub mod target;
+mod twice;
+
+pub use archive::sums;
 
 use crate::shell::{self, Outcome};
-use crate::{licences, package, setup};
+use crate::{licences, package, setup, wheel};
 use std::fs;
+use std::path::Path;
+use target::Target;
 
 /// Makes the archive after all checks; a work tree with changes is refused.
 pub fn run() -> Outcome {
@@ -23,7 +30,8 @@ pub fn run() -> Outcome {
     licences::run()?;
     semver::compare()?;
     package::verified()?;
-    let files = archive::make(&version)?;
+    let files = archive::make(&version, &Target::host()?)?;
+    twice::archive()?;
     println!("\nreleased into {}:", archive::FOLDER);
     for file in files {
         println!("    {file}");
@@ -33,15 +41,35 @@ pub fn run() -> Outcome {
          cargo xtask test && cargo xtask soak\n    \
          git tag --annotate v{version} --message 'stiction {version}' && git push --tags\n    \
          {}\n    \
-         attach the files above to the release of the tag",
-        package::publishing().join("\n    ")
+         ssh-keygen -Y sign -n stiction -f KEY {folder}/SHA256SUMS    # whose public key users have\n    \
+         attach the files above and SHA256SUMS.sig to the release of the tag",
+        package::publishing().join("\n    "),
+        folder = archive::FOLDER
     );
     Ok(())
 }
 
 /// Makes the archive from the work tree as it stands, without checks: to look at it.
 pub fn archive() -> Outcome {
-    archive::make(&version()?).map(drop)
+    archive::make(&version()?, &Target::host()?).map(drop)
+}
+
+/// The same for another kind of machine.
+pub fn archive_of_target() -> Outcome {
+    archive::make(&version()?, &Target::typed()?).map(drop)
+}
+
+/// Builds archive and wheel here and in a copy in another folder, and compares their bytes.
+pub fn twice() -> Outcome {
+    archive()?;
+    twice::archive()?;
+    wheel::uploads(&Target::host()?)?;
+    twice::wheel()
+}
+
+/// Removes what is in a folder of uploads and of another version.
+pub fn outdated(folder: &Path) -> Outcome {
+    archive::outdated(folder, &version()?)
 }
 
 /// The version of the workspace. The crates depend on each other at this version and no other.

@@ -1,7 +1,8 @@
 //! The Python package: its wheel, and its tests in an environment that has nothing else.
 
+use crate::release::target::Target;
 use crate::shell::{self, Outcome, cargo};
-use crate::{interpreter, python};
+use crate::{interpreter, python, release};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -13,6 +14,12 @@ const FOLDER: &str = "python";
 const TESTS: &str = "python/tests";
 /// Builds that library and the command line to compare with.
 const BUILD: &str = "build --workspace --lib --bins --example record";
+
+/// Where wheel and source distribution are for users, in the target folder.
+pub const UPLOADS: &str = "python/release";
+/// Builds what that wheel is compared with.
+const COMPARED: &str =
+    "build --profile dist --package stiction-cli --package stiction --bins --example timed";
 
 /// The tests that need no package without wheels for a free-threaded Python: neither Dask nor DataFrames nor pictures.
 const FREE_THREADED: &[&str] = &[
@@ -70,34 +77,73 @@ fn packed(python: &str, folder: &Path) -> Result<PathBuf, String> {
 
 /// Builds the wheel that users get, runs the tests of the package with it, and measures it against its bars.
 pub fn release() -> Outcome {
-    let wheel = released("release", None)?;
+    let wheel = uploads(&Target::host()?)?;
+    shell::run(cargo(COMPARED))?;
     tested(&wheel, "dist")?;
     measured(&wheel, &python::bare()?)
+}
+
+/// Only builds that wheel and the source distribution.
+pub fn only() -> Outcome {
+    uploads(&Target::host()?).map(drop)
+}
+
+/// The same for another kind of machine.
+pub fn of_target() -> Outcome {
+    uploads(&Target::typed()?).map(drop)
 }
 
 /// The same of the wheel for the free-threaded Python.
 pub fn release_free_threaded() -> Outcome {
     let python = interpreter::find()?;
-    let wheel = released("release-free-threaded", Some(&python))?;
+    let folder = shell::target().join("python/release-free-threaded");
+    let wheel = released(&folder, &Target::host()?, Some(&python))?;
+    shell::run(cargo(COMPARED))?;
     tested_free_threaded(&wheel, "dist")?;
     measured(&wheel, &python::free_threaded()?)
 }
 
-/// Builds a wheel as users get it, for a Python or for all, and what it is compared with.
-fn released(folder: &str, python: Option<&str>) -> Result<PathBuf, String> {
-    shell::run(cargo(
-        "build --profile dist --package stiction-cli --package stiction --bins --example timed",
-    ))?;
-    let folder = shell::target().join(FOLDER).join(folder);
-    // Of another version there may be one.
-    let _ = fs::remove_dir_all(&folder);
-    let out = text(&folder);
-    let mut arguments = vec!["-m", "maturin", "build", "--profile", "dist", "--out", &out];
+/// Builds the wheel for all Pythons and the source distribution, with checksums; gives the wheel.
+pub fn uploads(target: &Target) -> Result<PathBuf, String> {
+    let folder = shell::target().join(UPLOADS);
+    release::outdated(&folder)?;
+    let wheel = released(&folder, target, None)?;
+    let mut sources = python::release("maturin", &["sdist", "--out", &text(&folder)])?;
+    release::target::reproducible(&mut sources)?;
+    shell::run(sources)?;
+    release::sums(&folder)?;
+    Ok(wheel)
+}
+
+/// Builds a wheel as users get it, for a Python or for all, into a folder.
+fn released(folder: &Path, target: &Target, python: Option<&str>) -> Result<PathBuf, String> {
+    // Alone in a folder first: its name is maturin's.
+    let alone = folder.join(&target.0);
+    let out = text(&alone);
+    let mut arguments = vec![
+        "build",
+        "--profile",
+        "dist",
+        "--out",
+        &out,
+        "--target",
+        &target.0,
+    ];
+    // Any Linux since 2012; maturin refuses a library that asks for more.
+    if target.has_glibc() {
+        arguments.extend(["--zig", "--compatibility", "manylinux2014"]);
+    }
     arguments.extend(python.iter().flat_map(|python| ["--interpreter", *python]));
-    shell::run(shell::command(&python::environment()?, &arguments))?;
-    let wheels = fs::read_dir(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
-    let mut wheels = wheels.flatten().map(|entry| entry.path());
-    Ok(wheels.next().ok_or("maturin built no wheel")?)
+    let mut build = python::release("maturin", &arguments)?;
+    release::target::reproducible(&mut build)?;
+    shell::run(build)?;
+    let failed = |e: std::io::Error| format!("{}: {e}", alone.display());
+    let made = fs::read_dir(&alone).map_err(failed)?.next();
+    let made = made.ok_or("maturin built no wheel")?.map_err(failed)?;
+    let wheel = folder.join(made.file_name());
+    fs::rename(made.path(), &wheel).map_err(failed)?;
+    fs::remove_dir_all(&alone).map_err(failed)?;
+    Ok(wheel)
 }
 
 /// Measures a wheel that is installed beside a Python.

@@ -1,9 +1,11 @@
-//! The archive that users unpack: program, completions, manual pages, licences, checksums.
+//! The archive that users unpack: program, completions, manual pages, licences, bill of materials, checksums.
 
-use super::notices;
+use super::target::{Target, commit_time};
+use super::{notices, sbom};
+use crate::python;
 use crate::shell::{self, Outcome};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Where the archives go, from the workspace root.
 pub const FOLDER: &str = "target/release-archives";
@@ -15,9 +17,10 @@ const SHELLS: [(&str, &str); 5] = [
     ("powershell", "_stiction.ps1"),
 ];
 /// What goes along as it stands.
-const FILES: [&str; 5] = [
+const FILES: [&str; 6] = [
     "README.md",
     "CHANGELOG.md",
+    "SECURITY.md",
     "LICENSE-MIT",
     "LICENSE-APACHE",
     "docs/install.md",
@@ -25,86 +28,121 @@ const FILES: [&str; 5] = [
 
 /// Builds the program, packs it, unpacks it again and runs it; gives the files made. The same commit and compiler give
 /// the same bytes.
-pub fn make(version: &str) -> Result<Vec<String>, String> {
-    shell::run(shell::cargo(
-        "build --profile dist --locked --workspace --bin stiction",
-    ))?;
-    let name = format!("stiction-{version}-{}", host()?);
+pub fn make(version: &str, target: &Target) -> Result<Vec<String>, String> {
+    target.build()?;
+    let name = format!("stiction-{version}-{}", target.0);
     let all = shell::root().join(FOLDER);
     let folder = all.join(&name);
-    if all.exists() {
-        fs::remove_dir_all(&all).map_err(|e| format!("{FOLDER}: {e}"))?;
-    }
-    let program = folder.join("bin/stiction");
-    let built = shell::target().join("dist/stiction");
-    copy(&built, &program)?;
+    outdated(&all, version)?;
+    let built = target.program();
+    let file = built.file_name().unwrap_or_default();
+    copy(&built, &folder.join("bin").join(file))?;
     for file in FILES {
         let name = file.rsplit('/').next().unwrap_or(file);
         copy(&shell::root().join(file), &folder.join(name))?;
     }
-    notices::write(&folder.join("THIRD-PARTY.txt"))?;
-    let program = program.to_string_lossy().into_owned();
+    notices::write(target, &folder.join("THIRD-PARTY.txt"))?;
+    sbom::write(target, version, &folder.join("stiction.cdx.json"))?;
     for (shell, file) in SHELLS {
-        let text = shell::output(shell::command(&program, &["completions", shell]))?;
+        let text = shell::output(target.command(&all, &built, &["completions", shell])?)?;
         write(&folder.join("completions").join(file), &text)?;
     }
-    manual(&program, &folder.join("man"))?;
-    let archive = format!("{name}.tar.gz");
-    pack(&name, &archive)?;
-    let sums = shell::output(shell::command_in(FOLDER, "sha256sum", &[&archive]))?;
-    write(&all.join("SHA256SUMS"), &sums)?;
+    manual(target, &folder.join("man"))?;
+    let packed = pack(&[&folder.to_string_lossy(), &commit_time()?])?;
     fs::remove_dir_all(&folder).map_err(|e| format!("{name}: {e}"))?;
-    try_out(&name, &archive)?;
-    Ok(vec![archive, "SHA256SUMS".into()])
+    sums(&all)?;
+    try_out(target, &name, &packed)?;
+    let packed = packed.file_name().unwrap_or_default();
+    Ok(vec![packed.to_string_lossy().into(), "SHA256SUMS".into()])
+}
+
+/// Removes what was made of other versions: checksums are of all files.
+pub fn outdated(all: &Path, version: &str) -> Outcome {
+    let ours = format!("stiction-{version}");
+    for entry in fs::read_dir(all).into_iter().flatten().flatten() {
+        let (name, path) = (entry.file_name(), entry.path());
+        if path.is_dir() {
+            fs::remove_dir_all(path).map_err(|e| e.to_string())?;
+        } else if !name.to_string_lossy().starts_with(&ours) {
+            fs::remove_file(path).map_err(|e| e.to_string())?;
+        }
+    }
+    Ok(())
+}
+
+/// Writes the checksums of the files in a folder.
+pub fn sums(folder: &Path) -> Outcome {
+    pack(&["--sums", &folder.to_string_lossy()])?;
+    if !shell::on_path("sha256sum") {
+        return Ok(());
+    }
+    let mut check = shell::command("sha256sum", &["--check", "--quiet", "SHA256SUMS"]);
+    check.current_dir(folder);
+    shell::run(check)
+}
+
+fn pack(arguments: &[&str]) -> Result<PathBuf, String> {
+    let arguments = [&["xtask/pack.py"], arguments].concat();
+    let path = shell::output(shell::command(&python::usual()?, &arguments))?;
+    Ok(path.trim().into())
 }
 
 /// A manual page for stiction and for each of its commands.
-fn manual(program: &str, folder: &Path) -> Outcome {
-    let main = shell::output(shell::command(program, &["man"]))?;
+fn manual(target: &Target, folder: &Path) -> Outcome {
+    let program = target.program();
+    let page = |arguments: &[&str]| -> Result<String, String> {
+        shell::output(target.command(&shell::root(), &program, &[&["man"], arguments].concat())?)
+    };
+    let main = page(&[])?;
     let commands: Vec<&str> = main
         .lines()
         .filter_map(|line| line.strip_prefix("stiction\\-")?.strip_suffix("(1)"))
         .collect();
     for command in commands.iter().filter(|name| **name != "help") {
-        let page = shell::output(shell::command(program, &["man", command]))?;
-        write(&folder.join(format!("stiction-{command}.1")), &page)?;
+        write(
+            &folder.join(format!("stiction-{command}.1")),
+            &page(&[command])?,
+        )?;
     }
     write(&folder.join("stiction.1"), &main)
 }
 
-/// Packs the folder with the time of the commit, nobody's name, and in the order of names.
-fn pack(name: &str, archive: &str) -> Outcome {
-    let time = shell::output(shell::command("git", &["log", "-1", "--format=@%ct"]))?;
-    let time = format!("--mtime={}", time.trim());
-    let fixed = "--sort=name --owner=0 --group=0 --numeric-owner --mode=u+rw,go=rX";
-    let mut arguments: Vec<&str> = fixed.split_whitespace().collect();
-    // gzip writes its own time unless told not to.
-    arguments.extend([
-        &time,
-        "--use-compress-program=gzip -9n",
-        "-cf",
-        archive,
-        name,
-    ]);
-    shell::run(shell::command_in(FOLDER, "tar", &arguments))
+/// Unpacks it and runs the demo, as a user does. A program for another kind of machine has to find the bits that the
+/// program for this one finds.
+fn try_out(target: &Target, name: &str, packed: &Path) -> Outcome {
+    let all = shell::root().join(FOLDER);
+    let mut unpack = shell::command("tar", &["-xf", &packed.to_string_lossy()]);
+    unpack.current_dir(&all);
+    shell::run(unpack)?;
+    let folder = all.join(name);
+    let program = folder
+        .join("bin")
+        .join(target.program().file_name().unwrap_or_default());
+    let found = demo(target, &folder, &program)?;
+    let host = Target::host()?;
+    if *target != host {
+        host.build()?;
+        if demo(&host, &folder.join("host"), &host.program())? != found {
+            return Err(format!(
+                "{name}: the demo has another model than on {}",
+                host.0
+            ));
+        }
+        println!(
+            "    the model of the demo has the same bits as on {}",
+            host.0
+        );
+    }
+    fs::remove_dir_all(folder).map_err(|e| e.to_string())
 }
 
-/// As a user does: compare, unpack, run.
-fn try_out(name: &str, archive: &str) -> Outcome {
-    let check = ["--check", "--quiet", "SHA256SUMS"];
-    shell::run(shell::command_in(FOLDER, "sha256sum", &check))?;
-    shell::run(shell::command_in(FOLDER, "tar", &["-xf", archive]))?;
-    let folder = format!("{FOLDER}/{name}");
+/// Runs the demo in a folder and gives the bytes of its model.
+fn demo(target: &Target, folder: &Path, program: &Path) -> Result<Vec<u8>, String> {
+    fs::create_dir_all(folder).map_err(|e| e.to_string())?;
     let demo = ["demo", "--quiet", "--out", "demo"];
-    shell::run(shell::command_in(&folder, "bin/stiction", &demo))?;
-    fs::remove_dir_all(shell::root().join(folder)).map_err(|e| e.to_string())
-}
-
-/// For which kind of machine this compiler builds.
-fn host() -> Result<String, String> {
-    let text = shell::output(shell::command("rustc", &["-vV"]))?;
-    let host = text.lines().find_map(|line| line.strip_prefix("host: "));
-    Ok(host.ok_or("rustc names no host")?.into())
+    shell::run(target.command(folder, program, &demo)?)?;
+    let model = folder.join("demo/model.toml");
+    fs::read(&model).map_err(|e| format!("{}: {e}", model.display()))
 }
 
 fn copy(from: &Path, to: &Path) -> Outcome {

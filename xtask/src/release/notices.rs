@@ -1,6 +1,8 @@
 //! The licences of everything that is linked into the program, which have to go along with it.
 
-use crate::shell::{self, Outcome};
+use super::sbom;
+use super::target::{self, Target};
+use crate::shell::Outcome;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::fs;
@@ -10,11 +12,16 @@ use std::path::{Path, PathBuf};
 const BEGINNINGS: [&str; 5] = ["license", "licence", "copying", "notice", "unlicense"];
 
 /// Writes one text: each licence once, under the names of the packages that come with it.
-pub fn write(to: &Path) -> Outcome {
-    let tree = shell::output(shell::cargo(
-        "tree --locked --package stiction-cli --edges normal --prefix none --no-dedupe --format {p}|{l}",
-    ))?;
-    let mut lines: Vec<&str> = tree.lines().filter(|line| !line.contains("(/")).collect();
+pub fn write(target: &Target, to: &Path) -> Outcome {
+    let tree = sbom::tree(target, "none", "{p}|{l}")?;
+    // Our own have a folder behind their version, on Windows with a letter before it.
+    let ours = |line: &str| {
+        line.split('|')
+            .next()
+            .is_some_and(|p| p.contains("(/") || p.contains(":\\"))
+    };
+    let lines = tree.lines().filter(|line| !ours(line));
+    let mut lines: Vec<&str> = lines.map(|line| line.trim_end_matches(" (*)")).collect();
     lines.sort_unstable();
     lines.dedup();
     let mut texts: BTreeMap<String, Vec<String>> = BTreeMap::new();
@@ -82,12 +89,7 @@ fn of_folder(folder: &Path) -> Result<Vec<String>, String> {
 
 /// Where cargo unpacked a package of the registry.
 fn source(name: &str, version: &str) -> Result<PathBuf, String> {
-    let home = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let user = || std::env::var_os("HOME").map(|home| PathBuf::from(home).join(".cargo"));
-    let registries = home
-        .or_else(user)
-        .ok_or("no CARGO_HOME")?
-        .join("registry/src");
+    let registries = target::cargo_home()?.join("registry/src");
     let entries =
         fs::read_dir(&registries).map_err(|e| format!("{}: {e}", registries.display()))?;
     entries
