@@ -27,6 +27,7 @@ pub fn run() -> Outcome {
     setup()?;
     let version = version()?;
     has_changes(&version)?;
+    named_once()?;
     licences::run()?;
     semver::compare()?;
     package::verified()?;
@@ -92,6 +93,27 @@ fn version() -> Result<String, String> {
         "Cargo.toml: the workspace is at {version}, its own dependencies are not:\n{}",
         others.join("\n")
     ))
+}
+
+/// Refuses an address of the repository beside the one line that a person sets; everything else derives from it.
+fn named_once() -> Outcome {
+    let manifest =
+        fs::read_to_string(shell::root().join("Cargo.toml")).map_err(|e| e.to_string())?;
+    let begin = "repository = \"";
+    let line = manifest.lines().find_map(|line| line.strip_prefix(begin));
+    let address = line
+        .ok_or("Cargo.toml names no repository")?
+        .trim_end_matches('"');
+    let found = shell::output(shell::command(
+        "git",
+        &["grep", "--files-with-matches", "--fixed-strings", address],
+    ))?;
+    match found.trim() {
+        "Cargo.toml" => Ok(()),
+        files => Err(format!(
+            "{address} stands in more files than Cargo.toml:\n{files}"
+        )),
+    }
 }
 
 /// Refuses a version that the changelog does not know.
