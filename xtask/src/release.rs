@@ -104,10 +104,8 @@ fn named_once() -> Outcome {
     let address = line
         .ok_or("Cargo.toml names no repository")?
         .trim_end_matches('"');
-    let found = shell::output(shell::command(
-        "git",
-        &["grep", "--files-with-matches", "--fixed-strings", address],
-    ))?;
+    let search = ["grep", "-lF", address, "--", ":!*.snap"];
+    let found = shell::output(shell::command("git", &search))?;
     match found.trim() {
         "Cargo.toml" => Ok(()),
         files => Err(format!(
