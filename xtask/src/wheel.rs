@@ -122,6 +122,7 @@ fn released(folder: &Path, target: &Target, python: Option<&str>) -> Result<Path
     let out = text(&alone);
     let mut arguments = vec![
         "build",
+        "--locked",
         "--profile",
         "dist",
         "--out",
