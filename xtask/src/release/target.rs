@@ -16,7 +16,7 @@ pub struct Target(pub String);
 impl Target {
     /// The one that this compiler runs on.
     pub fn host() -> Result<Self, String> {
-        let text = shell::output(shell::command("rustc", &["-vV"]))?;
+        let text = shell::output(shell::command(&rustc(), &["-vV"]))?;
         let host = text.lines().find_map(|line| line.strip_prefix("host: "));
         Ok(Self(host.ok_or("rustc names no host")?.into()))
     }
@@ -102,7 +102,7 @@ pub fn reproducible(command: &mut Command) -> Outcome {
         format!("--remap-path-prefix={}=/cargo", cargo_home()?.display()),
     ];
     // With the component rust-src the compiler names its own sources by their place here.
-    let sysroot = shell::output(shell::command("rustc", &["--print", "sysroot"]))?;
+    let sysroot = shell::output(shell::command(&rustc(), &["--print", "sysroot"]))?;
     let sources = Path::new(sysroot.trim()).join("lib/rustlib/src/rust");
     if sources.is_dir() {
         flags.push(format!("--remap-path-prefix={}=/rust", sources.display()));
@@ -127,4 +127,9 @@ pub fn cargo_home() -> Result<PathBuf, String> {
         home.map(|home| PathBuf::from(home).join(".cargo"))
     };
     home.or_else(user).ok_or_else(|| "no CARGO_HOME".into())
+}
+
+/// The compiler that cargo will use.
+fn rustc() -> String {
+    std::env::var("RUSTC").unwrap_or_else(|_| "rustc".into())
 }
