@@ -85,6 +85,14 @@ pub fn release(program: &str, arguments: &[&str]) -> Result<Command, String> {
     Ok(command)
 }
 
+/// The robots of example-robot-data beside that Python.
+pub fn robots(python: &str) -> Result<String, String> {
+    let place = "import sysconfig; print(sysconfig.get_path('purelib'))";
+    let place = shell::output(shell::command(python, &["-c", place]))?;
+    let folder = "cmeel.prefix/share/example-robot-data/robots";
+    Ok(format!("{}/{folder}", place.trim()))
+}
+
 /// The Python of an environment, which is made afresh unless it was made from the requirements as they are now.
 fn made(environment: &Environment) -> Result<String, String> {
     let folder = &environment.folder;

@@ -27,7 +27,9 @@ pub fn run() -> Outcome {
     let mut tests = shell::linted(tools::command(&tools::NEXTEST, tests)?);
     // Of tables of cases, all.
     tests.env("STICTION_SOAK", "1");
-    tests.env("STICTION_PINOCCHIO", python::pinocchio()?);
+    let pinocchio = python::pinocchio()?;
+    tests.env("STICTION_URDFS", python::robots(&pinocchio)?);
+    tests.env("STICTION_PINOCCHIO", pinocchio);
     shell::run(tests)?;
     wheel::soak()?;
     interpreter::install()?;

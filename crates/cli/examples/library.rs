@@ -2,12 +2,12 @@
 
 #[path = "../tests/suite/library/rebuild.rs"]
 mod rebuild;
+mod shared;
 
 use rebuild::{Inputs, Rebuilt, rebuild};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 use stiction::library::Library;
 use stiction_testkit::{recordings, workspace};
 
@@ -17,7 +17,7 @@ fn main() -> Result<(), String> {
     let program = program.canonicalize().map_err(said)?;
     let data = recordings().ok_or("without recordings there is nothing to identify")?;
     let folder = workspace().join("crates/workflows/library");
-    let urdfs = urdfs();
+    let urdfs = shared::urdfs();
     let inputs = Inputs {
         program: &program,
         library: &folder,
@@ -49,7 +49,7 @@ fn main() -> Result<(), String> {
         found.identified.clone_from(&machine.found.identified);
         is_new |= found != machine.found;
         if is_new {
-            found.identified = today()?;
+            found.identified = shared::today()?;
         }
         machine.found = found;
         for (recording, sum) in machine.recordings.iter_mut().zip(sums) {
@@ -68,20 +68,6 @@ fn main() -> Result<(), String> {
     Ok(())
 }
 
-/// Where the robots of example-robot-data are: `STICTION_URDFS`, else those of the Python of the tests.
-fn urdfs() -> Option<PathBuf> {
-    if let Some(folder) = std::env::var_os("STICTION_URDFS") {
-        return Some(folder.into());
-    }
-    let python = std::env::var_os("STICTION_PYTHON").map(PathBuf::from);
-    let python = python.unwrap_or_else(|| workspace().join(".venv/bin/python"));
-    let line = "import sysconfig; print(sysconfig.get_path('purelib'))";
-    let ran = Command::new(python).args(["-c", line]).output().ok()?;
-    let packages = PathBuf::from(String::from_utf8(ran.stdout).ok()?.trim());
-    let folder = packages.join("cmeel.prefix/share/example-robot-data/robots");
-    folder.is_dir().then_some(folder)
-}
-
 /// Writes a file unless it has this text; whether it was written.
 fn write(file: &Path, text: &str) -> Result<bool, String> {
     if fs::read_to_string(file).is_ok_and(|there| there == text) {
@@ -92,16 +78,6 @@ fn write(file: &Path, text: &str) -> Result<bool, String> {
     }
     fs::write(file, text).map_err(said)?;
     Ok(true)
-}
-
-/// The day, UTC.
-fn today() -> Result<String, String> {
-    let ran = Command::new("date")
-        .args(["-u", "+%F"])
-        .output()
-        .map_err(said)?;
-    let day = String::from_utf8(ran.stdout).map_err(|e| e.to_string())?;
-    Ok(day.trim().into())
 }
 
 fn said(e: std::io::Error) -> String {

@@ -6,6 +6,7 @@ mod drift;
 mod export;
 mod exported;
 mod faults;
+mod gallery;
 #[cfg(target_os = "linux")]
 mod killed;
 mod leads;
