@@ -4,6 +4,7 @@
 mod debian;
 mod exports;
 mod figures;
+mod gallery;
 mod instructions;
 mod interpreter;
 mod library;
@@ -12,6 +13,7 @@ mod package;
 mod python;
 mod release;
 mod shell;
+mod site;
 mod soak;
 mod test;
 mod times;
@@ -139,6 +141,16 @@ const TASKS: &[Task] = &[
         run: library::run,
     },
     Task {
+        name: "site",
+        help: "build the site of the documentation into target/site: strict, and without the network",
+        run: site::run,
+    },
+    Task {
+        name: "gallery",
+        help: "identify the logs of docs/gallery.md anew from the recordings, and draw its pictures",
+        run: gallery::run,
+    },
+    Task {
         name: "searches",
         help: "compare the searches and rewrite the tables of docs/searches.md",
         run: searches,
@@ -175,6 +187,19 @@ const TASKS: &[Task] = &[
     },
 ];
 
+/// What the tests read from the environment.
+const VARIABLES: &str = "\
+variables of the tests
+  STICTION_DATA          folder of the recordings, else ../shared/data
+  STICTION_MATIEC        matiec, else ../shared/tools/matiec.tar.gz
+  STICTION_PYTHON        Python to compare with, else that of .venv
+  STICTION_URDFS         robots of example-robot-data
+  STICTION_PINOCCHIO     Python with Pinocchio; `soak` installs and sets it
+  STICTION_SOAK=1        every case of a table
+  STICTION_FUZZ=N        number of fuzzed inputs, the first being STICTION_FUZZ_FIRST; failures go to target/fuzz
+  STICTION_SUDO=1        LinuxCNC tests ask sudo to install a component
+  CI=true                a test without its recordings fails";
+
 fn setup() -> shell::Outcome {
     debian::install()?;
     python::install()?;
@@ -209,6 +234,7 @@ fn main() -> ExitCode {
             for task in TASKS {
                 println!("  {:22} {}", task.name, task.help);
             }
+            println!("\n{VARIABLES}");
             return ExitCode::SUCCESS;
         }
         name => TASKS.iter().find(|task| task.is(name)),

@@ -1,7 +1,7 @@
 //! Everything CI checks, the quick refusals first.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{exports, licences, setup, times, tools, web, wheel};
+use crate::{exports, licences, setup, site, times, tools, web, wheel};
 use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
@@ -43,10 +43,11 @@ fn checks() -> Outcome {
         );
         tests.args(["-E", &format!("not ({})", exports::TESTS)]);
     }
-    // Browser and Python wait more than they compute.
+    // Browser, Python and site wait more than they compute.
     let aside = thread::spawn(|| {
         web::test()?;
-        wheel::test()
+        wheel::test()?;
+        site::build()
     });
     let tests = shell::run(tests);
     joined(aside)?;

@@ -64,6 +64,20 @@ pub fn test() -> Outcome {
     tested(&wheel, "debug")
 }
 
+/// Where its tests leave the notebook as a page of the site, with what its cells show.
+pub fn notebook() -> PathBuf {
+    shell::target().join(FOLDER).join("first-log.md")
+}
+
+/// Packs the library that is built already, and runs nothing but the notebook with it.
+pub fn run_notebook(file: &str) -> Outcome {
+    let python = python::bare()?;
+    let wheel = packed(&python::environment()?, &shell::target().join(FOLDER))?;
+    install(&wheel, &python)?;
+    let run = ["python/tests/notebook.py", file, &text(&notebook())];
+    shell::run(shell::command(&python, &run))
+}
+
 /// Packs the library that is built already for that Python.
 fn packed(python: &str, folder: &Path) -> Result<PathBuf, String> {
     fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
@@ -216,7 +230,9 @@ fn install(wheel: &Path, python: &str) -> Outcome {
 fn tests(wheel: &Path, profile: &str, python: &str, files: &[&str]) -> Command {
     let arguments = [&["-m", "pytest", "-q"], files].concat();
     let mut tests = shell::command(python, &arguments);
-    tests.env("STICTION_PROGRAM", program(profile));
+    tests
+        .env("STICTION_PROGRAM", program(profile))
+        .env("STICTION_NOTEBOOK_PAGE", notebook());
     // What users get is held small: the build of the tests checks every sum for overflow besides.
     if profile == "dist" {
         tests.env("STICTION_WHEEL", text(wheel));
