@@ -114,14 +114,37 @@ fn named_once() -> Outcome {
     }
 }
 
-/// Refuses a version that the changelog does not know.
+/// Refuses a version that the changelog does not know, or the citation gives otherwise.
 fn has_changes(version: &str) -> Outcome {
-    let text = fs::read_to_string(shell::root().join("CHANGELOG.md")).map_err(|e| e.to_string())?;
+    let read = |name: &str| {
+        fs::read_to_string(shell::root().join(name)).map_err(|e| format!("{name}: {e}"))
+    };
+    let (changes, citation) = (read("CHANGELOG.md")?, read("CITATION.cff")?);
     let heading = format!("## {version} - ");
-    if text.lines().any(|line| line.starts_with(&heading)) {
-        return Ok(());
+    let day = changes
+        .lines()
+        .find_map(|line| line.strip_prefix(&heading))
+        .ok_or(format!(
+            "CHANGELOG.md has no section `{heading}YEAR-MONTH-DAY`"
+        ))?;
+    for line in [
+        format!("version: {version}"),
+        format!("date-released: \"{day}\""),
+    ] {
+        if !citation.lines().any(|own| own == line) {
+            return Err(format!("CITATION.cff has no line `{line}`"));
+        }
     }
-    Err(format!(
-        "CHANGELOG.md has no section `{heading}YEAR-MONTH-DAY`; name what is `Unreleased` so"
-    ))
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn manifest_changelog_and_citation_give_one_version() {
+        version().and_then(|version| has_changes(&version)).unwrap();
+        assert!(has_changes("0.0.9").is_err());
+    }
 }
