@@ -4,6 +4,7 @@
 mod debian;
 mod exports;
 mod figures;
+mod forms;
 mod gallery;
 mod instructions;
 mod interpreter;

@@ -1,7 +1,7 @@
 //! Everything CI checks, the quick refusals first.
 
 use crate::shell::{self, Outcome, cargo};
-use crate::{exports, licences, setup, site, times, tools, web, wheel};
+use crate::{exports, forms, licences, setup, site, times, tools, web, wheel};
 use std::thread::{self, JoinHandle};
 use std::time::Instant;
 
@@ -27,6 +27,7 @@ fn checks() -> Outcome {
     // Installing waits for the network and is not in the way of the compiler.
     let aside = thread::spawn(|| {
         setup()?;
+        forms::check()?;
         web::check()
     });
     let built = build();
