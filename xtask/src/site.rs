@@ -11,11 +11,12 @@ use std::path::{Path, PathBuf};
 /// What the site is built with, and its navigation.
 const CONFIGURATION: &str = "docs/site.toml";
 /// Pages from outside `docs/`, and what they are called in the site.
-const PAGES: [(&str, &str); 4] = [
+const PAGES: [(&str, &str); 5] = [
     ("README.md", "index.md"),
     ("ARCHITECTURE.md", "ARCHITECTURE.md"),
     ("CONTRIBUTING.md", "CONTRIBUTING.md"),
     ("CHANGELOG.md", "CHANGELOG.md"),
+    ("crates/pages/src/glossary/terms.md", "glossary.md"),
 ];
 /// Other files are read in the repository.
 const REPOSITORY: &str = "https://github.com/stiction/stiction";
