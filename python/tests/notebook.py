@@ -19,12 +19,14 @@ from typing import Any
 def shown(source: str, names: dict[str, Any], title: str) -> str:
     """What a cell prints, and the value of its last line."""
     tree = ast.parse(source, title)
-    last = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
+    last = tree.body[-1] if tree.body else None
+    if isinstance(last, ast.Expr):
+        tree.body.pop()
     out = io.StringIO()
     # Progress goes to standard error, and changes from run to run.
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(io.StringIO()):
         exec(compile(tree, title, "exec"), names)
-        if last is not None:
+        if isinstance(last, ast.Expr):
             value = eval(compile(ast.Expression(last.value), title, "eval"), names)
             if value is not None:
                 print(value if hasattr(value, "_repr_html_") else repr(value))
