@@ -1,5 +1,6 @@
 //! The site of the documentation, from `docs/` and what the programs print; strict, and without the network.
 
+mod fetched;
 mod links;
 
 use crate::shell::{self, Outcome, cargo};
@@ -164,35 +165,15 @@ fn carries_its_worker(site: &Path) -> Outcome {
 /// Refuses a site whose pages fetch scripts, styles, fonts or pictures from elsewhere.
 fn fetches_nothing(site: &Path) -> Outcome {
     for file in below(site)? {
-        let end = file.extension().unwrap_or_default();
-        let marks: &[&str] = match end.to_str() {
-            Some("html") => &["<script", "<link", "<img", "<iframe"],
-            Some("css") => &["url(", "@import"],
+        let marks = match file.extension().and_then(|end| end.to_str()) {
+            Some("html") => fetched::HTML,
+            Some("css") => fetched::CSS,
             _ => continue,
         };
         let page = fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
-        for mark in marks {
-            for part in page.split(mark).skip(1) {
-                let close = if end == "css" { [')', ';'] } else { ['>', '>'] };
-                let part = part.split(close).next().unwrap_or_default();
-                let elsewhere = ["=\"http", "=http", "=\"//", "=//"];
-                let fetched = match end == "css" {
-                    true => part
-                        .trim_start_matches(['"', '\'', ' '])
-                        .starts_with("http"),
-                    // Where a page is, said to search engines, is fetched by nobody.
-                    false => {
-                        !part.contains("canonical")
-                            && elsewhere.iter().any(|mark| part.contains(mark))
-                    }
-                };
-                if fetched {
-                    return Err(format!(
-                        "{}: {mark}{part} is fetched from elsewhere",
-                        file.display()
-                    ));
-                }
-            }
+        if let Some(part) = fetched::first(&page, marks) {
+            let file = file.display();
+            return Err(format!("{file}: `{part}` is fetched from elsewhere"));
         }
     }
     Ok(())
