@@ -26,8 +26,8 @@ pub fn first<'a>(page: &'a str, marks: &[Mark]) -> Option<&'a str> {
         let is_elsewhere = starts.iter().any(|start| part.contains(start))
             || of_style.starts_with("http")
             || of_style.starts_with("//");
-        // Where a page is, said to search engines, is fetched by nobody.
-        is_elsewhere && !part.contains("canonical")
+        // Where a page is, said to search engines, is fetched by nobody, and a drawing in a style only names its kind.
+        is_elsewhere && !part.contains("canonical") && !of_style.starts_with("data:")
     });
     elsewhere.next()
 }
@@ -48,7 +48,10 @@ mod tests {
             assert!(first(page, HTML).is_some(), "{page}");
         }
         assert_eq!(
-            first("a{src:url(../a.woff2)}b{src:url(\"data:x\")}", CSS),
+            first(
+                "a{src:url(../a.woff2)}b{src:url('data:image/svg+xml,<svg xmlns=\"http://www.w3.org/2000/svg\">')}",
+                CSS
+            ),
             None
         );
         for style in [
