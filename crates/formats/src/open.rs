@@ -52,8 +52,7 @@ pub fn read_table_with(
 }
 
 /// As [`read_table_with`], and keeps the samples of those columns of a text, or of MDF, alone that `wanted` names: of every column it says
-/// whether it is, from a table that has names and units only, such as [`Mapping::wanted`](crate::Mapping::wanted) and
-/// [`Elsewhere::wanted`](crate::Elsewhere::wanted). Cells of the other columns are checked all the same, and
+/// whether it is, from a table that has names and units only. Cells of the other columns are checked all the same, and
 /// [`Table::passed`] says what they are. A mapping understands such a table as it understands the whole one.
 ///
 /// Other formats are read whole, and so are exports of TwinCAT Scope.

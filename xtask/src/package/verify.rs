@@ -121,8 +121,13 @@ fn demo(program: &Path, to: &Path) -> Outcome {
     shell::run(command)
 }
 
-/// Refuses a file of the packed program that has other bytes than that of the workspace.
+/// Refuses a file of the packed program that has other lines than that of the workspace, but for the time of the run.
 fn equal(own: &Path, theirs: &Path) -> Outcome {
+    let lines = |path: &Path| -> Result<Vec<String>, String> {
+        let text = read(path)?;
+        let lines = text.lines().filter(|line| !line.contains("\"wall_s\""));
+        Ok(lines.map(str::to_owned).collect())
+    };
     for file in [
         "demo.csv",
         "fit.csv",
@@ -130,17 +135,11 @@ fn equal(own: &Path, theirs: &Path) -> Outcome {
         "result.json",
         "report.html",
     ] {
-        let [a, b] = [own, theirs].map(|folder| fs::read(folder.join(file)));
-        let same =
-            a.map_err(|e| format!("{file}: {e}"))? == b.map_err(|e| format!("{file}: {e}"))?;
-        if !same {
-            return Err(format!(
-                "{file} of the packed program differs: compare {} and {}",
-                own.display(),
-                theirs.display()
-            ));
+        let [a, b] = [own, theirs].map(|folder| folder.join(file));
+        if lines(&a)? != lines(&b)? {
+            return Err(format!("{} and {} differ", a.display(), b.display()));
         }
-        println!("    {file} is that of the workspace, byte for byte");
+        println!("    {file} is that of the workspace");
     }
     Ok(())
 }
