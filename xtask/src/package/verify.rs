@@ -27,7 +27,10 @@ pub fn all() -> Outcome {
         .iter()
         .map(|name| format!(" --package {name}"))
         .collect();
-    shell::run(within(&unpacked, &format!("test --quiet --doc{packages}")))?;
+    shell::run(within(
+        &unpacked,
+        &format!("test --quiet --doc --features stiction/cli{packages}"),
+    ))?;
     documented(&unpacked, &packages)
 }
 
