@@ -23,7 +23,7 @@ use crate::interrupt;
 use crate::output;
 use crate::progress::{self};
 use crate::typed::Typed;
-use crate::{next, wording};
+use crate::{next, wording, words};
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -172,7 +172,7 @@ fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error>
         };
         let next = match &outcome.result.trust.next {
             next @ (Action::Again | Action::Finish) => {
-                let arguments = std::env::args_os().skip(1);
+                let arguments = words::typed();
                 let arguments = arguments.map(|a| path_text(Path::new(&a)));
                 let kept = arguments.filter(|a| *next == Action::Again || a != "--no-finish");
                 let command = stiction::commands::text::command(going_on(next, kept).into_iter());

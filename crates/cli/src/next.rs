@@ -3,6 +3,7 @@
 use crate::arguments::{Arguments, Command};
 use crate::typed::Typed;
 use crate::wording;
+use crate::words;
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::path::{Path, PathBuf};
@@ -557,8 +558,9 @@ fn begun(log: &Path) -> String {
 
 /// The words behind the name of the program.
 fn words() -> Vec<String> {
-    let words = std::env::args_os().skip(1);
-    words.map(|word| path_text(Path::new(&word))).collect()
+    words::typed()
+        .map(|word| path_text(Path::new(&word)))
+        .collect()
 }
 
 fn pasted(words: Vec<String>) -> String {

@@ -1,6 +1,7 @@
 //! What was typed, argument by argument, also where some are missing.
 
 use crate::arguments::Arguments;
+use crate::words;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, CommandFactory};
 use std::ffi::OsString;
@@ -16,7 +17,8 @@ pub struct Typed {
 impl Typed {
     /// The command that was typed; `None` without one.
     pub fn new() -> Option<Self> {
-        let matches = Arguments::command().ignore_errors(true).try_get_matches();
+        let stiction = Arguments::command().ignore_errors(true);
+        let matches = stiction.try_get_matches_from(words::whole());
         let (command, matches) = matches.ok()?.remove_subcommand()?;
         Some(Self { command, matches })
     }
