@@ -56,6 +56,7 @@ pub fn option(setting: Setting) -> String {
         // Here the names differ from those of the library.
         Setting::Statics => "static".into(),
         Setting::Decades => "box".into(),
+        Setting::Known => "model".into(),
         _ => setting.field().replace('_', "-"),
     }
 }

@@ -247,6 +247,13 @@ pub fn command(arguments: impl Iterator<Item = String>) -> String {
     format!("stiction {}", quoted.join(" "))
 }
 
+/// What to do next with a result, as data: its command is [`next()`].
+pub fn next_action(result: &ResultFile) -> Action {
+    next::steps(result, Path::new("result"), next::free)
+        .first
+        .action
+}
+
 /// What to do next with the result in a folder; `study` is one that was written there.
 pub fn next(result: &ResultFile, dir: &Path, study: Option<&Path>) -> String {
     let mut out = String::new();

@@ -22,8 +22,8 @@ pub use found::{
     Value, WrongWrap, Zeros, counter,
 };
 pub use notice::{
-    Differs, Doubt, DrawnAxis, NoRun, Notice, OffPlan, Origin, Outside, Sought, Stated, Taken,
-    Unsteady, Whole, Whose,
+    Differs, Doubt, DrawnAxis, Naming, NoRun, Notice, OffPlan, Origin, Outside, Sought, Stated,
+    Taken, Unsteady, Whole, Whose,
 };
 pub use reason::{On, Reason};
 pub use robot::OfRobot;

@@ -410,9 +410,31 @@ fn pieces(numbers: &[usize], what: &str) -> Option<String> {
     }
 }
 
+/// How an option is written, given its name on the command line and its value.
+pub type Naming = fn(&str, &str) -> String;
+
+impl Notice {
+    /// The sentence with each option as `option` writes it. Displayed, they are as typed: `--cycle-time 0.001`.
+    pub fn named(&self, option: Naming) -> String {
+        struct Named<'a>(&'a Notice, Naming);
+        impl fmt::Display for Named<'_> {
+            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                self.0.write(f, self.1)
+            }
+        }
+        Named(self, option).to_string()
+    }
+}
+
 impl fmt::Display for Notice {
-    #[rustfmt::skip] // One line a sentence.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write(f, |name, value| format!("--{name} {value}"))
+    }
+}
+
+impl Notice {
+    #[rustfmt::skip] // One line a sentence.
+    fn write(&self, f: &mut fmt::Formatter<'_>, option: Naming) -> fmt::Result {
         match self {
             Self::InLog { log, whose, found, axis_file } => {
                 let found = found.words(axis_file);
@@ -428,7 +450,7 @@ impl fmt::Display for Notice {
             Self::DelayOfStep => f.write_str("the delay between force and position is at its search bound of two samples: it stands for something that the law does not describe, such as another force held before the step than that of the model"),
             Self::CheckpointLost { error } => write!(f, "the state of the search could not be kept: {error}"),
             Self::ComparisonStopped => f.write_str("the comparison of laws was interrupted and is left out; the fit is complete"),
-            Self::Against(reason) => reason.fmt(f),
+            Self::Against(reason) => write!(f, "{reason}"),
             Self::NoMap => f.write_str("coulomb_position = \"map\" has no effect: the log supports no map, and the level is fitted as a constant"),
             Self::NoIntervals => f.write_str("no parameter has an interval: least squares after the search were left out"),
             Self::Open { each, record } => {
@@ -484,7 +506,7 @@ impl fmt::Display for Notice {
                 write!(f, "the axis file states {value}, but the log shows {}{unit} ({} to {}), which reduces the residual to {}. {to_do}", four_digits(*found), four_digits(*low), four_digits(*high), part(*left))
             }
             Self::LimitsMass { limit, shown: [found, low, high], unit } => write!(f, "limits.mass of the axis file is {} {unit}, within a factor of two, but the log shows {} {unit} ({} to {}). Position, time or force of the log has another unit or scale than the axis file says, and every number with it, or limits.mass is not the moving mass: correct the wrong one", four_digits(*limit), four_digits(*found), four_digits(*low), four_digits(*high)),
-            Self::Unplanned(what) => what.fmt(f),
+            Self::Unplanned(what) => write!(f, "{what}"),
             Self::PlannedFrom { file, doubt } => {
                 const FIRST: &str = "The motion is planned for these values all the same: correct that first, then plan again";
                 match doubt {
@@ -496,16 +518,16 @@ impl fmt::Display for Notice {
             }
             Self::NotFriction { taken, feedforward, no_mass } => {
                 let taken = list(taken, "; ", |taken| match taken { Taken::Inertia => "the force of acceleration, since the model has no mass that the log determines".into(), Taken::Gravity => "gravity".into(), Taken::Cogging => "cogging".into() });
-                let feedforward = feedforward.as_ref().map(|names| format!("export with --feedforward {names}, and the block subtracts it, or subtract it from drive_force"));
+                let feedforward = feedforward.as_ref().map(|names| format!("export with {}, and the block subtracts it, or subtract it from drive_force", option("feedforward", names)));
                 let mass = no_mass.then(|| "give the mass in the axis file, mass = \"4.6 kg\", and identify again".to_string());
                 let ways: Vec<String> = feedforward.into_iter().chain(mass).chain(["or let them learn only where it is small".into()]).collect();
                 write!(f, "levels that follow the force of the drive mistake these for friction: {taken}. To prevent this: {}", ways.join("; "))
             }
             Self::Untrusted => f.write_str("the identification flagged this model as not trustworthy; a compensation with it may be too strong"),
             Self::Undetermined { names } => write!(f, "the log leaves {} open: the law predicts friction on motion like that of the log, and may be wrong on any other", names.join(", ")),
-            Self::LeftToFeedforward { names, feedforward } => write!(f, "{} is not friction and not in the compensator; feed it forward separately{}", names.join(", "), feedforward.as_ref().map_or(String::new(), |parts| format!(", or with it: --feedforward {parts}"))),
-            Self::ConstantForce { value, coulomb, unit } => write!(f, "the model has a constant force of {} {unit}, large against its Coulomb friction of {} {unit}, and the code feeds it forward with the friction: gain and ramp act on it, and when the watchdog switches off, an axis that it holds falls. If it is a weight, export with --feedforward friction,mass,gravity (targets with such a feedforward), which holds it whatever the watchdog does", short(*value), short(*coulomb)),
-            Self::AnotherRate { cycle, of_log } => write!(f, "the code is for one call every {cycle} s, and the log has one sample every {of_log} s: called at the rate of the log its time runs {} times as fast. If the controller runs at that rate, export with --cycle-time {of_log}", short(cycle / of_log)),
+            Self::LeftToFeedforward { names, feedforward } => write!(f, "{} is not friction and not in the compensator; feed it forward separately{}", names.join(", "), feedforward.as_ref().map_or(String::new(), |parts| format!(", or with it: {}", option("feedforward", parts)))),
+            Self::ConstantForce { value, coulomb, unit } => write!(f, "the model has a constant force of {} {unit}, large against its Coulomb friction of {} {unit}, and the code feeds it forward with the friction: gain and ramp act on it, and when the watchdog switches off, an axis that it holds falls. If it is a weight, export with {} (targets with such a feedforward), which holds it whatever the watchdog does", short(*value), short(*coulomb), option("feedforward", "friction,mass,gravity")),
+            Self::AnotherRate { cycle, of_log } => write!(f, "the code is for one call every {cycle} s, and the log has one sample every {of_log} s: called at the rate of the log its time runs {} times as fast. If the controller runs at that rate, export with {}", short(cycle / of_log), option("cycle-time", &of_log.to_string())),
             Self::AtReference { each, lines } => write!(f, "friction depends on inputs that the code does not see; it uses their reference ({}). Where the axis works elsewhere it is off by that much: identify the axis as it works{}", each.join("; "), if lines.is_empty() { String::new() } else { format!(". With the range of the log in the model file the code has it: {}", lines.join("; ")) }),
             Self::Lowered { each, limited } => write!(f, "the code gives the least force that the log supports: {}{}. A log that determines them gives more: stiction check LOG names the motion", list(each, ", ", |(name, to, unit, from)| format!("{name} = {} {unit} instead of {}", four_digits(*to), four_digits(*from))), if *limited { ", and its limit is the largest friction up to the speeds of the log" } else { "" }),
             Self::WrappedPosition { travel, unit, names, range: [low, high] } => write!(f, "the position of the log wraps after {} {unit}, and {} depend on it without that period. Feed an unwrapped position, {} to {} {unit} as identified (outside that range its end counts)", short(*travel), names.join(", "), short(*low), short(*high)),

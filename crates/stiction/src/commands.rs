@@ -80,7 +80,7 @@ pub use stiction_workflows::identify::{presliding_length, slowest_turn};
 pub use stiction_workflows::plan::{Carrier, Want};
 /// A planned motion, from an axis file.
 pub use stiction_workflows::plan::{
-    Known, PlanOptions, Planned, limits_to_fill_in, plan as plan_motion,
+    Known, PLANNED, PlanOptions, Planned, limits_to_fill_in, plan as plan_motion,
 };
 /// Logs with the files they came from.
 pub use stiction_workflows::source::{Source, load, table};

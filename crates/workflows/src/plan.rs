@@ -17,6 +17,7 @@ pub use assume::Given;
 pub use band::Band;
 pub use block::limits_to_fill_in;
 pub use known::Known;
+pub use law::PLANNED;
 pub use outcome::Planned;
 pub use stiction_plan::carrier::Carrier;
 pub use wanted::Want;

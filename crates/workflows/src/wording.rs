@@ -66,11 +66,19 @@ pub enum Setting {
     Want,
     /// Where the axis stands when a plan starts.
     Start,
+    /// The model that a plan begins with.
+    Known,
+    /// Whether the levels of a compensator follow the machine.
+    Adapt,
+    /// What is fed forward.
+    Feedforward,
+    /// The URDF of a robot.
+    Urdf,
 }
 
 impl Setting {
     /// Every option.
-    pub const ALL: [Setting; 26] = [
+    pub const ALL: [Setting; 30] = [
         Setting::Law,
         Setting::Asymmetric,
         Setting::Method,
@@ -97,6 +105,10 @@ impl Setting {
         Setting::Integrator,
         Setting::Want,
         Setting::Start,
+        Setting::Known,
+        Setting::Adapt,
+        Setting::Feedforward,
+        Setting::Urdf,
     ];
 
     /// Name of the field.
@@ -128,6 +140,10 @@ impl Setting {
             Setting::Integrator => "integrator",
             Setting::Want => "want",
             Setting::Start => "start",
+            Setting::Known => "known",
+            Setting::Adapt => "adapt",
+            Setting::Feedforward => "feedforward",
+            Setting::Urdf => "urdf",
         }
     }
 
@@ -207,6 +223,12 @@ impl Wording {
             Part::Setting(setting, value) => name(*setting, value.as_deref()),
         });
         parts.collect()
+    }
+
+    /// The same words behind others.
+    pub(crate) fn behind(mut self, words: String) -> Self {
+        self.0.insert(0, words.into());
+        self
     }
 
     /// The options that the words name.

@@ -2,6 +2,7 @@
 
 use super::{ExportOptions, Feedforward};
 use crate::error::Error;
+use crate::wording::Setting;
 use stiction_export::{Model, Target};
 use stiction_files::ModelFile;
 use stiction_friction::compensator::{Friction, Terms};
@@ -184,8 +185,10 @@ fn holds(limit: f64, terms: &Terms<f64>, file: &ModelFile) -> Result<(), Error> 
     let [limit, most] = [limit, most].map(stiction_number::four_digits);
     Err(Error::usage(
         format!("a limit of {limit} {unit} below the weight that is fed forward"),
-        format!(
-            "above {most} {unit}, which hold the axis, with room for friction; or --feedforward without gravity"
-        ),
+        [
+            format!("above {most} {unit}, which hold the axis, with room for friction; or ").into(),
+            Setting::Feedforward.into(),
+            " without gravity".into(),
+        ],
     ))
 }

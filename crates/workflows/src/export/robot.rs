@@ -4,6 +4,7 @@ use super::asked::few_enough;
 use super::{ExportOptions, File, check, domain, place, resolve};
 use crate::error::Error;
 use crate::robot::read_urdf;
+use crate::wording::Setting;
 use std::path::{Path, PathBuf};
 use stiction_codes::Code;
 use stiction_export::{Error as ExportError, Load, Provenance, RobotJoint, Target};
@@ -191,7 +192,7 @@ fn of_all(options: &ExportOptions) -> Result<(), Error> {
     if options.adapt {
         return Err(Error::usage(
             "levels that follow the machine for a robot: they would take torques of the other joints for friction",
-            "leave out --adapt",
+            ["leave out ".into(), Setting::Adapt.into()],
         ));
     }
     let fed = options.feedforward;

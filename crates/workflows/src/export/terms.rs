@@ -27,6 +27,16 @@ pub struct Feedforward {
 const BESIDE: [&str; 4] = ["mass", "gravity", "cogging", "rigid"];
 
 impl Feedforward {
+    /// All that can be fed forward.
+    pub fn all() -> Self {
+        Self {
+            mass: true,
+            gravity: true,
+            cogging: true,
+            rigid: true,
+        }
+    }
+
     /// From the names of its parts, of which one is `friction`.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 use super::law;
 use crate::error::Error;
 use crate::identify::{Files, Options, identify};
+use crate::wording::{Setting, Wording};
 use std::path::{Path, PathBuf};
 use stiction_files::model::{ModelParameter, ReadModel};
 use stiction_files::result::{Action, Trust};
@@ -59,13 +60,18 @@ pub(super) fn told(
             fits(&model.model, file, kind)?;
             if let Some(law) = law.filter(|law| law.name() != model.model.law) {
                 let found = format!("the law {}", model.model.law);
-                let allowed = format!("a model of --law {law}, or that option left out");
-                return Err(refuse(file, &found, &allowed));
+                let allowed = [
+                    "a model of ".into(),
+                    Setting::Law.is(law),
+                    ", or that option left out".into(),
+                ];
+                return Err(refuse(file, found, allowed));
             }
             let kind = LawKind::from_name(&model.model.law);
             if asymmetric && kind.is_some_and(LawKind::has_elements) {
-                let found = format!("the law {} with --asymmetric", model.model.law);
-                return Err(refuse(file, &found, law::BOTH_WAYS));
+                let found = format!("the law {} with ", model.model.law);
+                let found = [found.into(), Setting::Asymmetric.into()];
+                return Err(refuse(file, found, law::same_both_ways()));
             }
             Ok(Told {
                 doubt: (!model.model.trustworthy).then(|| planned_from(file, Doubt::Untrusted)),
@@ -135,8 +141,11 @@ fn planned_from(file: &Path, doubt: Doubt) -> Warning {
     Notice::PlannedFrom { file, doubt }.into()
 }
 
-fn refuse(file: &Path, found: &str, allowed: &str) -> Error {
-    Error::usage(format!("{}: {found}", file.display()), allowed.to_string())
+fn refuse(file: &Path, found: impl Into<Wording>, allowed: impl Into<Wording>) -> Error {
+    Error::usage(
+        found.into().behind(format!("{}: ", file.display())),
+        allowed,
+    )
 }
 
 /// Refuses a model of another kind of axis or law, or in another unit of force.
@@ -147,19 +156,29 @@ fn fits(model: &ModelFile, file: &Path, kind: stiction_log::Motion) -> Result<()
             model.kind
         );
         let allowed = "a model or log of the axis of the axis file";
-        return Err(refuse(file, &found, allowed));
+        return Err(refuse(file, found, allowed));
     }
     let law = LawKind::from_name(&model.law).filter(|law| law::PLANNED.contains(law));
     let Some(law) = law else {
         return Err(refuse(
             file,
-            &format!("the law {}", model.law),
-            "a law that is planned for: identify with --law lugre, --law maxwell-slip or --law gms, or leave --model out",
+            format!("the law {}", model.law),
+            [
+                "a law that is planned for: identify with ".into(),
+                Setting::Law.is(LawKind::LuGre),
+                ", ".into(),
+                Setting::Law.is(LawKind::MaxwellSlip),
+                " or ".into(),
+                Setting::Law.is(LawKind::Gms),
+                ", or leave ".into(),
+                Setting::Known.into(),
+                " out".into(),
+            ],
         ));
     };
     if law.has_elements() && model.asymmetric {
         let found = format!("the law {law} with parameters of each direction");
-        return Err(refuse(file, &found, law::BOTH_WAYS));
+        return Err(refuse(file, found, law::same_both_ways()));
     }
     if model.force_unit != kind.force().si_text() {
         let found = format!("the force in {}", model.force_unit);
@@ -167,7 +186,7 @@ fn fits(model: &ModelFile, file: &Path, kind: stiction_log::Motion) -> Result<()
             "{}: give the force of the log a scale",
             kind.force().si_text()
         );
-        return Err(refuse(file, &found, &allowed));
+        return Err(refuse(file, found, allowed));
     }
     let stiffness = match law.has_elements() {
         true => Quantity::ElementStiffness(1),
@@ -183,7 +202,7 @@ fn fits(model: &ModelFile, file: &Path, kind: stiction_log::Motion) -> Result<()
 
 fn lacks(file: &Path, name: &str) -> Error {
     let allowed = "a model with all parameters of its law and the mass";
-    refuse(file, &format!("no {name}"), allowed)
+    refuse(file, format!("no {name}"), allowed.to_string())
 }
 
 fn find<'a>(model: &'a ModelFile, name: &str) -> Option<&'a ModelParameter> {
@@ -315,7 +334,7 @@ impl Told {
                 "{}; without a usable first fit plan from the nameplate alone",
                 e.allowed
             );
-            refuse(&self.file, &found, &allowed)
+            refuse(&self.file, found, allowed)
         })?;
         Ok(belief)
     }

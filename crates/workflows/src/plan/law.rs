@@ -2,14 +2,14 @@
 
 use super::{Known, PlanOptions};
 use crate::error::Error;
-use crate::wording::{Setting, TOGETHER_WITH};
+use crate::wording::{Setting, TOGETHER_WITH, Wording};
 use std::path::Path;
 use stiction_files::Axis;
 use stiction_parameters::LawKind;
 use stiction_plan::Elements;
 
 /// Laws that a motion can be planned for.
-pub(super) const PLANNED: [LawKind; 3] = [LawKind::LuGre, LawKind::MaxwellSlip, LawKind::Gms];
+pub const PLANNED: [LawKind; 3] = [LawKind::LuGre, LawKind::MaxwellSlip, LawKind::Gms];
 
 /// The law that is asked for, of a first log also by the elements of the axis file; `None` where it is that of the model, or LuGre.
 ///
@@ -47,13 +47,17 @@ pub(super) fn asked(
             TOGETHER_WITH.into(),
             Setting::Law.is(kind),
         ];
-        return Err(Error::usage(found, BOTH_WAYS));
+        return Err(Error::usage(found, same_both_ways()));
     }
     Ok(law)
 }
 
 /// What a plan for Maxwell-slip elements needs of the directions.
-pub(super) const BOTH_WAYS: &str = "Maxwell-slip elements that are the same in both directions: leave --asymmetric out here and in identify";
+pub(super) fn same_both_ways() -> Wording {
+    let same = "Maxwell-slip elements that are the same in both directions: leave ";
+    let out = " out here and in identify";
+    [same.into(), Setting::Asymmetric.into(), out.into()].into()
+}
 
 /// From the limits of an axis to a motion for Maxwell-slip elements: what to type.
 pub(super) fn steps(file: &Path, kind: LawKind) -> String {

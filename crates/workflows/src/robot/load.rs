@@ -6,6 +6,7 @@ use super::options::{Files, Options};
 use crate::error::Error;
 use crate::identify::check_share;
 use crate::source::{Source, mapped, whole};
+use crate::wording::Setting;
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use stiction_files::Robot;
@@ -88,7 +89,10 @@ pub(super) fn load(files: &Files, options: &Options) -> Result<Loaded, Error> {
     let path = given.ok_or_else(|| {
         Error::usage(
             "no URDF, whose links and joints the rigid body follows from",
-            "--urdf ARM.urdf, or urdf = \"ARM.urdf\" in robot.toml",
+            [
+                Setting::Urdf.is("ARM.urdf"),
+                ", or urdf = \"ARM.urdf\" in robot.toml".into(),
+            ],
         )
     })?;
     let urdf = read_urdf(path)?;
