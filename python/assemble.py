@@ -43,6 +43,8 @@ def main(library: Path, folder: Path) -> Path:
     files = {f"stiction/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes() for path in sources}
     files[f"stiction/_native{native}"] = library.read_bytes()
     files |= {f"{about}/licenses/{name}": (ROOT / name).read_bytes() for name in project["license-files"]}
+    scripts = "".join(f"{name} = {function}\n" for name, function in project["scripts"].items())
+    files[f"{about}/entry_points.txt"] = f"[console_scripts]\n{scripts}".encode()
     files[f"{about}/METADATA"] = ("\n".join(metadata) + "\n").encode()
     files[f"{about}/WHEEL"] = ("\n".join(wheel) + "\n").encode()
     record = "".join(f"{name},sha256={digest(content)},{len(content)}\n" for name, content in files.items())

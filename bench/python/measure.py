@@ -34,6 +34,7 @@ import stiction
 
 SAMPLES = 30_001
 ROUNDS = 7
+ALONE = stiction.Run(compare_laws=False, threads=1)
 
 
 def importing(module: str) -> float:
@@ -46,7 +47,7 @@ def importing(module: str) -> float:
 def identified(log: stiction.Log) -> float:
     """Time of one identification on one thread, s."""
     start = time.perf_counter()
-    stiction.identify(log, law="lugre", compare_laws=False, threads=1)
+    stiction.identify(log, law="lugre", run=ALONE)
     return time.perf_counter() - start
 
 
@@ -88,7 +89,7 @@ def kept(calls: int) -> float:
 
     def run(n: int) -> int:
         for _ in range(n):
-            stiction.identify(data, law="coulomb-viscous", compare_laws=False, threads=1).residual
+            stiction.identify(data, law="coulomb-viscous", run=ALONE).residual
         return int(Path("/proc/self/statm").read_text().split()[1]) * resource.getpagesize()
 
     first = run(calls // 10)
@@ -135,7 +136,7 @@ def main(timed: str, wheel: str | None) -> list[str]:
         two = min(at_once(lambda: identified(log), 2) for _ in range(ROUNDS))
         print(f"| two threads with a search each | {2 * one / two:.2f} times the work of one |")
         bars.hold("two threads 1.8 times one", 2 * one >= 1.8 * two)
-        fit = stiction.identify(log, law="lugre", compare_laws=False)
+        fit = stiction.identify(log, law="lugre", run=stiction.Run(compare_laws=False))
         one = min(at_once(lambda: stepped(fit), 1) for _ in range(ROUNDS))
         two = min(at_once(lambda: stepped(fit), 2) for _ in range(ROUNDS))
         print(f"| two threads that call a law | {2 * one / two:.2f} times the work of one |")

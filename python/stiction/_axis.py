@@ -61,6 +61,11 @@ def path_of(path: Any, place: str, allowed: str = "a path") -> str:
     return text
 
 
+def some_path(path: Any, place: str) -> str | None:
+    """A path as text, or none."""
+    return None if path is None else path_of(path, place)
+
+
 def paths_of(paths: Any, place: str) -> list[str]:
     """Paths as text; one alone is a list of one."""
     if isinstance(paths, (str, os.PathLike)) or not isinstance(paths, Iterable):

@@ -14,8 +14,9 @@ from . import _native
 from ._axis import path_of
 from ._columns import is_columns, is_missing, items
 from ._errors import argument, kind_of
+from ._frames import Rows, frame
 from ._options import seconds, words
-from ._types import PathLike
+from ._types import FrameName, PathLike
 
 if TYPE_CHECKING:
     import numpy
@@ -60,6 +61,11 @@ class Course(NamedTuple):
     logs: list[str]
     """The logs."""
 
+    def to_frame(self, library: FrameName | None = None) -> Any:
+        """A row for each log as a DataFrame, as of `Series.to_frame`."""
+        names = ("time", "value", "std", "temperature", "corrected", "low", "high")
+        return frame({"log": self.logs, **{name: getattr(self, name) for name in names}}, library)
+
 
 class Drift:
     """What changed on which machine. Made by `drift`."""
@@ -79,16 +85,14 @@ class Drift:
         return bool(self.alarms)
 
     @property
-    def alarms(self) -> list[dict[str, Any]]:
-        """What changed and what is beyond a limit, the largest over its limit first: `pandas.DataFrame(drift.alarms)`."""
-        alarms: list[dict[str, Any]] = self.result["alarms"]
-        return alarms
+    def alarms(self) -> Rows:
+        """What changed and what is beyond a limit, the largest over its limit first; `drift.alarms.to_frame()`."""
+        return Rows(self.result["alarms"])
 
     @property
-    def noise(self) -> list[dict[str, Any]]:
+    def noise(self) -> Rows:
         """What each parameter does where nothing changes, and the `limits` beyond which it has changed."""
-        noise: list[dict[str, Any]] = self.result["noise"]
-        return noise
+        return Rows(self.result["noise"])
 
     @cached_property
     def courses(self) -> list[Course]:

@@ -8,10 +8,14 @@ from pathlib import Path
 from typing import Any
 
 from . import _native
-from ._axis import path_of
+from ._axis import path_of, some_path
+from ._groups import Compensator, Draws, group
 from ._log import _warn
-from ._options import maybe, real, truth, words
-from ._types import ExportOptions, PathLike
+from ._options import choice, maybe, real, truth, whole, words
+from ._types import ExportOptions, FeedforwardName, PathLike, TargetName
+
+MOST_DRAWS = 100_000
+"""As on the command line."""
 
 
 class Exported:
@@ -37,47 +41,64 @@ class Exported:
         return f"<stiction.Exported {self.result['target']} in {str(self.folder)!r}>"
 
 
-def write_code(
-    model: str, file: str | None, options: ExportOptions, out: PathLike, force: bool
-) -> Exported:
+def options_of(
+    target: str,
+    cycle_time: float,
+    feedforward: FeedforwardName | Iterable[FeedforwardName],
+    compensator: Compensator,
+    draws: Draws | None,
+    name: str | None,
+) -> ExportOptions:
+    """The options as Rust takes them."""
+    compensator = group(compensator, Compensator, "compensator")
+    drawn = None if draws is None else group(draws, Draws, "draws")
+    return {
+        "target": choice(target, "target"),
+        "name": None if name is None else str(name),
+        "cycle_time": real(cycle_time, "cycle_time"),
+        "limit": maybe(compensator.limit, "compensator.limit"),
+        "rated_force": maybe(compensator.rated_force, "compensator.rated_force"),
+        "gain": maybe(compensator.gain, "compensator.gain"),
+        "ramp": maybe(compensator.ramp, "compensator.ramp"),
+        "dead_zone": maybe(compensator.dead_zone, "compensator.dead_zone"),
+        "slew": maybe(compensator.slew, "compensator.slew"),
+        "window": maybe(compensator.window, "compensator.window"),
+        "adapt": truth(compensator.adapt, "compensator.adapt"),
+        "feedforward": words(feedforward, "feedforward"),
+        "draws": None
+        if drawn is None
+        else (
+            whole(drawn.number, "draws.number", 1, MOST_DRAWS),
+            whole(drawn.seed, "draws.seed"),
+            choice(drawn.width, "draws.width"),
+        ),
+    }
+
+
+def write_code(model: str, file: str | None, urdf: str | None, options: ExportOptions, out: PathLike, force: bool) -> Exported:
     """Writes a model as code."""
     folder = path_of(out, "out")
-    return Exported(json.loads(_native.export(model, file, options, folder, force)), Path(folder))
+    return Exported(json.loads(_native.export(model, file, urdf, options, folder, force)), Path(folder))
 
 
 def export(
     model: PathLike,
-    target: str,
+    target: TargetName,
     out: PathLike,
     *,
     cycle_time: float = 1e-3,
-    limit: float | None = None,
-    gain: float | None = None,
-    ramp: float | None = None,
-    dead_zone: float | None = None,
-    slew: float | None = None,
-    window: float | None = None,
-    adapt: bool = False,
-    feedforward: Iterable[str] = ("friction",),
-    rated_force: float | None = None,
+    feedforward: FeedforwardName | Iterable[FeedforwardName] = ("friction",),
+    compensator: Compensator = Compensator(),
+    draws: Draws | None = None,
+    urdf: PathLike | None = None,
     name: str | None = None,
     force: bool = False,
 ) -> Exported:
-    """Writes the compensator of a model file as code: as `stiction export`, whose options these are. See `Fit.export`."""
-    options: ExportOptions = {
-        "target": str(target),
-        "name": None if name is None else str(name),
-        "cycle_time": real(cycle_time, "cycle_time"),
-        "limit": maybe(limit, "limit"),
-        "rated_force": maybe(rated_force, "rated_force"),
-        "gain": maybe(gain, "gain"),
-        "ramp": maybe(ramp, "ramp"),
-        "dead_zone": maybe(dead_zone, "dead_zone"),
-        "slew": maybe(slew, "slew"),
-        "window": maybe(window, "window"),
-        "adapt": truth(adapt, "adapt"),
-        "feedforward": words(feedforward, "feedforward"),
-    }
-    exported = write_code("", path_of(model, "model"), options, out, force)
+    """Writes the compensator of a model.toml, or of all joints of a robot.toml, as code: as `stiction export`.
+
+    urdf: that of a robot in place of the one that robot.toml names. The others: as of `Fit.export`.
+    """
+    options = options_of(target, cycle_time, feedforward, compensator, draws, name)
+    exported = write_code("", path_of(model, "model"), some_path(urdf, "urdf"), options, out, force)
     _warn(exported.warnings, 2)
     return exported

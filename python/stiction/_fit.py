@@ -12,20 +12,23 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from . import _native
 from ._axis import path_of
 from ._errors import argument
-from ._export import Exported, write_code
+from ._export import Exported, options_of, write_code
+from ._friction import Friction, FrictionCurve, friction_at, mean_curve
+from ._frames import Series, frame
+from ._groups import Compensator, Draws, Run
 from ._law import Law
 from ._log import Log, _read, _warn
-from ._options import maybe, real, truth, words
+from ._next import call_of
 from ._parameters import Parameters
 from ._plan import Plan, plan
 from ._study import Study, simulate
-from ._types import AxisLike, Columns, ExportOptions, PathLike, Verdict, Watcher
+from ._types import AxisLike, Columns, FeedforwardName, FrameName, PathLike, TargetName, Verdict
 
 if TYPE_CHECKING:
     from tempfile import TemporaryDirectory
 
     import numpy
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     from ._plot import Plots
 
@@ -37,6 +40,10 @@ class Covariance(NamedTuple):
     """Names of rows and columns."""
     matrix: NDArray[numpy.float64]
     """Row by row; zero rows for parameters that the data do not determine at all."""
+
+    def to_frame(self, library: FrameName | None = None) -> Any:
+        """As a DataFrame, as of `Series.to_frame`: the column `name`, and one for each parameter."""
+        return frame({"name": self.names, **dict(zip(self.names, self.matrix.T))}, library)
 
 
 class Prediction(NamedTuple):
@@ -57,21 +64,9 @@ class Prediction(NamedTuple):
     quality: dict[str, Any]
     """How well it predicts: the keys of `fit` in docs/result.md."""
 
-
-class Friction(NamedTuple):
-    """Friction in steady sliding by speed, whatever the law: half of the sum of both directions, of a log with one direction its own,
-    with half widths of 95 % intervals."""
-
-    speed: NDArray[numpy.float64]
-    """Speed, m/s or rad/s."""
-    force: NDArray[numpy.float64]
-    """Force against the motion, in the unit of the log."""
-    at_once: NDArray[numpy.float64]
-    """Half width for the same test again, now."""
-    repeat: NDArray[numpy.float64]
-    """Half width for another day."""
-    transfer: NDArray[numpy.float64]
-    """Half width for another motion."""
+    def to_frame(self, library: FrameName | None = None) -> Any:
+        """All but `quality` as a DataFrame, as of `Series.to_frame`."""
+        return frame({name: values for name, values in self._asdict().items() if name != "quality"}, library)
 
 
 class Fit:
@@ -94,16 +89,21 @@ class Fit:
         return Parameters(self.result["parameters"])
 
     @property
-    def friction(self) -> Friction | None:
-        """Friction by speed; None where the axis does not slide. Both directions apart: `friction_curve` in docs/result.md."""
-        import numpy
+    def friction_curve(self) -> FrictionCurve | None:
+        """Friction by speed as a table; None where the axis does not slide."""
+        entry = self.result.get("friction_curve")
+        return None if entry is None else mean_curve(entry)
 
-        curve = self.result.get("friction_curve")
-        if curve is None:
-            return None
-        own = curve.get("both") or curve.get("forward") or curve["back"]
-        fields = ("force", "at_once", "repeat", "transfer")
-        return Friction(numpy.array(curve["speed"]), *(numpy.array(own[field]) for field in fields))
+    def friction(self, velocity: float | ArrayLike) -> Friction:
+        """Friction in steady sliding at a velocity or an array of them, m/s (rad/s), whatever the law.
+
+        Linear between the speeds of `friction_curve`, of the direction of the velocity where both are known, else their mean; NaN
+        outside the speeds of the log.
+        """
+        entry = self.result.get("friction_curve")
+        if entry is None:
+            raise argument("fit", "an axis that does not slide", "a fit with a friction_curve")
+        return friction_at(entry, velocity)
 
     @property
     def covariance(self) -> Covariance:
@@ -144,10 +144,10 @@ class Fit:
         return quality
 
     @cached_property
-    def series(self) -> dict[str, NDArray[numpy.float64]]:
+    def series(self) -> Series:
         """The columns of `fit.csv`: time, measured, model, residual, and mostly position, velocity and other, at the samples that were
-        fitted."""
-        return {name: values for name, _, values in self._native.series()}
+        fitted; `fit.series.to_frame()`."""
+        return Series({name: values for name, _, values in self._native.series()})
 
     @property
     def residual(self) -> NDArray[numpy.float64]:
@@ -199,29 +199,26 @@ class Fit:
         study: PathLike | None = None,
         *,
         max_samples: float | None = None,
-        progress: Watcher = None,
-        threads: int | None = None,
+        run: Run = Run(),
     ) -> Study:
         """What compensation with this law does on this axis, simulated: as `stiction simulate study.toml`.
 
         study: a study file (docs/study.md); that of the fit if it is not given. max_samples: as of `simulate`.
         """
         if study is not None:
-            return simulate(study, max_samples=max_samples, progress=progress, threads=threads)
+            return simulate(study, max_samples=max_samples, run=run)
         with _Files(self, ["study.toml", "model.toml"]) as folder:
             if not (folder / "study.toml").exists():
                 raise argument("study", "none, and this law has no study of its own", "the path of a study file")
             own = folder / "study.toml"
-            return simulate(own, max_samples=max_samples, progress=progress, threads=threads)
+            return simulate(own, max_samples=max_samples, run=run)
 
     def plan(
         self,
         axis: PathLike | Mapping[str, Any],
         *,
         time: float | None = None,
-        seed: int = 0,
-        progress: Watcher = None,
-        threads: int | None = None,
+        run: Run = Run(),
     ) -> Plan:
         """The motion to record for what this fit leaves open: as `stiction plan axis.toml --model model.toml`.
 
@@ -229,52 +226,41 @@ class Fit:
         """
         with _Files(self, ["model.toml"]) as folder:
             model = folder / "model.toml"
-            return plan(axis, model=model, time=time, seed=seed, progress=progress, threads=threads)
+            return plan(axis, known=model, time=time, run=run)
 
     def export(
         self,
-        target: str,
+        target: TargetName,
         out: PathLike,
         *,
         cycle_time: float = 1e-3,
-        limit: float | None = None,
-        gain: float | None = None,
-        ramp: float | None = None,
-        dead_zone: float | None = None,
-        slew: float | None = None,
-        window: float | None = None,
-        adapt: bool = False,
-        feedforward: Iterable[str] = ("friction",),
-        rated_force: float | None = None,
+        feedforward: FeedforwardName | Iterable[FeedforwardName] = ("friction",),
+        compensator: Compensator = Compensator(),
+        draws: Draws | None = None,
         name: str | None = None,
         force: bool = False,
     ) -> Exported:
-        """Writes the compensator as code for a target: as `stiction export model.toml`, whose options these are.
+        """Writes the compensator as code for a target: as `stiction export model.toml`.
 
-        target: `c`, `cpp`, `st`, ... (docs/export.md). out: folder for the files. cycle_time: time between two calls, s.
-        What is not given follows from the law.
+        target: see docs/export.md. out: folder for the files. cycle_time: time between two calls, s.
+        feedforward: friction, and what else is fed forward. compensator: force limit, gain, watchdog. draws: for simulators.
+        name: what names in the code begin with. force: writes into a folder that holds something else.
         """
-        options: ExportOptions = {
-            "target": str(target),
-            "name": None if name is None else str(name),
-            "cycle_time": real(cycle_time, "cycle_time"),
-            "limit": maybe(limit, "limit"),
-            "rated_force": maybe(rated_force, "rated_force"),
-            "gain": maybe(gain, "gain"),
-            "ramp": maybe(ramp, "ramp"),
-            "dead_zone": maybe(dead_zone, "dead_zone"),
-            "slew": maybe(slew, "slew"),
-            "window": maybe(window, "window"),
-            "adapt": truth(adapt, "adapt"),
-            "feedforward": words(feedforward, "feedforward"),
-        }
-        exported = write_code(self._native.model_toml(), None, options, out, force)
+        options = options_of(target, cycle_time, feedforward, compensator, draws, name)
+        exported = write_code(self._native.model_toml(), None, None, options, out, force)
         _warn(exported.warnings, 2)
         return exported
 
     @property
+    def next(self) -> str:
+        """What to do next, as a line of Python: the command that `stiction identify` prints behind `next:`. Empty for a result of
+        another version."""
+        told = self._native.next()
+        return "" if told is None else call_of(json.loads(told), self.result, self._axis)
+
+    @property
     def plot(self) -> Plots:
-        """Pictures with matplotlib: `plot.force()`, `plot.intervals()`, `plot.map(log)`, `plot.presliding(log)`."""
+        """Pictures with matplotlib: `plot.force()`, `plot.intervals()`, `plot.friction()`, `plot.map(log)`, `plot.presliding(log)`."""
         from ._plot import Plots
 
         return Plots(self)

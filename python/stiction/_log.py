@@ -12,9 +12,10 @@ from . import _native
 from ._axis import AXIS, axis_of, path_of
 from ._columns import WHAT, columns, index, is_columns
 from ._errors import StictionError, StictionWarning, argument
+from ._groups import Run, group
 from ._options import some_threads, whole
 from ._progress import finish, teller
-from ._types import AxisLike, Columns, PathLike, Watcher
+from ._types import AxisLike, Columns, PathLike
 
 if TYPE_CHECKING:
     import numpy
@@ -245,13 +246,12 @@ def one_axis(logs: list[Log]) -> _native.Axis:
     return first._axis
 
 
-def check(
-    logs: Logs, axis: AxisLike = None, *, progress: Watcher = None, threads: int | None = None
-) -> Check:
+def check(logs: Logs, axis: AxisLike = None, *, run: Run = Run()) -> Check:
     """What was read of logs, and what they can and cannot determine, as `stiction check`.
 
-    logs, axis: as of `identify`. progress, threads: likewise.
+    logs, axis: as of `identify`. run: threads and progress.
     """
+    run = group(run, Run, "run")
     each = several(logs, "logs")
     try:
         if all_paths(each) and not isinstance(axis, dict):
@@ -259,12 +259,12 @@ def check(
                 raise argument("logs", "no log", "at least one log, here or under [[log]] of the axis file")
             paths = some_paths(each, "logs")
             known = None if axis is None else path_of(axis, "axis", AXIS)
-            found = _native.check_files(paths, known, teller(progress), some_threads(threads))
+            found = _native.check_files(paths, known, teller(run.progress), some_threads(run.threads))
         else:
             read = read_all(each, axis, "logs")
-            found = _native.check([log._native for log in read], one_axis(read), teller(progress), some_threads(threads))
+            found = _native.check([log._native for log in read], one_axis(read), teller(run.progress), some_threads(run.threads))
     finally:
-        finish(progress)
+        finish(run.progress)
     return Check(json.loads(found[0]), found[1], found[2])
 
 

@@ -83,14 +83,15 @@ def truth(value: Any, place: str) -> bool:
 
 def some_threads(value: Any) -> int | None:
     """Threads of a call, or those of the process."""
-    return None if value is None else whole(value, "threads", 1, MOST_THREADS)
+    return None if value is None else whole(value, "run.threads", 1, MOST_THREADS)
 
 
-def choice(value: Any, place: str) -> str:
-    """One of the names that an argument may have; which of them, Rust sees."""
-    if not isinstance(value, str):
-        raise argument(place, repr(value), f"one of {', '.join(_native.choices(place))}")
-    return value
+def choice(value: Any, place: str, kind: str | None = None) -> str:
+    """One of the names that an argument may have; those of the kind, or of the argument itself."""
+    names = _native.choices(kind or place.rpartition(".")[2])
+    if value not in names:
+        raise argument(place, repr(value), f"one of {', '.join(names)}")
+    return str(value)
 
 
 def words(value: Any, place: str) -> list[str]:

@@ -6,6 +6,9 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from typing import Any, NamedTuple
 
+from ._frames import frame
+from ._types import FrameName
+
 
 class Parameter(NamedTuple):
     """One parameter, in SI units; a force that the log has in A or V stays in it."""
@@ -66,8 +69,12 @@ class Parameters(Mapping[str, Parameter]):
         return list(self._rows.values())
 
     def to_dict(self) -> dict[str, list[Any]]:
-        """Column by column: `pandas.DataFrame(fit.parameters.to_dict())`."""
+        """Column by column."""
         return {field: [getattr(row, field) for row in self.rows] for field in Parameter._fields}
+
+    def to_frame(self, library: FrameName | None = None) -> Any:
+        """As a DataFrame, as of `Series.to_frame`."""
+        return frame(self.to_dict(), library)
 
     def __str__(self) -> str:
         table = [COLUMNS, *(tuple(_shown(getattr(row, c)) for c in COLUMNS) for row in self.rows)]

@@ -8,21 +8,18 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any
 
 from . import _native
-from ._axis import AXIS, path_of, text_of
-from ._errors import StictionError, argument
+from ._axis import AXIS, path_of, some_path, text_of
+from ._errors import StictionError
+from ._frames import Rows, Series
+from ._groups import Run, group
 from ._log import _warn
-from ._options import maybe, some_threads, truth, whole, words
+from ._options import choice, maybe, some_threads, truth, whole, words
 from ._progress import Told, finish, teller
 from ._study import STOPPED
-from ._types import PathLike, PlanOptions, Watcher
-
-if TYPE_CHECKING:
-    import numpy
-    from numpy.typing import NDArray
-
+from ._types import FormatName, PathLike, PlannedLawName, PlanOptions, StageName
 
 OWN_FILE = "axis.toml"
 """What a plan calls an axis that is no file."""
@@ -41,15 +38,14 @@ class Plan:
         return result
 
     @cached_property
-    def setpoints(self) -> dict[str, NDArray[numpy.float64]]:
-        """The motion at the rate of the log: `t` s, `x` m (rad), `v`, `a`."""
-        return {name: values for name, _, values in self._native.setpoints()}
+    def setpoints(self) -> Series:
+        """The motion at the rate of the log: `t` s, `x` m (rad), `v`, `a`; `plan.setpoints.to_frame()`."""
+        return Series({name: values for name, _, values in self._native.setpoints()})
 
     @property
-    def expected(self) -> list[dict[str, Any]]:
+    def expected(self) -> Rows:
         """What a log of it can be expected to show of each parameter."""
-        expected: list[dict[str, Any]] = self.result["parameter"]
-        return expected
+        return Rows(self.result["parameter"])
 
     def save(self, folder: PathLike, *, force: bool = False) -> list[Path]:
         """Writes `plan.toml`, `setpoints.csv`, its other forms and `report.html`, as `stiction plan --out`."""
@@ -81,53 +77,46 @@ def _again(parts: Any) -> Plan:
 def plan(
     axis: PathLike | Mapping[str, Any],
     *,
-    model: PathLike | None = None,
-    log: PathLike | None = None,
-    stage: Literal["probe", "whole"] = "whole",
+    known: PathLike | None = None,
+    stage: StageName = "whole",
     time: float | None = None,
-    seed: int = 0,
     wants: str | Sequence[str] = (),
-    formats: str | Sequence[str] = (),
+    formats: FormatName | Sequence[FormatName] = (),
     start: str | None = None,
     asymmetric: bool = False,
-    law: Literal["lugre", "maxwell-slip", "gms"] | None = None,
-    progress: Watcher = None,
-    threads: int | None = None,
+    law: PlannedLawName | None = None,
+    run: Run = Run(),
 ) -> Plan:
     """The motion to record, within the limits of an axis: as `stiction plan axis.toml`.
 
-    axis: path of an axis file with [limits], or its keys in a dict. model, log: a first model or log of the axis; the motion is planned for what it leaves
-    open. stage: `probe` for a first, careful motion. time: longest motion, s; 9 s, and 3 s of a probe, if it is not given.
+    axis: path of an axis file with [limits], or its keys in a dict.
+    known: a first model (model.toml) or log of the axis; the motion is planned for what it leaves open. See `Fit.plan`.
+    stage: `probe` for a first, careful motion. time: longest motion, s; 9 s, and 3 s of a probe, if it is not given.
     wants: how well parameters are to be known, such as `sigma0 < 2 %`: the shortest motion that is enough.
-    formats: further forms of the set points, which `save` writes: `st`, `cam`, `csp`, `ros2`, `halstreamer`, `gcode`. start: where
-    the axis stands when the motion starts, with its unit, such as `120 mm`. asymmetric: plan for parameters of each direction of motion, as
-    `identify(..., asymmetric=True)` finds them. law: the law that is fitted, `lugre` if neither it, the model nor the axis file says;
-    `maxwell-slip` and `gms` need a first log or model.
+    formats: further forms of the set points, which `save` writes. start: where the axis stands when the motion starts, with its
+    unit, such as `120 mm`. asymmetric: plan for parameters of each direction of motion. law: the law that is fitted, `lugre` if
+    neither it, the model nor the axis file says; `maxwell-slip` and `gms` need a first log or model. run: seed, threads, progress.
     """
-    if stage not in ("probe", "whole"):
-        raise argument("stage", repr(stage), "one of probe, whole")
-    if model is not None and log is not None:
-        raise argument("log", "a log together with a model", "one of the two")
+    run = group(run, Run, "run")
     options: PlanOptions = {
-        "model": None if model is None else path_of(model, "model"),
-        "log": None if log is None else path_of(log, "log"),
-        "probe": stage == "probe",
+        "known": some_path(known, "known"),
+        "probe": choice(stage, "stage") == "probe",
         "time": maybe(time, "time"),
-        "seed": whole(seed, "seed"),
+        "seed": whole(run.seed, "run.seed"),
         "wants": words(wants, "wants"),
         "formats": words(formats, "formats"),
         "start": None if start is None else str(start),
         "asymmetric": truth(asymmetric, "asymmetric"),
-        "law": None if law is None else str(law),
+        "law": None if law is None else choice(law, "law", "planned_law"),
     }
-    tell, own = teller(progress), some_threads(threads)
+    tell, own = teller(run.progress), some_threads(run.threads)
     try:
         if isinstance(axis, Mapping):
             native, stopped = _of_keys(axis, options, tell, own)
         else:
             native, stopped = _native.plan(path_of(axis, "axis", AXIS), options, tell, own)
     finally:
-        finish(progress)
+        finish(run.progress)
     if native is None:
         raise KeyboardInterrupt("stopped before there was a motion")
     if stopped:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ._errors import StictionError, argument
+from ._errors import argument
+from ._style import MEASURED, MODEL, POINTS, POINTS_OF_MODEL, RESIDUAL, ZERO, label, panels, printed, style
+from ._types import BandName, ColumnWidth
 
 if TYPE_CHECKING:
     import numpy
@@ -14,13 +16,14 @@ if TYPE_CHECKING:
     from ._log import Log
     from ._types import Columns, PathLike
 
-MEASURED = {"color": "0.55", "linewidth": 1.0}
-MODEL = {"color": "#c0392b", "linewidth": 1.2}
-POINTS = {"color": "0.55", "linestyle": "none", "marker": ".", "markersize": 2.0}
 WIDEST = 50.0
 """Half of an interval that is drawn whole at most, % of the value; wider ones end in an arrow."""
 LOOPS = 6.0
 """How far a presliding loop is shown after a reversal, in deflections at which the axis breaks away."""
+BANDS = {"at_once": "the same test again, now", "repeat": "another day", "transfer": "another motion"}
+"""The intervals of a friction curve."""
+FINE = 200
+"""Speeds at which a friction curve is drawn."""
 
 
 class _Friction(NamedTuple):
@@ -34,98 +37,137 @@ class _Friction(NamedTuple):
 
 
 class Plots:
-    """Pictures of a fit: `fit.plot.force()`, `fit.plot.map(log)`. Each returns its matplotlib figure."""
+    """Pictures of a fit: `figure, axes = fit.plot.force()`.
+
+    Each returns a matplotlib figure and its axes, of one column of a page (`width="single"`, 3.5 in) or of both (`"double"`,
+    7.16 in), without a title, readable in grey: `figure.savefig("force.pdf")`. figure: one of your own to draw into.
+    """
 
     def __init__(self, fit: Fit) -> None:
         self._fit = fit
 
-    def force(self, figure: Any = None) -> Any:
-        """What was fitted over time: measured and model, and below it the residual. figure: to draw into."""
-        figure, (above, below) = _axes(figure, 2, share=True)
-        series = self._fit.series
-        names = list(series)
-        over, label = series[names[0]], _label(names[0], self._unit(names[0]))
-        quality = self._fit.quality
-        above.plot(over, series["measured"], label="measured", **MEASURED)
-        above.plot(over, series["model"], label="model", **MODEL)
-        above.set_ylabel(_label(quality["signal"], quality["unit"]))
-        above.legend(loc="best")
-        above.set_title(f"{self._fit.result['law']}, relative error {quality['relative_error_percent']:.3g} %")
-        below.plot(over, series["residual"], **MEASURED)
-        below.axhline(0.0, **MODEL)
-        below.set_ylabel(_label("residual", quality["unit"]))
-        below.set_xlabel(label)
-        return figure
+    def force(self, figure: Any = None, *, width: ColumnWidth = "single") -> tuple[Any, list[Any]]:
+        """What was fitted over time: measured and model, and below it the residual."""
+        with style():
+            figure, (above, below) = panels(figure, 2, width, share=True)
+            series = self._fit.series
+            names = list(series)
+            over, unit = series[names[0]], self._fit.quality["unit"]
+            above.plot(over, series["measured"], label="measured", **MEASURED)
+            above.plot(over, series["model"], label="model", **MODEL)
+            above.set_ylabel(label(self._fit.quality["signal"], unit))
+            _legend(above)
+            below.plot(over, series["residual"], **RESIDUAL)
+            below.axhline(0.0, **ZERO)
+            below.set_ylabel(label("residual", unit))
+            below.set_xlabel(label(names[0], self._unit(names[0])))
+            figure.align_ylabels()
+        return figure, [above, below]
 
-    def intervals(self, figure: Any = None) -> Any:
-        """Each parameter with its 95 % interval, over its value. One that the log does not determine is grey, an open end an arrow."""
+    def intervals(self, figure: Any = None, *, width: ColumnWidth = "single") -> tuple[Any, list[Any]]:
+        """Each parameter with its 95 % interval, over its value. One that the log does not determine is hollow, an open end an arrow."""
         rows = [row for row in self._fit.parameters.rows if row.flag != "given"]
-        figure, (axes,) = _axes(figure, 1)
-        names = []
-        halves = [100.0 * abs(end - row.value) / (abs(row.value) or 1.0) for row in rows for end in (row.low, row.high) if end is not None]
-        widest = 1.2 * max((half for half in halves if half <= WIDEST), default=WIDEST)
-        for place, row in enumerate(rows):
-            color = "0.6" if row.flag else MODEL["color"]
-            size = abs(row.value) or 1.0
-            axes.plot([0.0], [place], marker="o", color=color)
-            for end, side in ((row.low, -1.0), (row.high, 1.0)):
-                reach = widest if end is None else min(100.0 * abs(end - row.value) / size, widest)
-                axes.plot([0.0, side * reach], [place, place], color=color)
-                beyond = end is None or reach == widest
-                axes.plot([side * reach], [place], color=color, marker=("<" if side < 0 else ">") if beyond else "|")
-            unit = "" if row.unit == "1" else f" {row.unit}"
-            names.append(f"{row.symbol} = {row.value:.4g}{unit}")
-        axes.set_yticks(range(len(rows)), names)
-        axes.invert_yaxis()
-        axes.set_xlabel("95 % interval, % of the value")
-        return figure
+        with style():
+            figure, (axes,) = panels(figure, 1, width)
+            names = []
+            halves = [100.0 * abs(end - row.value) / (abs(row.value) or 1.0) for row in rows for end in (row.low, row.high) if end is not None]
+            widest = 1.2 * max((half for half in halves if half <= WIDEST), default=WIDEST)
+            axes.axvline(0.0, **ZERO)
+            for place, row in enumerate(rows):
+                color = "0.6" if row.flag else MODEL["color"]
+                size = abs(row.value) or 1.0
+                for end, side in ((row.low, -1.0), (row.high, 1.0)):
+                    reach = widest if end is None else min(100.0 * abs(end - row.value) / size, widest)
+                    axes.plot([0.0, side * reach], [place, place], color=color, linewidth=1.0)
+                    beyond = end is None or reach == widest
+                    axes.plot([side * reach], [place], color=color, marker=("<" if side < 0 else ">") if beyond else "|", markersize=5.0)
+                inside = "white" if row.flag else color
+                axes.plot([0.0], [place], marker="o", color=color, markerfacecolor=inside, markersize=4.0)
+                unit = "" if row.unit == "1" else f" {printed(row.unit)}"
+                names.append(f"{row.symbol} = {row.value:.4g}{unit}")
+            axes.set_yticks(range(len(rows)), names)
+            axes.invert_yaxis()
+            axes.set_xlabel("95 % interval, % of the value")
+        return figure, [axes]
 
-    def map(self, log: Log | PathLike | Columns, figure: Any = None) -> Any:
+    def map(self, log: Log | PathLike | Columns, figure: Any = None, *, width: ColumnWidth = "single") -> tuple[Any, list[Any]]:
         """Friction over velocity along a log, measured and as the law has it, and below it the residual. log: as of `predict`."""
         log = self._fit._log(log)
         found = self._friction(log)
-        figure, (above, below) = _axes(figure, 2, share=True)
-        force, velocity = self._fit.result["axis"]["force_unit"], _speed(log)
-        above.plot(found.velocity, found.model + found.residual, label="measured", **POINTS)
-        above.plot(found.velocity, found.model, label=self._fit.result["law"], **{**POINTS, "color": MODEL["color"]})
-        above.set_ylabel(_label("friction", force))
-        above.legend(loc="best")
-        below.plot(found.velocity, found.residual, **POINTS)
-        below.axhline(0.0, **MODEL)
-        below.set_ylabel(_label("residual", force))
-        below.set_xlabel(_label("velocity", velocity))
-        return figure
+        with style():
+            figure, (above, below) = panels(figure, 2, width, share=True)
+            unit = self._force_unit
+            above.plot(found.velocity, found.model + found.residual, label="measured", **POINTS)
+            above.plot(found.velocity, found.model, label=self._fit.result["law"], **POINTS_OF_MODEL)
+            above.set_ylabel(label("friction", unit))
+            _legend(above, markerscale=4.0)
+            below.plot(found.velocity, found.residual, **{**POINTS, "color": RESIDUAL["color"]})
+            below.axhline(0.0, **ZERO)
+            below.set_ylabel(label("residual", unit))
+            below.set_xlabel(label("velocity", self._speed_unit))
+            figure.align_ylabels()
+        return figure, [above, below]
 
-    def presliding(self, log: Log | PathLike | Columns, figure: Any = None) -> Any:
-        """Friction over the way since the last reversal, from one to the next: the loops of the bristles before the axis slides.
+    def friction(
+        self, band: BandName | None = "transfer", figure: Any = None, *, width: ColumnWidth = "single"
+    ) -> tuple[Any, list[Any]]:
+        """Friction in steady sliding by velocity, whatever the law, with a 95 % band: `at_once`, `repeat`, `transfer`, or None."""
+        import numpy
 
-        log: as of `predict`.
+        if band is not None and band not in BANDS:
+            raise argument("band", repr(band), f"one of {', '.join(BANDS)}, or None")
+        entry = self._fit.result.get("friction_curve")
+        if entry is None:
+            raise argument("fit", "an axis that does not slide", "a fit with a friction_curve")
+        knots = numpy.array(entry["speed"])
+        speed = numpy.unique(numpy.concatenate([knots, numpy.linspace(knots[0], knots[-1], FINE)]))
+        has_both = entry.get("forward") is not None and entry.get("back") is not None
+        signs = (-1.0, 1.0) if has_both else (1.0,) if entry.get("back") is None else (-1.0,)
+        with style():
+            figure, (axes,) = panels(figure, 1, width)
+            for sign in signs:
+                at = self._fit.friction(sign * speed)
+                named = sign == signs[0]
+                if band is not None:
+                    half = getattr(at, band)
+                    interval = f"95 %, {BANDS[band]}" if named else None
+                    axes.fill_between(at.velocity, at.force - half, at.force + half, color="0.8", linewidth=0.0, label=interval)
+                axes.plot(at.velocity, at.force, label="friction" if named else None, **MODEL)
+            if has_both:
+                axes.axhline(0.0, **ZERO)
+                axes.axvline(0.0, **ZERO)
+            axes.set_xlabel(label("velocity", entry["speed_unit"]))
+            axes.set_ylabel(label("friction", entry["unit"]))
+            _legend(axes)
+        return figure, [axes]
+
+    def presliding(self, log: Log | PathLike | Columns, figure: Any = None, *, width: ColumnWidth = "single") -> tuple[Any, list[Any]]:
+        """Friction over the displacement since the last reversal, from one to the next: the loops of the bristles before the axis
+        slides. log: as of `predict`.
         """
         import numpy
 
         log = self._fit._log(log)
         found = self._friction(log)
-        figure, (axes,) = _axes(figure, 1)
         turns = numpy.flatnonzero(numpy.diff(numpy.signbit(found.velocity))) + 1
         if len(turns) == 0:
             raise argument("log", "no reversal", "a log in which the axis turns back")
         reach = self._deflection(found)
-        color = MODEL["color"]
-        for first, last in zip(turns, [*turns[1:], len(found.position)]):
-            way = found.position[first:last] - found.position[first]
-            near = numpy.abs(way) <= reach
-            # Until it is further away for the first time.
-            near = numpy.logical_and.accumulate(near)
-            measured = (found.model + found.residual)[first:last]
-            axes.plot(1e6 * way[near], measured[near], **MEASURED)
-            axes.plot(1e6 * way[near], found.model[first:last][near], color=color, linewidth=1.0)
-        small = "µm" if log.kind == "linear" else "µrad"
-        axes.set_xlabel(_label("way since the reversal", small))
-        axes.set_ylabel(_label("friction", self._fit.result["axis"]["force_unit"]))
-        axes.plot([], [], label="measured", **MEASURED)
-        axes.plot([], [], label=self._fit.result["law"], color=color)
-        axes.legend(loc="best")
-        return figure
+        with style():
+            figure, (axes,) = panels(figure, 1, width)
+            for k, (first, last) in enumerate(zip(turns, [*turns[1:], len(found.position)])):
+                way = found.position[first:last] - found.position[first]
+                near = numpy.abs(way) <= reach
+                # Until it is further away for the first time.
+                near = numpy.logical_and.accumulate(near)
+                measured = (found.model + found.residual)[first:last]
+                axes.plot(1e6 * way[near], measured[near], label="measured" if k == 0 else None, **MEASURED)
+                axes.plot(1e6 * way[near], found.model[first:last][near], label=self._fit.result["law"] if k == 0 else None, **MODEL)
+            small = "µm" if log.kind == "linear" else "µrad"
+            axes.set_xlabel(label("displacement since the reversal", small))
+            axes.set_ylabel(label("friction", self._force_unit))
+            _legend(axes)
+        return figure, [axes]
 
     def _friction(self, log: Log) -> _Friction:
         found = self._fit.predict(log)
@@ -140,32 +182,19 @@ class Plots:
         travel = float(found.position.max() - found.position.min())
         return LOOPS * highest / stiffness if stiffness > 0.0 else 0.01 * travel
 
+    @property
+    def _force_unit(self) -> str:
+        return str(self._fit.result["axis"]["force_unit"])
+
+    @property
+    def _speed_unit(self) -> str:
+        return "m/s" if self._fit.result["axis"]["kind"] == "linear" else "rad/s"
+
     def _unit(self, name: str) -> str:
         units = {column: unit for column, unit, _ in self._fit._native.series()}
         return units.get(name) or ""
 
 
-def _axes(figure: Any, rows: int, share: bool = False) -> tuple[Any, list[Any]]:
-    """Axes of a figure, of a new one where none is given."""
-    try:
-        from matplotlib.figure import Figure
-    except ImportError as error:
-        raise StictionError("usage", "plot", "matplotlib is not installed", "pip install stiction[plot]") from error
-    if figure is None:
-        import sys
-
-        # In a notebook or a window where one is open already; else a figure that nobody has to close.
-        pyplot = sys.modules.get("matplotlib.pyplot")
-        figure = Figure(layout="constrained") if pyplot is None else pyplot.figure(layout="constrained")
-    if not hasattr(figure, "subplots"):
-        raise argument("figure", f"a {type(figure).__name__}", "a figure of matplotlib")
-    ratios = [2.0, 1.0] if rows == 2 else [1.0]
-    return figure, list(figure.subplots(rows, 1, squeeze=False, sharex=share, height_ratios=ratios)[:, 0])
-
-
-def _label(name: str, unit: str) -> str:
-    return name if unit in ("", "1") else f"{name}, {unit}"
-
-
-def _speed(log: Log) -> str:
-    return "m/s" if log.kind == "linear" else "rad/s"
+def _legend(axes: Any, **options: Any) -> None:
+    """Above the axes, where it hides nothing."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=3, borderaxespad=0.1, **options)

@@ -19,7 +19,7 @@ def teller(progress: Watcher) -> Told | None:
     if progress is True:
         return _line if _is_shown() else None
     if not callable(progress):
-        raise argument("progress", repr(progress), "True, or a function of a Progress")
+        raise argument("run.progress", repr(progress), "True, or a function of a Progress")
     watch = progress
     return lambda stage, fraction, error: watch(Progress(stage, fraction, error))
 

@@ -14,11 +14,13 @@ from . import _native
 from ._axis import path_of, paths_of
 from ._errors import argument
 from ._fit import Fit
+from ._frames import Rows
+from ._groups import Run, group
 from ._log import _warn
 from ._options import maybe, some_threads, whole
 from ._progress import finish, teller
 from ._study import STOPPED
-from ._types import PathLike, Verdict, Watcher
+from ._types import PathLike, Verdict
 
 
 class Joint:
@@ -67,6 +69,25 @@ class Robot:
     def joints(self) -> Mapping[str, Joint]:
         """The joints that were logged, by name, in the order of the URDF."""
         return MappingProxyType({entry["name"]: Joint(self._native, entry) for entry in self.result["joints"]})
+
+    @property
+    def rows(self) -> Rows:
+        """A row for each joint: name, unit, law, friction, armature, errors; `robot.rows.to_frame()`."""
+        joints = self.result["joints"]
+        return Rows(
+            {name: value for name, value in {**entry, **entry.get("fit", {})}.items() if name != "fit" and not isinstance(value, list)}
+            for entry in joints
+        )
+
+    @property
+    def base_parameters(self) -> Rows:
+        """A row for each combination of masses and inertias that the motion determines: name, unit, value, half width, that of the URDF."""
+        return Rows(self.result["base"])
+
+    @property
+    def bodies(self) -> Rows:
+        """A row for each body: joint, link, mass kg, centre m, inertia kg m^2, and those of the URDF."""
+        return Rows(self.result["bodies"])
 
     @property
     def trustworthy(self) -> bool:
@@ -118,19 +139,18 @@ def robot(
     robot: PathLike | None = None,
     validate: PathLike | Sequence[PathLike] = (),
     split: float | None = None,
-    seed: int = 0,
-    progress: Watcher = None,
-    threads: int | None = None,
+    run: Run = Run(),
 ) -> Robot:
     """Identifies a robot from logs of all its joints: as `stiction robot`, the same options, defaults and bits.
 
     logs: paths of one log or several, fitted together. urdf: the URDF; that of the robot file if it is not given.
     robot: path of a robot file (`--axis`): what is known of the robot, its joints and their columns.
     validate: logs to validate on, which are not fitted. split: or the share of the time of each log that is fitted, 0 to 1.
-    seed: seed of the searches. progress, threads: as of `identify`.
+    run: seed, threads and progress.
 
     Ctrl-C ends the searches and keeps the best, as of `identify`.
     """
+    run = group(run, Run, "run")
     held_out = paths_of(validate, "validate")
     if split is not None and held_out:
         raise argument("split", "split together with validate", "one of the two")
@@ -141,12 +161,12 @@ def robot(
             None if robot is None else path_of(robot, "robot"),
             held_out,
             maybe(split, "split"),
-            whole(seed, "seed"),
-            teller(progress),
-            some_threads(threads),
+            whole(run.seed, "run.seed"),
+            teller(run.progress),
+            some_threads(run.threads),
         )
     finally:
-        finish(progress)
+        finish(run.progress)
     out = Robot(native)
     _warn([*out.warnings, STOPPED] if stopped else out.warnings, 2)
     return out

@@ -10,10 +10,12 @@ from typing import Any
 
 from . import _native
 from ._axis import path_of
+from ._frames import Rows
+from ._groups import Run, group
 from ._log import _warn
 from ._options import samples, some_threads
 from ._progress import finish, teller
-from ._types import PathLike, Verdict, Watcher
+from ._types import PathLike, Verdict
 
 STOPPED = ("interrupted", "the work was stopped; this is what was found until then")
 """The warning where Ctrl-C ended work early."""
@@ -32,10 +34,9 @@ class Study:
         return result
 
     @property
-    def rows(self) -> list[dict[str, Any]]:
-        """One row for each path, controller, compensator and kind of parameters."""
-        rows: list[dict[str, Any]] = self.result["results"]
-        return rows
+    def rows(self) -> Rows:
+        """One row for each path, controller, compensator and kind of parameters; `study.rows.to_frame()`."""
+        return Rows(self.result["results"])
 
     @property
     def verdict(self) -> Verdict:
@@ -81,19 +82,19 @@ def simulate(
     study: PathLike,
     *,
     max_samples: float | None = None,
-    progress: Watcher = None,
-    threads: int | None = None,
+    run: Run = Run(),
 ) -> Study:
     """Simulates an axis with and without compensation: as `stiction simulate study.toml` (docs/study.md).
 
     max_samples: samples that may be simulated, 2e9 if it is not given; a study with more is refused before it begins.
-    progress, threads: as of `identify`.
+    run: threads and progress.
     """
+    run = group(run, Run, "run")
     most = None if max_samples is None else samples(max_samples, "max_samples")
     try:
-        native, _ = _native.simulate(path_of(study, "study"), most, teller(progress), some_threads(threads))
+        native, _ = _native.simulate(path_of(study, "study"), most, teller(run.progress), some_threads(run.threads))
     finally:
-        finish(progress)
+        finish(run.progress)
     out = Study(native)
     _warn(out.warnings, 2)
     return out

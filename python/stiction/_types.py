@@ -15,6 +15,52 @@ AxisLike = Union[str, "os.PathLike[str]", Mapping[str, Any], None]
 Columns = Any
 """Columns in memory: a dict of arrays, a DataFrame of pandas or polars, a table of pyarrow."""
 
+LawName = Literal["auto", "coulomb-viscous", "stribeck", "dahl", "lugre", "elasto-plastic", "maxwell-slip", "gms"]
+"""A friction law; `auto` lets the data choose."""
+
+PlannedLawName = Literal["lugre", "maxwell-slip", "gms"]
+"""A law that a motion is planned for."""
+
+SearchName = Literal[
+    "ga", "adaptive-ga", "annealing-ga", "niched-ga", "de", "cma-es", "pso", "annealing", "nelder-mead", "lm"
+]
+"""A search of docs/searches.md."""
+
+MethodName = Union[
+    Literal["separable", "static", "static-then-dynamic", "presliding-step", "output-error"], SearchName
+]
+"""How parameters are found."""
+
+CostName = Literal["six", "separable"]
+"""What a search minimises: six parameters of LuGre at once, or three with everything linear solved."""
+
+TargetName = Literal[
+    "c", "cpp", "ros2", "st", "tcpou", "plcopen", "rust", "mujoco", "modelica", "urdf", "sdf", "isaaclab", "newton",
+    "bam", "domain-json", "hal", "fmu", "matlab", "tf5200", "drive-table", "cogging-map", "backlash",
+]  # fmt: skip
+"""A form in which a compensator is exported (docs/export.md)."""
+
+FeedforwardName = Literal["friction", "mass", "gravity", "cogging", "rigid"]
+"""A force that is fed forward; `rigid` of a robot alone."""
+
+WidthName = Literal["repeatability", "transfer"]
+"""Intervals that draws are from: the same motion on another day, or another motion."""
+
+StageName = Literal["probe", "whole"]
+"""A first, careful motion, or all that the limits allow."""
+
+FormatName = Literal["csv", "st", "cam", "csp", "feed", "ros2", "halstreamer", "gcode"]
+"""A form of the set points of a plan (docs/plan.md); `csv` is always there."""
+
+FrameName = Literal["pandas", "polars"]
+"""A library of DataFrames."""
+
+ColumnWidth = Literal["single", "double"]
+"""Width of a picture: one column of a page, 3.5 in, or both, 7.16 in."""
+
+BandName = Literal["at_once", "repeat", "transfer"]
+"""A 95 % interval: the same test again, now; on another day; another motion."""
+
 Verdict = Literal["trustworthy", "not-trustworthy", "interrupted"]
 """What a result is worth: the exit codes 0, 1 and 130 of the command line."""
 
@@ -72,13 +118,13 @@ class ExportOptions(TypedDict):
     window: float | None
     adapt: bool
     feedforward: list[str]
+    draws: tuple[int, int, str] | None
 
 
 class PlanOptions(TypedDict):
     """Every option of a plan."""
 
-    model: str | None
-    log: str | None
+    known: str | None
     probe: bool
     time: float | None
     seed: int

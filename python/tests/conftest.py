@@ -46,7 +46,7 @@ def arrays(run_csv: Path) -> dict[str, Any]:
 @pytest.fixture(scope="session")
 def fit(run_csv: Path) -> stiction.Fit:
     """LuGre of that log."""
-    found: stiction.Fit = quietly(stiction.identify, run_csv, law="lugre", compare_laws=False)
+    found: stiction.Fit = quietly(stiction.identify, run_csv, law="lugre", run=stiction.Run(compare_laws=False))
     return found
 
 

@@ -46,7 +46,7 @@ def test_a_flag_is_a_row_and_a_warning(arrays: dict[str, Any]) -> None:
     short = {name: values[:3000] for name, values in arrays.items()}
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        found = stiction.identify(short, law="lugre", compare_laws=False)
+        found = stiction.identify(short, law="lugre", run=stiction.Run(compare_laws=False))
     told = [w for w in caught if issubclass(w.category, StictionWarning)]
     assert told
     assert all(w.filename == __file__ for w in told), "a warning names the line of the user"
@@ -158,7 +158,7 @@ def test_the_law_runs_along_a_record(fit: stiction.Fit) -> None:
 
 @pytest.mark.parametrize("kind", ["coulomb-viscous", "stribeck", "dahl", "elasto-plastic", "maxwell-slip", "gms"])
 def test_every_law_runs(run_csv: Path, kind: str) -> None:
-    found = quietly(stiction.identify, run_csv, law=kind, compare_laws=False)
+    found = quietly(stiction.identify, run_csv, law=kind, run=stiction.Run(compare_laws=False))
     law = found.law
     law.steps([0.01] * 50, 1e-3)
     again = pickle.loads(pickle.dumps(law))
@@ -189,7 +189,7 @@ def test_a_saved_fit_is_read_by_another_process(fit: stiction.Fit, tmp_path: Pat
 
 
 def test_friction_by_speed_and_half_widths(fit: stiction.Fit) -> None:
-    friction = fit.friction
+    friction = fit.friction_curve
     assert friction is not None
     assert (numpy.diff(friction.speed) > 0.0).all()
     assert (friction.force > 0.0).all()
@@ -200,3 +200,85 @@ def test_friction_by_speed_and_half_widths(fit: stiction.Fit) -> None:
     assert repeat is not None
     assert transfer is not None
     assert 0.0 < at_once <= repeat <= transfer
+
+
+def test_friction_at_a_velocity_is_that_of_its_direction(fit: stiction.Fit) -> None:
+    entry = fit.result["friction_curve"]
+    speed = numpy.array(entry["speed"])
+    for sign, side in ((1.0, entry["forward"]), (-1.0, entry["back"])):
+        found = fit.friction(sign * speed)
+        assert numpy.array_equal(found.force, sign * numpy.array(side["force"]))
+        for name in ("at_once", "repeat", "transfer"):
+            assert numpy.array_equal(getattr(found, name), side[name])
+        between = fit.friction(sign * (speed[:-1] + speed[1:]) / 2.0)
+        force = numpy.array(side["force"])
+        assert numpy.allclose(between.force, sign * (force[:-1] + force[1:]) / 2.0)
+    outside = fit.friction([0.0, 0.99 * speed[0], 1.01 * speed[-1], -1.01 * speed[-1], numpy.nan])
+    assert all(numpy.isnan(column).all() for column in outside[1:])
+    one = fit.friction(float(speed[2]))
+    assert isinstance(one.force, float) and one.force == entry["forward"]["force"][2]
+    assert fit.friction(numpy.full((2, 3), speed[1])).repeat.shape == (2, 3)
+    with pytest.raises(stiction.StictionError) as caught:
+        fit.friction("fast")
+    assert caught.value.place == "velocity"
+
+
+def test_friction_of_one_direction_is_its_own(fit: stiction.Fit) -> None:
+    other = pickle.loads(pickle.dumps(fit))
+    curve = {name: value for name, value in fit.result["friction_curve"].items() if name not in ("forward", "both")}
+    other.result["friction_curve"] = curve
+    speed = curve["speed"][1]
+    assert other.friction(speed).force == -other.friction(-speed).force == curve["back"]["force"][1]
+    del other.result["friction_curve"]
+    assert other.friction_curve is None
+    with pytest.raises(stiction.StictionError, match="does not slide"):
+        other.friction(speed)
+
+
+def test_what_to_do_next_is_a_line_of_python(fit: stiction.Fit, run_csv: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from stiction._next import call_of
+
+    monkeypatch.chdir(tmp_path)
+    names: dict[str, Any] = {"fit": fit, "stiction": stiction}
+    assert fit.next == 'fit.export("c", "c", cycle_time=0.00025)'
+    assert pickle.loads(pickle.dumps(fit)).next == fit.next
+    quietly(exec, fit.next, names)
+    assert (tmp_path / "c").is_dir()
+
+    def call(action: dict[str, Any], axis: Any = None, listed: bool = False) -> str:
+        return call_of(action, {**fit.result, "axis": {"file": None, "listed": listed}}, axis)
+
+    log = repr(fit.result["inputs"][0]["path"])
+    gravity = {"action": "line", "table": "terms", "line": "gravity = true", "key": "gravity", "value": True}
+    assert call(gravity) == f"stiction.identify({log}, {{'terms': {{'gravity': True}}}}, law='lugre')"
+    own = {"kind": "rotary", "terms": {"cogging": ["1 mm"]}}
+    line = call(gravity, own)
+    with_gravity = eval(line.split(", ", 1)[1].removesuffix(", law='lugre')"), {"axis": own})
+    assert with_gravity == {"kind": "rotary", "terms": {"cogging": ["1 mm"], "gravity": True}}
+    assert "gravity = true under [terms] of 'axis.toml'" in call(gravity, "axis.toml")
+    assert call({"action": "law", "law": "gms", "asymmetric": True}) == f"stiction.identify({log}, law='gms', asymmetric=True)"
+    assert call({"action": "simulate"}) == f'stiction.identify({log}, method="output-error")'
+    assert call({"action": "check", "logs": []}, "axis.toml") == f"print(stiction.check({log}, 'axis.toml'))"
+    assert call({"action": "listed"}, "a.toml", listed=True) == "stiction.identify(axis='a.toml', law='lugre')"
+    assert call({"action": "record"}) == "stiction.identify('another.csv', law='lugre')"
+    for action in ("let-the-data-choose", "first-log", "again", "finish", "axis-file"):
+        compile(call({"action": action}), action, "eval")
+
+
+def test_a_warning_of_an_export_names_arguments(fit: stiction.Fit, tmp_path: Path) -> None:
+    with pytest.warns(stiction.StictionWarning, match=r"export with cycle_time=0\.00025$"):
+        fit.export("c", tmp_path / "c", cycle_time=1e-3)
+
+
+def test_an_error_names_arguments_as_they_are_written(run_csv: Path) -> None:
+    refused: list[tuple[dict[str, Any], str]] = [
+        ({"method": "static", "search": stiction.Search("lm", evaluations=0)}, "search=Search(evaluations=0)"),
+        ({"law": "auto", "asymmetric": True}, 'law="auto" with asymmetric=True'),
+        ({"procedures": stiction.Procedures(statics="levels.csv")}, 'procedures.statics together with method="separable"'),
+        ({"split": 2.0}, "split=2"),
+    ]
+    for options, words in refused:
+        with pytest.raises(stiction.StictionError) as caught:
+            quietly(stiction.identify, run_csv, **options)
+        assert words in str(caught.value)
+        assert "--" not in str(caught.value)

@@ -180,3 +180,75 @@ def test_drift_of_what_pandas_reads(tmp_path: Path) -> None:
         assert stiction.drift(frame).alarms == found.alarms
         untimed = stiction.drift(frame.assign(time=None, temperature=numpy.nan))
         assert not untimed.result["timed"] and untimed.noise[0]["by_temperature"] is None
+
+
+@pytest.fixture(params=["pandas", "polars"])
+def library(request: pytest.FixtureRequest) -> Any:
+    """Which DataFrames are asked for."""
+    pytest.importorskip(request.param)
+    return request.param
+
+
+def same(frame: Any, columns: dict[str, Any]) -> None:
+    assert list(frame.columns) == list(columns)
+    for name, values in columns.items():
+        given = frame[name].to_list()
+        assert len(given) == len(values)
+        for got, wanted in zip(given, values):
+            lacks = got is None or got != got
+            assert lacks == (wanted is None or wanted != wanted), name
+            assert lacks or got == wanted, name
+
+
+def test_results_are_frames(fit: stiction.Fit, library: Any) -> None:
+    frame = fit.parameters.to_frame(library)
+    assert type(frame).__module__.split(".")[0] == library
+    same(frame, fit.parameters.to_dict())
+    curve = fit.friction_curve
+    assert curve is not None
+    same(curve.to_frame(library), curve._asdict())
+    same(fit.series.to_frame(library), fit.series)
+    names, matrix = fit.covariance
+    same(fit.covariance.to_frame(library), {"name": names, **{name: matrix[:, k] for k, name in enumerate(names)}})
+    study = quietly(fit.simulate).rows
+    frame = study.to_frame(library)
+    assert len(frame) == len(study)
+    assert frame["controller"].to_list() == [row["controller"] for row in study]
+    with pytest.raises(stiction.StictionError) as caught:
+        fit.series.to_frame("arrow")  # type: ignore[arg-type]
+    assert caught.value.place == "library"
+
+
+def test_what_drifts_is_a_frame(library: Any) -> None:
+    found = stiction.drift(drift_rows.rows(), limit=drift_rows_limits())
+    frame = found.alarms.to_frame(library)
+    assert frame["machine"].to_list() == [alarm["machine"] for alarm in found.alarms]
+    course = found.courses[0].to_frame(library)
+    assert course["log"].to_list() == found.courses[0].logs
+    assert numpy.array_equal(course["value"].to_list(), found.courses[0].value)
+
+
+def drift_rows_limits() -> list[str]:
+    from test_drift import LIMITS
+
+    return LIMITS
+
+
+def test_the_library_is_a_frame(library: Any) -> None:
+    frame = stiction.library().to_frame(library)
+    assert frame["name"].to_list() == list(stiction.library())
+
+
+def test_nested_rows_have_names_with_dots(library: Any) -> None:
+    rows = stiction.Rows([{"a": 1.0, "b": {"c": 2.0}}, {"a": 3.0, "d": 4.0}])
+    same(rows.to_frame(library), {"a": [1.0, 3.0], "b.c": [2.0, None], "d": [None, 4.0]})
+
+
+def test_without_a_library_of_frames_it_says_what_to_install(fit: stiction.Fit, monkeypatch: pytest.MonkeyPatch) -> None:
+    import sys
+
+    for name in ("pandas", "polars"):
+        monkeypatch.setitem(sys.modules, name, None)
+    with pytest.raises(stiction.StictionError) as caught:
+        fit.parameters.to_frame()
+    assert (caught.value.place, caught.value.allowed) == ("library", "pip install pandas")

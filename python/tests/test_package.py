@@ -8,9 +8,11 @@ import subprocess
 import sys
 from importlib import metadata
 from pathlib import Path
+from typing import Any, get_args
 
 import pytest
 import stiction
+from stiction import _native
 
 LARGEST = 8_000_000
 """Of a wheel, bytes."""
@@ -22,12 +24,12 @@ def run(line: str) -> str:
 
 
 def test_importing_loads_neither_numpy_nor_what_is_optional() -> None:
-    """What takes long is loaded where it is used: of its own, stiction has 17 small modules and one library; the fleet is not of them."""
+    """What takes long is loaded where it is used: of its own, stiction has 25 small modules and one library; the fleet is not of them."""
     line = "import sys; before = set(sys.modules); import stiction; print(*sorted(set(sys.modules) - before))"
     loaded = run(line).split()
     heavy = {"numpy", "pandas", "polars", "pyarrow", "matplotlib", "distributed", "fsspec", "asyncio", "unittest", "http", "ssl"}
     assert not heavy & {name.split(".")[0] for name in loaded}
-    assert sum(name.startswith("stiction") for name in loaded) <= 18
+    assert sum(name.startswith("stiction") for name in loaded) <= 26
     assert len(loaded) < 80, loaded
 
 
@@ -67,3 +69,40 @@ def test_types_come_with_the_package() -> None:
     folder = Path(stiction.__file__).parent
     assert (folder / "py.typed").exists()
     assert (folder / "_native.pyi").exists()
+
+
+def names(alias: Any) -> set[str]:
+    """The names of a Literal, or of a union of them."""
+    return {name for part in get_args(alias) for name in ([part] if isinstance(part, str) else names(part))}
+
+
+@pytest.mark.parametrize(
+    ("alias", "kind"),
+    [
+        (stiction.LawName, "law"),
+        (stiction.PlannedLawName, "planned_law"),
+        (stiction.MethodName, "method"),
+        (stiction.SearchName, "search"),
+        (stiction.CostName, "cost"),
+        (stiction.TargetName, "target"),
+        (stiction.FeedforwardName, "feedforward"),
+        (stiction.WidthName, "width"),
+        (stiction.StageName, "stage"),
+        (stiction.FormatName, "formats"),
+    ],
+)
+def test_the_names_of_a_type_are_those_of_the_library(alias: Any, kind: str) -> None:
+    assert names(alias) == set(_native.choices(kind))
+    assert len(_native.choices(kind)) > 1
+
+
+@pytest.mark.parametrize("name", [name for name in stiction.__all__ if inspect.isfunction(getattr(stiction, name))])
+def test_a_function_has_ten_arguments_at_most(name: str) -> None:
+    assert len(inspect.signature(getattr(stiction, name)).parameters) <= 10
+
+
+@pytest.mark.parametrize("method", [method for method in vars(stiction.Fit) if not method.startswith("_")])
+def test_a_method_has_ten_arguments_at_most(method: str) -> None:
+    value = inspect.getattr_static(stiction.Fit, method)
+    if inspect.isfunction(value):
+        assert len(inspect.signature(value).parameters) <= 10

@@ -19,16 +19,20 @@ import numpy
 import pytest
 import stiction
 from conftest import quietly
-from stiction import Progress, StictionWarning
+from stiction import Progress, Run, StictionWarning
 from test_same_bits import LIMITED
 
-LONG: dict[str, Any] = {"law": "lugre", "method": "ga", "cost": "separable", "evaluations": 10**9, "target": 1e-30}
+LONG: dict[str, Any] = {
+    "law": "lugre",
+    "method": "ga",
+    "search": stiction.Search(cost="separable", evaluations=10**9, target=1e-30),
+}
 """A search that does not end by itself."""
 
 
 def test_progress_is_told(run_csv: Path) -> None:
     seen: list[Progress] = []
-    quietly(stiction.identify, run_csv, law="lugre", compare_laws=False, progress=seen.append)
+    quietly(stiction.identify, run_csv, law="lugre", run=stiction.Run(compare_laws=False, progress=seen.append))
     assert seen
     assert all(0.0 <= p.fraction <= 1.0 and p.stage for p in seen)
 
@@ -36,12 +40,12 @@ def test_progress_is_told(run_csv: Path) -> None:
 def test_progress_that_says_false_stops_and_keeps_the_best(run_csv: Path, tmp_path: Path) -> None:
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        fit = stiction.identify(run_csv, progress=lambda p: p.error is None, **LONG)
+        fit = stiction.identify(run_csv, run=Run(progress=lambda p: p.error is None), **LONG)
     assert "interrupted" in [w.message.code for w in caught if isinstance(w.message, StictionWarning)]
     assert fit.parameters["coulomb"].value > 0.0
     assert fit.verdict == "interrupted"
     # It does not take the place of a complete one.
-    complete = quietly(stiction.identify, run_csv, law="stribeck", compare_laws=False)
+    complete = quietly(stiction.identify, run_csv, law="stribeck", run=stiction.Run(compare_laws=False))
     complete.save(tmp_path / "fit")
     written = fit.save(tmp_path / "fit")
     assert {path.parent.name for path in written} == {"fit-interrupted"}
@@ -53,7 +57,7 @@ def test_an_error_of_the_one_who_is_told_comes_back(run_csv: Path) -> None:
         raise ZeroDivisionError("mine")
 
     with pytest.raises(ZeroDivisionError, match="mine"):
-        quietly(stiction.identify, run_csv, progress=fails, **LONG)
+        quietly(stiction.identify, run_csv, run=Run(progress=fails), **LONG)
 
 
 def test_two_threads_are_at_work_at_once(run_csv: Path) -> None:
@@ -71,7 +75,7 @@ def test_two_threads_are_at_work_at_once(run_csv: Path) -> None:
                 met = True
             return not met
 
-        fit = stiction.identify(run_csv, progress=told, threads=1, **LONG)
+        fit = stiction.identify(run_csv, run=Run(progress=told, threads=1), **LONG)
         found.append(fit.verdict)
 
     threads = [threading.Thread(target=work) for _ in range(2)]
@@ -102,7 +106,7 @@ def test_python_runs_while_rust_works(run_csv: Path) -> None:
 
     thread = threading.Thread(target=count)
     thread.start()
-    quietly(stiction.identify, run_csv, progress=told, **LONG)
+    quietly(stiction.identify, run_csv, run=Run(progress=told), **LONG)
     thread.join()
     assert counted == 100_000
 
@@ -116,7 +120,7 @@ def test_a_process_that_was_forked_works(run_csv: Path, fit: stiction.Fit) -> No
 
 
 def forked(path: Path) -> list[stiction.Parameter]:
-    found: stiction.Fit = quietly(stiction.identify, path, law="lugre", compare_laws=False)
+    found: stiction.Fit = quietly(stiction.identify, path, law="lugre", run=stiction.Run(compare_laws=False))
     return found.parameters.rows
 
 
@@ -132,7 +136,8 @@ def told(p):
     if p.error is not None and not said:
         said = True
         print("searching", flush=True)
-fit = stiction.identify(sys.argv[1], progress=told, law="lugre", method="ga", cost="separable", evaluations=10**9, target=1e-30)
+search = stiction.Search(cost="separable", evaluations=10**9, target=1e-30)
+fit = stiction.identify(sys.argv[1], law="lugre", method="ga", search=search, run=stiction.Run(progress=told))
 print(fit.verdict, fit.parameters["coulomb"].value > 0.0)
 """
 
@@ -150,7 +155,7 @@ def test_ctrl_c_stops_and_keeps_the_best(run_csv: Path) -> None:
 
 def test_a_study_that_is_stopped_says_so(fit: stiction.Fit, tmp_path: Path) -> None:
     with pytest.warns(StictionWarning, match=r"\[interrupted\]"):
-        study = fit.simulate(progress=lambda p: False)
+        study = fit.simulate(run=Run(progress=lambda p: False))
     assert study.verdict == "interrupted" and "interrupted" in [code for code, _ in study.warnings]
     assert "interrupted" in [code for code, _ in pickle.loads(pickle.dumps(study)).warnings]
     study.save(tmp_path / "study")
@@ -159,11 +164,11 @@ def test_a_study_that_is_stopped_says_so(fit: stiction.Fit, tmp_path: Path) -> N
 
 def test_a_plan_that_is_stopped_before_there_is_a_motion_is_a_keyboard_interrupt() -> None:
     with pytest.raises(KeyboardInterrupt):
-        stiction.plan(tomllib.loads(LIMITED), progress=lambda p: False)
+        stiction.plan(tomllib.loads(LIMITED), run=Run(progress=lambda p: False))
 
 
 def test_a_line_of_progress_is_for_terminals(run_csv: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
-    how: dict[str, Any] = {"law": "lugre", "compare_laws": False, "progress": True}
+    how: dict[str, Any] = {"law": "lugre", "run": Run(compare_laws=False, progress=True)}
     quietly(stiction.identify, run_csv, **how)
     assert capsys.readouterr().err == ""
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
@@ -179,7 +184,7 @@ import stiction
 signal.signal(signal.SIGINT, signal.default_int_handler)
 told = lambda p: os.kill(os.getpid(), signal.SIGINT)
 try:
-    stiction.check(sys.argv[1], progress=told)
+    stiction.check(sys.argv[1], run=stiction.Run(progress=told))
 except KeyboardInterrupt:
     print("stopped")
 """
@@ -219,7 +224,7 @@ def test_nothing_is_kept_of_many_calls(arrays: dict[str, Any]) -> None:
     """The memory of the process does not grow with the number of calls."""
     resource = pytest.importorskip("resource")
     log = quietly(stiction.read_log, {name: values[:4000] for name, values in arrays.items()})
-    law = quietly(stiction.identify, log, law="coulomb-viscous", compare_laws=False).law
+    law = quietly(stiction.identify, log, law="coulomb-viscous", run=stiction.Run(compare_laws=False)).law
     velocity = numpy.zeros(20_000)
 
     def peak() -> int:

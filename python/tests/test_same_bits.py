@@ -65,12 +65,12 @@ def test_arrays_are_read_as_a_file_with_these_columns(run_csv: Path, arrays: dic
     of_arrays = quietly(stiction.read_log, arrays)
     for channel in ("time", "position", "force", "reference"):
         assert numpy.array_equal(getattr(of_file, channel), getattr(of_arrays, channel)), channel
-    again = quietly(stiction.identify, of_arrays, law="lugre", compare_laws=False)
+    again = quietly(stiction.identify, of_arrays, law="lugre", run=stiction.Run(compare_laws=False))
     assert again.parameters.rows == fit.parameters.rows
 
 
 def test_threads_do_not_change_a_bit(run_csv: Path, fit: stiction.Fit) -> None:
-    alone = quietly(stiction.identify, run_csv, law="lugre", compare_laws=False, threads=1)
+    alone = quietly(stiction.identify, run_csv, law="lugre", run=stiction.Run(compare_laws=False, threads=1))
     assert alone.parameters.rows == fit.parameters.rows
 
 
@@ -87,8 +87,8 @@ def test_code_is_that_of_the_command_line(fit: stiction.Fit, command: Any, tmp_p
     fit.save(tmp_path / "fit")
     model = tmp_path / "fit" / "model.toml"
     command("export", model, "--target", "c", "--cycle-time", "0.00025", "--gain", "0.5", "--out", tmp_path / "theirs")
-    ours = quietly(fit.export, "c", tmp_path / "ours", cycle_time=250e-6, gain=0.5)
-    of_file = quietly(stiction.export, model, "c", tmp_path / "of-file", cycle_time=250e-6, gain=0.5)
+    ours = quietly(fit.export, "c", tmp_path / "ours", cycle_time=250e-6, compensator=stiction.Compensator(gain=0.5))
+    of_file = quietly(stiction.export, model, "c", tmp_path / "of-file", cycle_time=250e-6, compensator=stiction.Compensator(gain=0.5))
     names = sorted(path.name for path in (tmp_path / "theirs").iterdir())
     assert sorted(path.name for path in ours.files) == names
     for name in names:

@@ -70,7 +70,7 @@ def test_importing_leaves_the_lock_of_the_interpreter_as_it_is() -> None:
 
 
 def test_a_log_is_identified_by_several_threads_at_once(run_csv: Path, arrays: dict[str, Any], fit: stiction.Fit) -> None:
-    options: Any = {"law": "lugre", "compare_laws": False, "threads": 1}
+    options: Any = {"law": "lugre", "run": stiction.Run(compare_laws=False, threads=1)}
     log = quietly(stiction.read_log, run_csv)
     assert all(same(found, fit) for found in together(lambda: stiction.identify(log, **options)))
     # Columns that are read by all of them.
@@ -80,7 +80,7 @@ def test_a_log_is_identified_by_several_threads_at_once(run_csv: Path, arrays: d
 
 def test_a_fit_is_used_by_several_threads_at_once(run_csv: Path, tmp_path: Path) -> None:
     log = quietly(stiction.read_log, run_csv)
-    shared: stiction.Fit = quietly(stiction.identify, log, law="lugre", compare_laws=False)
+    shared: stiction.Fit = quietly(stiction.identify, log, law="lugre", run=stiction.Run(compare_laws=False))
     folders: list[Path] = []
 
     def use() -> tuple[Any, ...]:
@@ -89,7 +89,7 @@ def test_a_fit_is_used_by_several_threads_at_once(run_csv: Path, tmp_path: Path)
         shared.save(folder)
         again: stiction.Fit = pickle.loads(pickle.dumps(shared))
         predicted = shared.predict(log)
-        study = shared.simulate(threads=1)
+        study = shared.simulate(run=stiction.Run(threads=1))
         code = shared.export("c", folder / "code", cycle_time=250e-6)
         return (
             shared.result,

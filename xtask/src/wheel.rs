@@ -24,9 +24,11 @@ const COMPARED: &str =
 /// The tests that need no package without wheels for a free-threaded Python: neither Dask nor DataFrames nor pictures.
 const FREE_THREADED: &[&str] = &[
     "test_bad_input.py",
+    "test_command.py",
     "test_drift.py",
     "test_fit.py",
     "test_guide.py",
+    "test_library.py",
     "test_package.py",
     "test_robot.py",
     "test_running.py",

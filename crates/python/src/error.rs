@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
-use stiction::Error;
 use stiction::commands::{FileError, Setting};
+use stiction::{Error, Warning};
 
 static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
@@ -178,12 +178,65 @@ fn halves(message: &str) -> (String, String) {
     }
 }
 
-/// An option as an argument of a call.
+/// An option as an argument of a call: `law="lugre"`, `search=Search(evaluations=0)`; without a value by its name.
 fn argument(setting: Setting, value: Option<&str>) -> String {
-    let name = setting.field();
-    match value {
-        Some(value) if value.parse::<f64>().is_ok() => format!("{name}={value}"),
-        Some(value) => format!("{name}={value:?}"),
-        None => name.into(),
+    let (group, name) = match setting {
+        Setting::Statics | Setting::Model | Setting::BreakAway => ("procedures", setting.field()),
+        Setting::Search => ("search", "name"),
+        Setting::NoFinish
+        | Setting::Cost
+        | Setting::Evaluations
+        | Setting::Target
+        | Setting::Time
+        | Setting::Checkpoint
+        | Setting::Resume => ("search", setting.field()),
+        Setting::Adapt => ("compensator", setting.field()),
+        Setting::Want => ("", "wants"),
+        _ => ("", setting.field()),
+    };
+    let is_flag = matches!(
+        setting,
+        Setting::Asymmetric | Setting::NoFinish | Setting::Adapt
+    );
+    let value = match value {
+        Some(value) if value.parse::<f64>().is_ok() => value.into(),
+        Some(value) => format!("{value:?}"),
+        None if is_flag => "True".into(),
+        None if group.is_empty() => return name.into(),
+        None => return format!("{group}.{name}"),
+    };
+    match group {
+        "" => format!("{name}={value}"),
+        group => format!("{group}={}({name}={value})", class(group)),
+    }
+}
+
+/// The class of a group of arguments.
+fn class(group: &str) -> &'static str {
+    match group {
+        "procedures" => "Procedures",
+        "search" => "Search",
+        _ => "Compensator",
+    }
+}
+
+/// Warnings with their options as arguments of a call.
+pub fn spoken(warnings: &mut [Warning]) {
+    for warning in warnings {
+        if let Some(named) = warning.kind().map(|kind| kind.named(option)) {
+            warning.message = named;
+        }
+    }
+}
+
+/// An option of an export by its name on the command line, as an argument of a call.
+fn option(name: &str, value: &str) -> String {
+    let name = name.replace('-', "_");
+    match value.parse::<f64>() {
+        Ok(_) => format!("{name}={value}"),
+        Err(_) => {
+            let values: Vec<&str> = value.split(',').collect();
+            format!("{name}={values:?}")
+        }
     }
 }

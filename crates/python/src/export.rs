@@ -1,10 +1,11 @@
 //! The compensator as code.
 
-use crate::error::{Refusal, raised};
+use crate::error::{Refusal, raised, spoken};
 use crate::options::unknown;
 use pyo3::prelude::*;
 use std::path::PathBuf;
-use stiction::{ExportOptions, Feedforward, Target};
+use stiction::commands::{Looks, looks};
+use stiction::{Draws, ExportOptions, Feedforward, Target, Width};
 
 /// A dict with every option.
 #[derive(FromPyObject)]
@@ -22,6 +23,7 @@ pub struct Asked {
     window: Option<f64>,
     adapt: bool,
     feedforward: Vec<String>,
+    draws: Option<(usize, u64, String)>,
 }
 
 impl Asked {
@@ -39,6 +41,15 @@ impl Asked {
         options.safety.slew = self.slew;
         options.safety.window = self.window;
         options.adapt = self.adapt;
+        if let Some((count, seed, width)) = self.draws {
+            let mut widths = Width::ALL.into_iter();
+            let found = widths.find(|own| own.name() == width);
+            options.draws = Some(Draws {
+                count,
+                seed,
+                width: found.ok_or_else(|| Refused::Name(unknown("width", &width)))?,
+            });
+        }
         let parts = self.feedforward.iter().map(String::as_str);
         options.feedforward = Feedforward::from_names(parts).map_err(Refused::Option)?;
         Ok(options)
@@ -50,12 +61,14 @@ enum Refused {
     Option(stiction::Error),
 }
 
-/// Writes a model (the text of a model file, or the path of one) as code into a folder; what was written, as JSON.
+/// Writes a model (the text of a model file, or the path of one, or of the robot.toml of a robot) as code into a folder; what was
+/// written, as JSON.
 #[pyfunction]
 pub fn export(
     py: Python<'_>,
     model: &str,
     file: Option<PathBuf>,
+    urdf: Option<PathBuf>,
     options: Asked,
     out: PathBuf,
     force: bool,
@@ -64,14 +77,28 @@ pub fn export(
         Refused::Name(refusal) => refusal.raise(py),
         Refused::Option(error) => raised(py, &error),
     })?;
-    let exported = py.detach(|| {
-        let exported = match &file {
+    let is_robot = file
+        .as_deref()
+        .is_some_and(|file| looks(file) == Some(Looks::Robot));
+    if urdf.is_some() && !is_robot {
+        let (found, allowed) = ("a URDF for the model of one axis", "that of a robot.toml");
+        return Err(Refusal::argument("urdf", found, allowed).raise(py));
+    }
+    let exported = py.detach(|| -> Result<serde_json::Result<String>, stiction::Error> {
+        if let Some(robot) = file.as_deref().filter(|_| is_robot) {
+            let mut exported = stiction::export_robot_file(robot, urdf.as_deref(), &options)?;
+            spoken(&mut exported.warnings);
+            exported.write(&out, force)?;
+            return Ok(serde_json::to_string(&exported));
+        }
+        let mut exported = match &file {
             Some(file) => stiction::export_file(file, &options)?,
             None => stiction::export(&stiction::ModelFile::parse(model)?, &options)?,
         };
         exported.write(&out, force)?;
-        Ok(exported)
+        spoken(&mut exported.warnings);
+        Ok(serde_json::to_string(&exported))
     });
-    let exported = exported.map_err(|e: stiction::Error| raised(py, &e))?;
-    Ok(serde_json::to_string(&exported).expect("plain data"))
+    let exported = exported.map_err(|e| raised(py, &e))?;
+    Ok(exported.expect("plain data"))
 }

@@ -95,6 +95,11 @@ impl Fit {
         }
     }
 
+    /// What to do next with it, as JSON; `None` for a result of another version.
+    fn next(&self) -> Option<String> {
+        crate::next::next(&self.result_json())
+    }
+
     /// `model.toml`.
     fn model_toml(&self) -> String {
         match &self.content {

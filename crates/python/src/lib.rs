@@ -4,15 +4,19 @@
 //! stub `_native.pyi`. While Rust works the interpreter is free: see `run`.
 
 mod axis;
+mod command;
 mod drift;
 mod error;
 mod export;
 mod fit;
 mod fleet;
 mod law;
+mod library;
 mod log;
 mod motion;
+mod next;
 mod options;
+mod record;
 mod robot;
 mod run;
 mod study;
@@ -28,6 +32,8 @@ mod _native {
     #[pymodule_export]
     use crate::axis::Axis;
     #[pymodule_export]
+    use crate::command::command;
+    #[pymodule_export]
     use crate::drift::{Drift, drift, drift_of_columns, drift_of_rows};
     #[pymodule_export]
     use crate::export::export;
@@ -40,11 +46,15 @@ mod _native {
     #[pymodule_export]
     use crate::law::Law;
     #[pymodule_export]
+    use crate::library::{library, machine_files, write_machine};
+    #[pymodule_export]
     use crate::log::{Log, allow_memory, check, check_files, write_demo_log, write_procedure_logs};
     #[pymodule_export]
     use crate::motion::{Plan, plan};
     #[pymodule_export]
     use crate::options::choices;
+    #[pymodule_export]
+    use crate::record::record;
     #[pymodule_export]
     use crate::robot::{Robot, robot};
     #[pymodule_export]

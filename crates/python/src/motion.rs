@@ -10,7 +10,9 @@ use std::path::PathBuf;
 use stiction::LawKind;
 use stiction::bundle;
 use stiction::commands::plan::SCHEMA;
-use stiction::commands::{Bundle, Carrier, Known, PlanOptions, Want, plan_motion, text};
+use stiction::commands::{
+    Bundle, Carrier, Known, Looks, PLANNED, PlanOptions, Want, looks, plan_motion, text,
+};
 
 /// A planned motion.
 #[pyclass(frozen, module = "stiction._native")]
@@ -91,8 +93,7 @@ impl Plan {
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Asked {
-    model: Option<PathBuf>,
-    log: Option<PathBuf>,
+    known: Option<PathBuf>,
     probe: bool,
     time: Option<f64>,
     seed: u64,
@@ -117,11 +118,7 @@ pub fn plan(
         threads,
         stopped: Stopped::Keeps,
     };
-    let files = [
-        Some(axis.clone()),
-        options.model.clone(),
-        options.log.clone(),
-    ];
+    let files = [Some(axis.clone()), options.known.clone()];
     let wants: Result<Vec<Want>, Refusal> = options.wants.iter().map(|text| want(text)).collect();
     let carriers: Result<Vec<Carrier>, Refusal> =
         options.formats.iter().map(|name| carrier(name)).collect();
@@ -129,10 +126,10 @@ pub fn plan(
     let options = PlanOptions {
         time: options.time,
         probe: options.probe,
-        known: options
-            .model
-            .map(Known::Model)
-            .or(options.log.map(Known::Log)),
+        known: options.known.map(|file| match looks(&file) {
+            Some(Looks::Model) => Known::Model(file),
+            _ => Known::Log(file),
+        }),
         seed: options.seed,
         wants: wants.map_err(|refusal| refusal.raise(py))?,
         carriers: carriers.map_err(|refusal| refusal.raise(py))?,
@@ -164,10 +161,9 @@ fn want(text: &str) -> Result<Want, Refusal> {
 
 /// A law by its name.
 fn law(name: &str) -> Result<LawKind, Refusal> {
-    LawKind::from_name(name).ok_or_else(|| {
-        let allowed = "lugre, maxwell-slip, gms";
-        Refusal::argument("law", format!("{name:?}"), allowed)
-    })
+    let mut laws = PLANNED.into_iter();
+    laws.find(|law| law.name() == name)
+        .ok_or_else(|| unknown("planned_law", name))
 }
 
 /// A form by its name; set points as CSV are always there.

@@ -4,7 +4,9 @@ use crate::error::Refusal;
 use pyo3::prelude::*;
 use std::path::PathBuf;
 use stiction::commands::Carrier;
-use stiction::{CostKind, LawKind, Method, Options, Procedures, Searching, Target};
+use stiction::{
+    CostKind, Feedforward, LawKind, Method, Options, Procedures, Searching, Target, Width,
+};
 
 /// The law that stands for a choice by the data.
 const AUTO: &str = "auto";
@@ -82,6 +84,9 @@ impl Asked {
     }
 }
 
+/// Stages of a plan.
+const STAGES: [&str; 2] = ["probe", "whole"];
+
 const COSTS: [CostKind; 2] = [CostKind::Six, CostKind::Separable];
 
 /// A name that is none of those that an argument takes.
@@ -106,6 +111,10 @@ pub fn choices(argument: &str) -> Vec<&'static str> {
         "cost" => COSTS.into_iter().map(CostKind::name).collect(),
         "target" => Target::ALL.into_iter().map(Target::name).collect(),
         "formats" => Carrier::ALL.map(Carrier::name).to_vec(),
+        "feedforward" => Feedforward::all().names(),
+        "width" => Width::ALL.map(Width::name).to_vec(),
+        "planned_law" => stiction::commands::PLANNED.map(LawKind::name).to_vec(),
+        "stage" => STAGES.to_vec(),
         _ => Vec::new(),
     }
 }
