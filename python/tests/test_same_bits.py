@@ -49,7 +49,7 @@ def test_an_axis_file_and_options_do_the_same(run_csv: Path, command: Any, tmp_p
         "identify", run_csv, "--axis", axis, "--law", "stribeck", "--asymmetric", "--split", "0.7", "--seed", "5",
         "--out", tmp_path / "theirs",
     )
-    options: Any = {"law": "stribeck", "asymmetric": True, "split": 0.7, "seed": 5}
+    options: Any = {"law": "stribeck", "asymmetric": True, "split": 0.7, "run": stiction.Run(5)}
     fit = quietly(stiction.identify, run_csv, axis, **options)
     fit.save(tmp_path / "ours")
     same = (tmp_path / "theirs" / "model.toml").read_bytes()
