@@ -31,6 +31,41 @@ pub struct FrictionCurveEntry {
     pub back: Option<BandEntry>,
 }
 
+impl FrictionCurveEntry {
+    /// Friction in steady sliding at a velocity, m/s (rad/s), with the sign of the velocity; half widths as they are.
+    ///
+    /// Linear between the speeds of the curve: that of the direction of the velocity where both are known, else the mean, and of a
+    /// log with one direction its own. `None` below the least and above the largest speed of the logs, so also at rest.
+    pub fn at_velocity(&self, velocity: f64) -> Option<FrictionAtEntry> {
+        let mean = self.both.as_ref().or(self.forward.as_ref());
+        let band = match (&self.forward, &self.back) {
+            (Some(_), Some(back)) if velocity < 0.0 => back,
+            (Some(forward), Some(_)) => forward,
+            _ => mean.or(self.back.as_ref())?,
+        };
+        let v = velocity.abs();
+        let above = self.speed.partition_point(|speed| *speed <= v);
+        let (k, part) = match (above.checked_sub(1)?, self.speed.get(above)) {
+            (k, Some(next)) => (k, (v - self.speed[k]) / (next - self.speed[k])),
+            (k, None) if self.speed[k] == v => (k, 0.0),
+            _ => return None,
+        };
+        let of = |values: &[f64]| {
+            let low = *values.get(k)?;
+            let high = values.get(k + 1).copied().unwrap_or(low);
+            // A band that is not known has no number.
+            Some(low + part * (high - low)).filter(|value| value.is_finite())
+        };
+        Some(FrictionAtEntry {
+            speed: v,
+            force: 1f64.copysign(velocity) * of(&band.force)?,
+            at_once: of(&band.at_once)?,
+            repeat: of(&band.repeat)?,
+            transfer: of(&band.transfer)?,
+        })
+    }
+}
+
 /// Friction at one speed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FrictionAtEntry {

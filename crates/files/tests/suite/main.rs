@@ -2,6 +2,7 @@
 
 mod axis;
 mod ethercat;
+mod friction_curve;
 mod model;
 mod pending;
 mod robot;
