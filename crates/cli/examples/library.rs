@@ -8,8 +8,8 @@ use rebuild::{Inputs, Rebuilt, rebuild};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
-use stiction::library::Library;
 use stiction_testkit::{recordings, workspace};
+use stiction_workflows::library::Library;
 
 fn main() -> Result<(), String> {
     let program = std::env::args_os().nth(1).map(PathBuf::from);

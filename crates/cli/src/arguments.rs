@@ -102,7 +102,7 @@ const LEAST_MEMORY: u64 = 1_000_000;
 
 /// A size in bytes.
 fn memory(text: &str) -> Result<u64, String> {
-    let size = stiction::commands::number::parse_bytes(text);
+    let size = stiction_number::parse_bytes(text);
     size.filter(|size| *size >= LEAST_MEMORY)
         .ok_or_else(|| "a size from 1MB is allowed, such as 500MB, 2GB or 1.5GiB".into())
 }
@@ -380,7 +380,7 @@ pub struct Batch {
 #[derive(Clone, Debug, Args)]
 pub struct Library {
     /// A machine of the library [default: all are listed].
-    #[arg(value_name = "MACHINE", value_parser = PossibleValuesParser::new(stiction::library::Library::names()))]
+    #[arg(value_name = "MACHINE", value_parser = PossibleValuesParser::new(stiction_workflows::library::Library::names()))]
     pub machine: Option<String>,
     /// Folder for its files [default: nothing is written].
     #[arg(long, value_name = "DIR", requires = "machine")]
@@ -485,7 +485,7 @@ pub enum Cost {
 pub struct Searching {
     /// For --method static and static-then-dynamic: the search that finds the parameters of each step before least squares,
     /// one of ga to lm [default: least squares alone].
-    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(stiction::Method::SEARCHES))]
+    #[arg(long, value_name = "METHOD", value_parser = PossibleValuesParser::new(stiction_workflows::identify::Method::SEARCHES))]
     pub search: Option<String>,
     /// Leave out the least squares after a search: the parameters are what it found by itself, without intervals.
     #[arg(long)]

@@ -27,20 +27,24 @@ use crate::{next, wording, words};
 use clap::ValueEnum;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use stiction::commands::shell::text as path_text;
-use stiction::commands::{Bundle, FileError, Outcome};
-use stiction::result::Action;
-use stiction::{Error, LawKind, Method, bundle};
+use stiction_files::result::Action;
+use stiction_files::shell::text as path_text;
+use stiction_files::{Bundle, Error as FileError};
+use stiction_pages::bundle;
+use stiction_parameters::LawKind;
+use stiction_workflows::Error;
+use stiction_workflows::identify::Method;
+use stiction_workflows::identify::Outcome;
 
 /// Runs a command; every error is printed here, once.
 pub fn run(arguments: &Arguments) -> Exit {
     interrupt::listen();
     if let Some(threads) = arguments.common.threads.or_else(threads_of_too_many) {
-        stiction::set_threads(usize::from(threads));
+        stiction_workflows::set_threads(usize::from(threads));
     }
     let common = &arguments.common;
     if let Some(bytes) = common.max_memory {
-        stiction::allow_memory(bytes);
+        stiction_formats::allow_memory(bytes);
     }
     // Logs of a batch are read all the time; how many are done is what is told of it.
     if !matches!(arguments.command, Command::Batch(_)) {
@@ -161,30 +165,30 @@ pub fn put(bundle: &Bundle, dir: &Path, schema: &str) -> Result<(PathBuf, Vec<Pa
 /// Writes the files, says what was found, and what it is worth.
 fn finish(outcome: &Outcome, dir: &Path, common: &Common) -> Result<Exit, Error> {
     let bundle = bundle::identification_in(outcome, dir);
-    let (dir, written) = put(&bundle, dir, stiction::result::SCHEMA)?;
+    let (dir, written) = put(&bundle, dir, stiction_files::result::SCHEMA)?;
     let dir = dir.as_path();
     if common.json {
         output::json(&outcome.result)?;
     } else if !common.quiet {
         let text = match common.verbose {
-            true => stiction::commands::text::outcome(outcome),
-            false => stiction::commands::text::brief(outcome),
+            true => stiction_pages::text::outcome(outcome),
+            false => stiction_pages::text::brief(outcome),
         };
         let next = match &outcome.result.trust.next {
             next @ (Action::Again | Action::Finish) => {
                 let arguments = words::typed();
                 let arguments = arguments.map(|a| path_text(Path::new(&a)));
                 let kept = arguments.filter(|a| *next == Action::Again || a != "--no-finish");
-                let command = stiction::commands::text::command(going_on(next, kept).into_iter());
-                let why = stiction::commands::text::why(next);
+                let command = stiction_pages::text::command(going_on(next, kept).into_iter());
+                let why = stiction_pages::text::why(next);
                 format!("{why}\nnext: {command}\n")
             }
             _ => {
                 let is_study = |path: &&PathBuf| path.ends_with("study.toml");
                 let study = written.iter().find(is_study).map(PathBuf::as_path);
                 match common.verbose {
-                    true => stiction::commands::text::next(&outcome.result, dir, study),
-                    false => stiction::commands::text::next_in_short(&outcome.result, dir, study),
+                    true => stiction_pages::text::next(&outcome.result, dir, study),
+                    false => stiction_pages::text::next_in_short(&outcome.result, dir, study),
                 }
             }
         };
@@ -221,6 +225,6 @@ pub fn written_to(dir: &Path, written: &[PathBuf]) -> String {
         .iter()
         .filter_map(|p| p.file_name().map(|n| n.to_string_lossy().into_owned()))
         .collect();
-    let dir = stiction::commands::shell::shown(&path_text(dir));
+    let dir = stiction_files::shell::shown(&path_text(dir));
     format!("written to {dir}: {}\n", names.join(", "))
 }

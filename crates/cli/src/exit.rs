@@ -1,6 +1,6 @@
 //! What the process says with its exit code.
 
-use stiction::Verdict;
+use stiction_workflows::Verdict;
 
 /// The exit codes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use crate::arguments::Common;
 use crate::{next, output};
 use std::io::Write;
 use std::path::Path;
-use stiction::Error;
-use stiction::commands::{Runs, has_runs};
+use stiction_files::{Runs, has_runs};
+use stiction_workflows::Error;
 
 /// Says how large the work is before it begins.
 pub fn announce(size: Option<String>, common: &Common) {
@@ -56,6 +56,6 @@ pub fn kept(runs: Runs, whole: bool) {
 
 /// Says how to go on with work that was stopped.
 pub fn how_to_resume() {
-    let command = stiction::commands::text::command(next::resumed().into_iter());
+    let command = stiction_pages::text::command(next::resumed().into_iter());
     output::complain(&next::after("to go on where it was stopped:", &command));
 }

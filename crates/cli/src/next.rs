@@ -7,15 +7,16 @@ use crate::words;
 use clap::CommandFactory;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use std::path::{Path, PathBuf};
-use stiction::commands::shell::{
+use stiction_files::result::Action;
+use stiction_files::shell::{
     cycle_option, cycle_time, free_folder, new_axis_file, quoted_path, text as path_text,
 };
-use stiction::commands::{
-    FileError, LogError, LogKind as Kind, Looks, Wording, check_apart, has_runs,
-    is_recording_folder, is_regular, looks, text,
-};
-use stiction::result::Action;
-use stiction::{Axis, Error, ModelFile};
+use stiction_files::{Axis, ModelFile};
+use stiction_files::{Error as FileError, Looks, check_apart, has_runs, looks};
+use stiction_formats::{Error as LogError, Kind, is_recording_folder, is_regular};
+use stiction_pages::text;
+use stiction_workflows::Error;
+use stiction_workflows::Wording;
 
 /// What is to be known or done first, on a line of its own, and a command alone behind `next:`, to be pasted as it stands.
 pub fn after(first: &str, command: &str) -> String {

@@ -4,10 +4,10 @@ use std::borrow::Cow;
 use std::fmt::Write as _;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
-use stiction::Error;
-use stiction::commands::FileError;
-use stiction::commands::shell::{is_unseen, stands_for};
-use stiction::commands::visible;
+use stiction_files::Error as FileError;
+use stiction_files::shell::{is_unseen, stands_for};
+use stiction_files::visible;
+use stiction_workflows::Error;
 
 /// Prints a text in which names from files may stand; a reader that has gone away has seen enough.
 ///

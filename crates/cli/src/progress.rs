@@ -8,8 +8,9 @@ use std::mem::discriminant;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use stiction::commands::number::Percent;
-use stiction::{Control, Observer, Progress, Reading, Stage};
+use stiction_formats::Reading;
+use stiction_identify::{Control, Observer, Progress, Stage};
+use stiction_number::Percent;
 
 /// Shows how far work is with the best cost so far, and passes the user's interrupt on.
 pub struct Bar {
@@ -86,7 +87,7 @@ static READ: Mutex<Option<Read>> = Mutex::new(None);
 /// process.
 pub fn watch_readings(hidden: bool) {
     HIDDEN.store(hidden, Ordering::Relaxed);
-    stiction::watch(|reading| {
+    stiction_formats::watch(|reading| {
         interrupt::nothing_yet();
         if let (false, Ok(mut read)) = (HIDDEN.load(Ordering::Relaxed), READ.lock()) {
             show(&mut read, reading);
@@ -208,7 +209,7 @@ fn rate(progress: &Progress, before: f64, took: Duration) -> Option<String> {
 fn line(progress: &Progress, elapsed: Duration) -> String {
     let percent = (100.0 * progress.fraction) as u64;
     let message = message(progress).map_or_else(String::new, |said| format!(", {said}"));
-    let stage = stiction::commands::stage(progress.stage);
+    let stage = progress.stage.name();
     format!("{} s: {stage}, {percent} %{message}", elapsed.as_secs())
 }
 
@@ -234,8 +235,7 @@ impl Observer for Bar {
         if new {
             self.stage = Some(progress.stage);
             self.bar.reset();
-            self.bar
-                .set_prefix(stiction::commands::stage(progress.stage));
+            self.bar.set_prefix(progress.stage.name());
             self.first = (Instant::now(), progress.fraction);
         }
         self.bar.set_position((1000.0 * progress.fraction) as u64);
@@ -264,7 +264,7 @@ impl Observer for Bar {
 mod tests {
     use super::{Lines, left, line, rate};
     use std::time::Duration;
-    use stiction::{Progress, Stage};
+    use stiction_identify::{Progress, Stage};
 
     #[test]
     fn time_that_is_left_is_said_once_something_is_done() {

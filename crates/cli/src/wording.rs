@@ -1,8 +1,10 @@
 //! What an error says at the terminal: as the library says it, with options named as they are typed.
 
-use stiction::commands::export::ExportError;
-use stiction::commands::{FileError, Setting};
-use stiction::{Code, Error};
+use stiction_codes::Code;
+use stiction_files::Error as FileError;
+use stiction_workflows::Error;
+use stiction_workflows::Setting;
+use stiction_workflows::export::ExportError;
 
 /// The message of an error, a line for each thing that is wrong, each with its code.
 pub fn lines(error: &Error) -> Vec<(Code, String)> {
@@ -75,7 +77,7 @@ mod tests {
     use super::typed;
     use crate::arguments::Arguments;
     use clap::CommandFactory;
-    use stiction::commands::Setting;
+    use stiction_workflows::Setting;
 
     #[test]
     fn every_setting_is_an_option() {

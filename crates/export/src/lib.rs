@@ -79,5 +79,5 @@ pub use identifier::{IDENTIFIER_LENGTH, check_identifier, identifier, is_whole};
 pub use joint::{nearest_line, static_friction};
 pub use model::{Backlash, Model, Parameter, Provenance};
 pub use robot::{Load, Robot, RobotJoint, export_robot, joint_identifiers};
-pub use target::{File, Target, export};
+pub use target::{File, Target, UnknownTarget, export};
 pub use tf5200::largest_force as largest_force_in_table;

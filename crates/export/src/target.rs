@@ -185,6 +185,27 @@ impl Target {
     }
 }
 
+/// A text that names no target.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0:?} is no target; allowed: {names}", names = Target::ALL.map(Target::name).join(", "))]
+pub struct UnknownTarget(pub String);
+
+impl std::str::FromStr for Target {
+    type Err = UnknownTarget;
+
+    fn from_str(name: &str) -> Result<Self, UnknownTarget> {
+        let mut all = Self::ALL.into_iter();
+        all.find(|own| own.name() == name)
+            .ok_or_else(|| UnknownTarget(name.into()))
+    }
+}
+
+impl std::fmt::Display for Target {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(self.name())
+    }
+}
+
 /// The files of a model for a target; FMUs with their source only, [`fmu`](crate::fmu) makes those with binaries.
 ///
 /// # Errors

@@ -3,6 +3,7 @@
 mod action;
 mod effects;
 mod friction;
+mod kinds;
 mod operating_range;
 mod planned;
 mod procedure;
@@ -13,6 +14,7 @@ use crate::error::Warning;
 pub use action::Action;
 pub use effects::{EffectEntry, SizeEntry};
 pub use friction::{BandEntry, FrictionAtEntry, FrictionCurveEntry, FrictionLineEntry, ValueEntry};
+pub use kinds::{Origin, Status};
 pub use operating_range::{LevelAlongEntry, PitchEntry, RangeEntry};
 pub use planned::{PieceEntry, PlannedEntry, PlannedParameter};
 pub use procedure::{
@@ -281,7 +283,7 @@ pub struct ParameterEntry {
     /// Whether the data determine it.
     pub identifiable: bool,
     /// `identified` or `given`.
-    pub origin: String,
+    pub origin: Origin,
     /// Why it is not identifiable; empty if it is.
     pub reason: String,
     /// What a parameter that is not identifiable moves together with.
@@ -536,7 +538,7 @@ pub struct ElementsEntry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Search {
     /// `converged`, `budget`, `stalled` or `interrupted`.
-    pub status: String,
+    pub status: Status,
     /// Evaluations of the model in all.
     pub evaluations: usize,
     /// Of those, with sensitivities.

@@ -1,6 +1,6 @@
 //! How well a parameter is known, as tables say it.
 
-use stiction_files::result::{ParameterEntry, ResultFile};
+use stiction_files::result::{Origin, ParameterEntry, ResultFile};
 use stiction_number::{Percent, sig};
 use stiction_parameters::{Dimension, Name, Quantity};
 use stiction_policy::interval;
@@ -47,10 +47,10 @@ impl Deviation {
     }
 
     fn of_half(p: &ParameterEntry, half: Option<f64>, result: &ResultFile) -> Self {
-        let Some(half) = half.filter(|_| p.origin != "given") else {
-            return match p.origin.as_str() {
-                "given" => Self::Given,
-                _ => Self::Unknown,
+        let Some(half) = half.filter(|_| p.origin != Origin::Given) else {
+            return match p.origin {
+                Origin::Given => Self::Given,
+                Origin::Identified => Self::Unknown,
             };
         };
         let size = p.value.abs();

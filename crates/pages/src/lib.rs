@@ -1,4 +1,4 @@
-//! Outcomes as people read them: [`report`] in HTML, [`text`] for a terminal.
+//! Outcomes as people read them: [`report`] in HTML, [`text`] for a terminal, [`bundle`] as files of a folder.
 //!
 //! Every report explains the terms that it uses, from the table in [`glossary`].
 //!
@@ -19,6 +19,7 @@
 //! A page reads what a workflow found and calls neither a workflow nor an engine.
 
 mod apart;
+pub mod bundle;
 mod deviation;
 mod drift;
 pub mod glossary;
@@ -28,5 +29,8 @@ mod names;
 mod next;
 pub mod report;
 mod robot;
+mod saved;
 pub mod text;
 mod trust;
+
+pub use saved::SavedFit;

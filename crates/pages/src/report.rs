@@ -25,7 +25,7 @@ use crate::trust::{compensation, constants, why_not};
 use std::path::Path;
 use stiction_files::Warning;
 use stiction_files::compare_file::CompareFile;
-use stiction_files::result::{Action, Input, ResultFile};
+use stiction_files::result::{Action, Input, Origin, ResultFile};
 use stiction_number::Percent;
 use stiction_report::{Block, Callout, Document, KeyFigure, Severity, Text, number};
 use stiction_workflows::drift::DriftOutcome;
@@ -372,12 +372,12 @@ fn key_figures(outcome: &Outcome) -> Vec<KeyFigure> {
     let total = result
         .parameters
         .iter()
-        .filter(|p| p.origin == "identified")
+        .filter(|p| p.origin == Origin::Identified)
         .count();
     let known = result
         .parameters
         .iter()
-        .filter(|p| p.origin == "identified" && p.identifiable)
+        .filter(|p| p.origin == Origin::Identified && p.identifiable)
         .count();
     out.push(
         KeyFigure::new("Identifiable", format!("{known} of {total}"), "")

@@ -43,7 +43,7 @@ pub use robot::{robot, robot_in_full, robot_next};
 use std::fmt::Write;
 use std::path::Path;
 use stiction_files::result::{
-    Action, FrictionCurveEntry, LawEntry, LevelAlongEntry, ResultFile, SimulationEntry,
+    Action, FrictionCurveEntry, LawEntry, LevelAlongEntry, Origin, ResultFile, SimulationEntry,
 };
 use stiction_files::symbols;
 use stiction_number::{Percent, four_digits as short, quantity, r_squared, sig, unit};
@@ -104,7 +104,7 @@ pub fn outcome(outcome: &Outcome) -> String {
             Some((low, f64::INFINITY)) => format!("at least {}", short(low)),
             _ if deviation == Deviation::Unbounded => "not bounded".into(),
             Some((low, high)) => format!("{} .. {}", short(low), short(high)),
-            None if p.origin == "given" => String::new(),
+            None if p.origin == Origin::Given => String::new(),
             None => "not bounded".into(),
         };
         rows.push(vec![

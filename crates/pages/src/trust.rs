@@ -1,6 +1,6 @@
 //! What a result may be used for, in words that reports and the terminal share.
 
-use stiction_files::result::{Action, CauseEntry, Compensation, ResultFile, Trust};
+use stiction_files::result::{Action, CauseEntry, Compensation, Origin, ResultFile, Trust};
 use stiction_number::{Percent, counted, four_digits as short, quantity};
 
 /// How well the law predicts friction, and on which motion that was seen.
@@ -133,7 +133,7 @@ fn assumed_exponent(result: &ResultFile, called: impl Fn(&str) -> String) -> Str
         .filter(of_curve)
         .map(|name| called(name))
         .collect();
-    if names.is_empty() || own.is_some_and(|p| p.origin == "identified") {
+    if names.is_empty() || own.is_some_and(|p| p.origin == Origin::Identified) {
         return String::new();
     }
     let exponent = own.map_or(2.0, |p| p.value);
@@ -162,6 +162,6 @@ fn pulled(result: &ResultFile) -> &'static str {
 fn mixed_offset(result: &ResultFile) -> bool {
     let own = |names: &[String]| names.iter().any(|name| name == "offset");
     let mut all = result.parameters.iter();
-    let is_fitted = all.any(|p| p.name == "offset" && p.origin == "identified");
+    let is_fitted = all.any(|p| p.name == "offset" && p.origin == Origin::Identified);
     is_fitted && !own(&result.trust.constants) && !own(&result.trust.open)
 }

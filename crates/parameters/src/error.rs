@@ -25,6 +25,11 @@ pub enum LawError {
     Value(#[from] ParamError),
 }
 
+/// A text that names no law.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0:?} is no law; allowed: {names}", names = LawKind::ALL.map(LawKind::name).join(", "))]
+pub struct UnknownLaw(pub String);
+
 /// A text that names no parameter.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0:?} is no parameter of any law")]

@@ -1,9 +1,10 @@
 //! The families of friction laws.
 
-use crate::Quantity;
+use crate::{Quantity, UnknownLaw};
 
 /// A family of friction laws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum LawKind {
     /// `Fc sgn v + s2 v`.
     CoulombViscous,
@@ -47,11 +48,13 @@ impl LawKind {
     }
 
     /// The family of this name.
+    #[doc(hidden)]
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
 
     /// Whether the law has a bristle, and so memory and a stiffness.
+    #[doc(hidden)]
     pub fn has_bristle(self) -> bool {
         let one = matches!(
             self,
@@ -61,16 +64,19 @@ impl LawKind {
     }
 
     /// Whether the law is a number of Maxwell-slip elements in parallel.
+    #[doc(hidden)]
     pub fn has_elements(self) -> bool {
         matches!(self, LawKind::MaxwellSlip | LawKind::Gms)
     }
 
     /// Whether the law leaves nothing to a search: its parameters are all linear, or known places of elements.
+    #[doc(hidden)]
     pub fn needs_no_search(self) -> bool {
         self == LawKind::CoulombViscous || self.has_elements()
     }
 
     /// Whether the friction level falls with speed.
+    #[doc(hidden)]
     pub fn has_stribeck(self) -> bool {
         matches!(
             self,
@@ -79,6 +85,7 @@ impl LawKind {
     }
 
     /// Whether the bristle has a micro-damping.
+    #[doc(hidden)]
     pub fn has_micro_damping(self) -> bool {
         matches!(self, LawKind::LuGre | LawKind::ElastoPlastic)
     }
@@ -103,6 +110,7 @@ impl LawKind {
 
     /// The parameters that the law cannot do without, in the order of tables; of the elements of a Maxwell-slip law the
     /// first.
+    #[doc(hidden)]
     pub fn needs(self) -> impl Iterator<Item = Quantity> {
         [
             (Quantity::Sigma0, self.has_bristle() && !self.has_elements()),
@@ -118,6 +126,14 @@ impl LawKind {
         ]
         .into_iter()
         .filter_map(|(quantity, needed)| needed.then_some(quantity))
+    }
+}
+
+impl std::str::FromStr for LawKind {
+    type Err = UnknownLaw;
+
+    fn from_str(name: &str) -> Result<Self, UnknownLaw> {
+        Self::from_name(name).ok_or_else(|| UnknownLaw(name.into()))
     }
 }
 

@@ -48,7 +48,7 @@ mod units;
 
 pub use allowed::Allowed;
 pub use dimension::Dimension;
-pub use error::{LawError, UnknownName};
+pub use error::{LawError, UnknownLaw, UnknownName};
 pub use kind::LawKind;
 pub use law::FrictionLaw;
 pub use name::{Name, Side};

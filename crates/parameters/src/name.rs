@@ -17,6 +17,7 @@ pub enum Side {
 
 impl Side {
     /// What is appended to names in files.
+    #[doc(hidden)]
     pub fn suffix(self) -> &'static str {
         match self {
             Side::Both => "",
@@ -26,16 +27,19 @@ impl Side {
     }
 
     /// Place of the direction where positive comes first; that of both directions is read from the positive one.
+    #[doc(hidden)]
     pub fn index(self) -> usize {
         usize::from(self == Side::Negative)
     }
 
     /// Whether it holds for the direction of this place.
+    #[doc(hidden)]
     pub fn holds(self, index: usize) -> bool {
         self == Side::Both || self.index() == index
     }
 
     /// The directions that have parameters of their own.
+    #[doc(hidden)]
     pub fn all(asymmetric: bool) -> &'static [Side] {
         if asymmetric {
             &[Side::Positive, Side::Negative]
@@ -80,11 +84,13 @@ impl Name {
     }
 
     /// What it measures.
+    #[doc(hidden)]
     pub fn dimension(self) -> Dimension {
         self.quantity.dimension()
     }
 
     /// Whether it holds at velocities of this direction.
+    #[doc(hidden)]
     pub fn holds_for(self, side: Side) -> bool {
         self.side == Side::Both || self.side == side
     }
@@ -94,6 +100,12 @@ impl From<Quantity> for Name {
     /// That of both directions.
     fn from(quantity: Quantity) -> Self {
         Name::new(quantity, Side::Both)
+    }
+}
+
+impl From<(Quantity, Side)> for Name {
+    fn from((quantity, side): (Quantity, Side)) -> Self {
+        Name::new(quantity, side)
     }
 }
 

@@ -14,6 +14,7 @@ pub enum Wave {
 
 /// What a parameter is, in the order of tables; elements and waves are counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Quantity {
     /// Bristle stiffness sigma0; of a Maxwell-slip law the sum over its elements.
     Sigma0,
@@ -171,6 +172,7 @@ impl Quantity {
     }
 
     /// The quantity of such a name.
+    #[doc(hidden)]
     pub fn from_stem(stem: &str) -> Option<Self> {
         if let Some(row) = PLAIN.iter().find(|row| row.stem == stem) {
             return Some(row.quantity);
@@ -245,6 +247,7 @@ impl Quantity {
     }
 
     /// What it measures.
+    #[doc(hidden)]
     pub fn dimension(self) -> Dimension {
         match self {
             Quantity::ElementStiffness(_) => Dimension::Stiffness,
@@ -255,6 +258,7 @@ impl Quantity {
     }
 
     /// The values that it may have.
+    #[doc(hidden)]
     pub fn allowed(self) -> Allowed {
         if self.is_of_an_element() {
             return Allowed::NotNegative;
@@ -263,12 +267,14 @@ impl Quantity {
     }
 
     /// Place in tables. What stands beside the law shares the last place and keeps the order in which it came.
+    #[doc(hidden)]
     pub fn place(self) -> usize {
         let found = PLAIN.iter().position(|row| row.quantity == self);
         found.map_or(OF_THE_LAW, |place| place.min(OF_THE_LAW))
     }
 
     /// Whether an asymmetric model may have a value for each direction of motion.
+    #[doc(hidden)]
     pub fn may_differ_by_side(self) -> bool {
         self.is_of_the_steady_curve()
             || matches!(
@@ -287,6 +293,7 @@ impl Quantity {
 
     /// Whether it is one of the numbers of the steady curve that an asymmetric law has for each direction: Fc, Fs, vs and
     /// sigma2.
+    #[doc(hidden)]
     pub fn is_of_the_steady_curve(self) -> bool {
         matches!(
             self,
@@ -295,6 +302,7 @@ impl Quantity {
     }
 
     /// Whether it describes the shape of a bristle or of the Stribeck curve: sigma0, sigma1, Fs, vs and the exponent.
+    #[doc(hidden)]
     pub fn is_of_the_shape(self) -> bool {
         matches!(
             self,
@@ -307,6 +315,7 @@ impl Quantity {
     }
 
     /// Whether it belongs to one of several logs rather than to the machine.
+    #[doc(hidden)]
     pub fn is_of_a_log(self) -> bool {
         matches!(
             self,
@@ -315,6 +324,7 @@ impl Quantity {
     }
 
     /// Whether it says where other parameters hold, and is given.
+    #[doc(hidden)]
     pub fn is_a_reference(self) -> bool {
         matches!(
             self,
@@ -327,6 +337,7 @@ impl Quantity {
     }
 
     /// Whether it is that of a single Maxwell-slip element.
+    #[doc(hidden)]
     pub fn is_of_an_element(self) -> bool {
         matches!(
             self,

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[pyclass(frozen, module = "stiction._native")]
 pub struct Axis {
     /// As the library has it.
-    pub axis: stiction::Axis,
+    pub axis: stiction_files::Axis,
     text: Option<String>,
 }
 
@@ -18,7 +18,7 @@ impl Axis {
     #[new]
     fn new() -> Self {
         Self {
-            axis: stiction::Axis::default(),
+            axis: stiction_files::Axis::default(),
             text: None,
         }
     }
@@ -26,7 +26,7 @@ impl Axis {
     /// Reads an axis file.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let axis = py.detach(|| stiction::Axis::read(&path));
+        let axis = py.detach(|| stiction_files::Axis::read(&path));
         let axis = axis.map_err(|e| raised(py, &e.into()))?;
         Ok(Self { axis, text: None })
     }
@@ -39,7 +39,7 @@ impl Axis {
         let value: toml::Value = serde_json::from_str(json)
             .map_err(|e| refused(format!("a value that is none: {e}")))?;
         let text = toml::to_string(&value).map_err(|e| refused(e.to_string()))?;
-        let axis = stiction::Axis::parse(&text).map_err(|e| raised(py, &e.into()))?;
+        let axis = stiction_files::Axis::parse(&text).map_err(|e| raised(py, &e.into()))?;
         Ok(Self {
             axis,
             text: Some(text),

@@ -8,12 +8,16 @@ use pyo3::exceptions::PyKeyboardInterrupt;
 use pyo3::prelude::*;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-use stiction::commands::batch::{self, Cells, LogRow, rows_while};
-use stiction::commands::drift::{
-    DriftOutcome, Limit, SCHEMA, Shown, Times, drift_of_rows_while, drift_while,
+use stiction_files::Bundle;
+use stiction_files::batch::{self, LogRow, rows_while};
+use stiction_files::drift_file::SCHEMA;
+use stiction_formats::Cells;
+use stiction_pages::bundle;
+use stiction_pages::text;
+use stiction_workflows::Error;
+use stiction_workflows::drift::{
+    DriftOutcome, Limit, Shown, Times, drift_of_rows_while, drift_while,
 };
-use stiction::commands::{Bundle, text};
-use stiction::{Error, bundle};
 
 /// A parameter of a machine over time: names first, then times, estimates, deviations and temperatures of its logs, what is left
 /// of the estimates without what temperature does, with the ends of their intervals, the level of the first logs, and the logs.

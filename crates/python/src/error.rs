@@ -3,8 +3,8 @@
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyType;
-use stiction::commands::{FileError, Setting};
-use stiction::{Error, Warning};
+use stiction_files::{Error as FileError, Warning};
+use stiction_workflows::{Error, Parts, Setting};
 
 static CLASS: PyOnceLock<Py<PyType>> = PyOnceLock::new();
 
@@ -43,7 +43,20 @@ impl Refusal {
 /// An error of the library as the exception `stiction.StictionError`.
 pub fn raised(py: Python<'_>, error: &Error) -> PyErr {
     let code = error.code().to_string();
-    let (place, found, allowed) = parts(error);
+    let Parts {
+        place,
+        found,
+        allowed,
+    } = error.parts(argument);
+    let allowed = match error {
+        Error::File(FileError::TooLarge { needed, .. }) => {
+            format!("less, or max_samples={needed}")
+        }
+        Error::File(FileError::Taken { .. }) => {
+            "another folder, or force=True to write into it all the same".into()
+        }
+        _ => allowed,
+    };
     Refusal {
         code,
         place,
@@ -51,131 +64,6 @@ pub fn raised(py: Python<'_>, error: &Error) -> PyErr {
         allowed,
     }
     .raise(py)
-}
-
-/// Place, found and allowed.
-fn parts(error: &Error) -> (String, String, String) {
-    match error {
-        Error::File(error) => of_file(error),
-        Error::Identify { inputs, .. } => {
-            let said = error.to_string();
-            let rest = said.strip_prefix(inputs.as_str());
-            let rest = rest.and_then(|rest| rest.strip_prefix(": "));
-            let (found, allowed) = halves(rest.unwrap_or(&said));
-            (inputs.clone(), found, allowed)
-        }
-        Error::Checkpoint {
-            file,
-            found,
-            allowed,
-        } => (
-            file.display().to_string(),
-            found.clone(),
-            allowed.named(argument),
-        ),
-        Error::ExportModel {
-            file,
-            place,
-            source,
-        } => {
-            let (found, allowed) = halves(&source.to_string());
-            (at(&file.display().to_string(), place), found, allowed)
-        }
-        Error::NotFed { found, instead } => (
-            "feedforward".into(),
-            found.clone(),
-            format!("it can feed forward: {}", instead.join(", ")),
-        ),
-        Error::Usage { found, allowed } => (
-            String::new(),
-            found.named(argument),
-            allowed.named(argument),
-        ),
-        error => {
-            let (found, allowed) = halves(&error.to_string());
-            (String::new(), found, allowed)
-        }
-    }
-}
-
-fn of_file(error: &FileError) -> (String, String, String) {
-    match error {
-        FileError::Log(e) => {
-            let file = e.file.as_ref().map(|file| file.display().to_string());
-            let place = at(&file.unwrap_or_default(), &e.place.to_string());
-            (place, e.found.clone(), e.allowed.clone())
-        }
-        FileError::Config {
-            file,
-            place,
-            found,
-            allowed,
-        }
-        | FileError::Misfit {
-            file,
-            place,
-            found,
-            allowed,
-            ..
-        } => (
-            at(&file.display().to_string(), place),
-            found.clone(),
-            allowed.clone(),
-        ),
-        FileError::OtherForm {
-            file,
-            found,
-            wanted,
-            instead,
-        } => {
-            let instead = instead.as_ref().map(|path| format!(": {}", path.display()));
-            (
-                file.display().to_string(),
-                format!("is {found}"),
-                format!("{wanted} is wanted{}", instead.unwrap_or_default()),
-            )
-        }
-        FileError::TooLarge {
-            what,
-            found,
-            needed,
-            ..
-        } => (
-            what.clone(),
-            found.clone(),
-            format!("less, or max_samples={needed}"),
-        ),
-        FileError::Output { path, reason, .. } => {
-            (path.display().to_string(), reason.clone(), String::new())
-        }
-        FileError::Taken { path, found, .. } => (
-            path.display().to_string(),
-            found.clone().into_owned(),
-            "another folder, or force=True to write into it all the same".into(),
-        ),
-        error => {
-            let (found, allowed) = halves(&error.to_string());
-            (String::new(), found, allowed)
-        }
-    }
-}
-
-/// A file and the place in it.
-fn at(file: &str, place: &str) -> String {
-    let place = place.trim_end_matches(": ");
-    match (file.is_empty(), place.is_empty()) {
-        (_, true) => file.into(),
-        (true, false) => place.into(),
-        (false, false) => format!("{file}: {place}"),
-    }
-}
-
-/// A message of the form `found; allowed`.
-fn halves(message: &str) -> (String, String) {
-    match message.split_once("; ") {
-        Some((found, allowed)) => (found.into(), allowed.into()),
-        None => (message.into(), String::new()),
-    }
 }
 
 /// An option as an argument of a call: `law="lugre"`, `search=Search(evaluations=0)`; without a value by its name.

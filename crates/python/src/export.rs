@@ -4,8 +4,11 @@ use crate::error::{Refusal, raised, spoken};
 use crate::options::unknown;
 use pyo3::prelude::*;
 use std::path::PathBuf;
-use stiction::commands::{Looks, looks};
-use stiction::{Draws, ExportOptions, Feedforward, Target, Width};
+use stiction_files::{Looks, ModelFile, looks};
+use stiction_workflows::Error;
+use stiction_workflows::export::{
+    self as workflow, Draws, ExportOptions, Feedforward, Target, Width,
+};
 
 /// A dict with every option.
 #[derive(FromPyObject)]
@@ -58,7 +61,7 @@ impl Asked {
 
 enum Refused {
     Name(Refusal),
-    Option(stiction::Error),
+    Option(stiction_workflows::Error),
 }
 
 /// Writes a model (the text of a model file, or the path of one, or of the robot.toml of a robot) as code into a folder; what was
@@ -84,16 +87,16 @@ pub fn export(
         let (found, allowed) = ("a URDF for the model of one axis", "that of a robot.toml");
         return Err(Refusal::argument("urdf", found, allowed).raise(py));
     }
-    let exported = py.detach(|| -> Result<serde_json::Result<String>, stiction::Error> {
+    let exported = py.detach(|| -> Result<serde_json::Result<String>, Error> {
         if let Some(robot) = file.as_deref().filter(|_| is_robot) {
-            let mut exported = stiction::export_robot_file(robot, urdf.as_deref(), &options)?;
+            let mut exported = workflow::export_robot_file(robot, urdf.as_deref(), &options)?;
             spoken(&mut exported.warnings);
             exported.write(&out, force)?;
             return Ok(serde_json::to_string(&exported));
         }
         let mut exported = match &file {
-            Some(file) => stiction::export_file(file, &options)?,
-            None => stiction::export(&stiction::ModelFile::parse(model)?, &options)?,
+            Some(file) => workflow::export_file(file, &options)?,
+            None => workflow::export(&ModelFile::parse(model)?, &options)?,
         };
         exported.write(&out, force)?;
         spoken(&mut exported.warnings);

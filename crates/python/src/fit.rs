@@ -10,9 +10,15 @@ use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
-use stiction::bundle::beside_complete;
-use stiction::commands::{Bundle, Files, check_folder, check_inputs};
-use stiction::{Column, ModelFile, SavedFit, Verdict};
+use stiction_files::ModelFile;
+use stiction_files::{Bundle, check_folder, check_inputs};
+use stiction_log::Column;
+use stiction_pages::SavedFit;
+use stiction_pages::bundle::{self, beside_complete};
+use stiction_pages::{report, text};
+use stiction_workflows::Verdict;
+use stiction_workflows::identify::{self as workflow, Files, Outcome, predict};
+use stiction_workflows::source::Source;
 
 /// An identified law with everything that is known of it.
 #[pyclass(frozen, module = "stiction._native")]
@@ -24,7 +30,7 @@ pub struct Fit {
 
 enum Content {
     /// By an identification in this process.
-    Made(Box<stiction::Fit>),
+    Made(Box<Outcome>),
     /// From the files of one.
     Saved(Box<SavedFit>),
 }
@@ -35,13 +41,13 @@ type Named<'py> = (&'static str, Bound<'py, PyArray1<f64>>);
 impl Fit {
     fn bundle(&self) -> Bundle {
         match &self.content {
-            Content::Made(fit) => fit.bundle(),
+            Content::Made(fit) => bundle::identification(fit),
             Content::Saved(saved) => saved.bundle(),
         }
     }
 
     /// One that was identified in this process, to the end.
-    pub fn of(fit: stiction::Fit) -> Self {
+    pub fn of(fit: Outcome) -> Self {
         Self {
             content: Content::Made(Box::new(fit)),
             stopped: false,
@@ -51,7 +57,7 @@ impl Fit {
     /// The model.
     pub fn model(&self) -> ModelFile {
         match &self.content {
-            Content::Made(fit) => fit.model(),
+            Content::Made(fit) => ModelFile::from_result(&fit.result),
             Content::Saved(saved) => saved.model().clone(),
         }
     }
@@ -90,7 +96,7 @@ impl Fit {
     /// `result.json`.
     fn result_json(&self) -> String {
         match &self.content {
-            Content::Made(fit) => serde_json::to_string(fit.result()).expect("plain data"),
+            Content::Made(fit) => serde_json::to_string(&fit.result).expect("plain data"),
             Content::Saved(saved) => saved.text("result.json"),
         }
     }
@@ -103,7 +109,7 @@ impl Fit {
     /// `model.toml`.
     fn model_toml(&self) -> String {
         match &self.content {
-            Content::Made(fit) => fit.model().to_toml(),
+            Content::Made(_) => self.model().to_toml(),
             Content::Saved(saved) => saved.text("model.toml"),
         }
     }
@@ -111,7 +117,7 @@ impl Fit {
     /// `report.html`.
     fn report(&self, py: Python<'_>) -> String {
         match &self.content {
-            Content::Made(fit) => py.detach(|| fit.report()),
+            Content::Made(fit) => py.detach(|| report::identification(fit).to_html()),
             Content::Saved(saved) => saved.text("report.html"),
         }
     }
@@ -119,7 +125,7 @@ impl Fit {
     /// As the command line prints it; empty for a fit from files.
     fn text(&self) -> String {
         match &self.content {
-            Content::Made(fit) => fit.text(),
+            Content::Made(fit) => text::outcome(fit),
             Content::Saved(_) => String::new(),
         }
     }
@@ -131,10 +137,10 @@ impl Fit {
     ) -> Vec<(String, Option<String>, Bound<'py, PyArray1<f64>>)> {
         let columns = py.detach(|| match &self.content {
             Content::Made(fit) => {
-                let bundle = fit.bundle();
+                let bundle = bundle::identification(fit);
                 let csv = bundle.files().iter().find(|(name, _)| *name == "fit.csv");
                 let csv = csv.map(|(_, bytes)| String::from_utf8_lossy(bytes));
-                csv.and_then(|text| stiction::fit_columns(&text))
+                csv.and_then(|text| stiction_pages::bundle::fit_columns(&text))
             }
             Content::Saved(saved) => saved.series(),
         });
@@ -153,7 +159,7 @@ impl Fit {
             )
             .raise(py));
         };
-        let (found, _) = run(py, &How::quiet(), |_| fit.predict(&log.log))?;
+        let (found, _) = run(py, &How::quiet(), |_| predict(fit, &log.source))?;
         let found = found.map_err(|e| raised(py, &e))?;
         let quality = serde_json::to_string(&found.quality).expect("plain data");
         let residual = found.series.residual();
@@ -190,16 +196,16 @@ impl Fit {
 
     /// Writes the files of the command line; where they went.
     fn save(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<PathBuf>> {
-        let write = || -> Result<Vec<PathBuf>, stiction::Error> {
+        let write = || -> Result<Vec<PathBuf>, stiction_workflows::Error> {
             check_folder(&folder, force)?;
             let bundle = match &self.content {
                 Content::Made(fit) => {
-                    check_inputs(&folder, fit.inputs())?;
-                    fit.bundle_in(&folder)
+                    check_inputs(&folder, fit.sources.iter().map(|s| s.path.as_path()))?;
+                    bundle::identification_in(fit, &folder)
                 }
                 Content::Saved(saved) => saved.bundle(),
             };
-            let schema = stiction::result::SCHEMA;
+            let schema = stiction_files::result::SCHEMA;
             let beside = beside_complete(&bundle, &folder, schema, self.stopped);
             Ok(bundle.write(beside.as_deref().unwrap_or(&folder))?)
         };
@@ -208,7 +214,7 @@ impl Fit {
 }
 
 impl Fit {
-    fn saved(py: Python<'_>, saved: Result<SavedFit, stiction::Error>) -> PyResult<Self> {
+    fn saved(py: Python<'_>, saved: Result<SavedFit, stiction_workflows::Error>) -> PyResult<Self> {
         let saved = saved.map_err(|e| raised(py, &e))?;
         Ok(Self {
             content: Content::Saved(Box::new(saved)),
@@ -218,7 +224,7 @@ impl Fit {
 
     fn made(
         py: Python<'_>,
-        (fit, stopped): (Result<stiction::Fit, stiction::Error>, bool),
+        (fit, stopped): (Result<Outcome, stiction_workflows::Error>, bool),
     ) -> PyResult<(Self, bool)> {
         let fit = fit.map_err(|e| raised(py, &e))?;
         let content = Content::Made(Box::new(fit));
@@ -238,8 +244,8 @@ pub fn identify(
     threads: Option<usize>,
 ) -> PyResult<(Fit, bool)> {
     let options = options.options().map_err(|refusal| refusal.raise(py))?;
-    let each = |logs: Vec<Py<Log>>| -> Vec<stiction::Log> {
-        logs.iter().map(|log| log.get().log.clone()).collect()
+    let each = |logs: Vec<Py<Log>>| -> Vec<Source> {
+        logs.iter().map(|log| log.get().source.clone()).collect()
     };
     let (logs, validate) = (each(logs), each(validate));
     let how = How {
@@ -248,7 +254,7 @@ pub fn identify(
         stopped: Stopped::Keeps,
     };
     let found = run(py, &how, |observer| {
-        stiction::identify_observed(&logs, &validate, &axis.axis, &options, observer)
+        workflow::identify_logs(&options, &axis.axis, logs, validate, observer)
     });
     Fit::made(py, found?)
 }
@@ -276,7 +282,7 @@ pub fn identify_files(
         stopped: Stopped::Keeps,
     };
     let found = run(py, &how, |observer| {
-        stiction::identify_files(&files, &options, observer)
+        workflow::identify(&files, &options, observer)
     });
     Fit::made(py, found?)
 }

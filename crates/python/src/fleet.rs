@@ -6,13 +6,15 @@ use crate::run::{How, Stopped, run};
 use pyo3::prelude::*;
 use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
-use stiction::commands::batch::{Batch, Called, Listed, LogRow, Results, read_results as read};
-use stiction::{Code, Options};
+use stiction_codes::Code;
+use stiction_files::batch::{Listed, LogRow, Results, read_results as read};
+use stiction_workflows::batch::{Batch, Called};
+use stiction_workflows::identify::Options;
 
 /// Seconds of a time as a list of logs has it, since 1970 UTC of a date; `None` of anything else.
 #[pyfunction]
 pub fn seconds_of(text: &str) -> Option<f64> {
-    stiction::commands::batch::seconds_of(text)
+    stiction_files::batch::seconds_of(text)
 }
 
 /// A log, and what is known of it: a dict with every key.
@@ -69,7 +71,7 @@ pub fn identify_row(
         threads: Some(1),
         stopped: Stopped::Loses,
     };
-    let memory = memory.unwrap_or_else(stiction::allowed_memory);
+    let memory = memory.unwrap_or_else(stiction_formats::allowed_memory);
     let (row, _) = run(py, &how, |observer| {
         batch.row(known.as_deref(), memory, observer)
     })?;
@@ -164,9 +166,9 @@ pub fn write_rows(py: Python<'_>, table: PathBuf, rows: Vec<String>) -> PyResult
     written.map_err(|e| raised(py, &e.into()))
 }
 
-fn foreign(table: &Path, error: &serde_json::Error) -> stiction::commands::FileError {
+fn foreign(table: &Path, error: &serde_json::Error) -> stiction_files::Error {
     let reason = format!("a row that is none of stiction's: {error}");
-    stiction::commands::FileError::output(table, reason)
+    stiction_files::Error::output(table, reason)
 }
 
 /// Writes a table anew without the logs of those paths, and others with what is known of them now, whole or not at all; returns

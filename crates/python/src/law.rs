@@ -5,7 +5,9 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use stiction::{FrictionLaw, ModelFile, SteppedLaw, forces_along};
+use stiction_files::ModelFile;
+use stiction_parameters::FrictionLaw;
+use stiction_workflows::{SteppedLaw, forces_along};
 
 /// A friction law with its state.
 #[pyclass(frozen, module = "stiction._native")]

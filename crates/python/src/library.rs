@@ -3,8 +3,8 @@
 use crate::error::raised;
 use pyo3::prelude::*;
 use std::path::PathBuf;
-use stiction::Error;
-use stiction::library::Library;
+use stiction_workflows::Error;
+use stiction_workflows::library::Library;
 
 /// The machines, as JSON: their rows of the index.
 #[pyfunction]

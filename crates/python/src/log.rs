@@ -6,14 +6,16 @@ use crate::run::{How, Stopped, run};
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
-use stiction::commands::{check as workflow, text};
-use stiction::{Column, Severity};
+use stiction_log::{Column, Severity};
+use stiction_pages::text;
+use stiction_workflows::check as workflow;
+use stiction_workflows::source::{self, Source};
 
 /// A recording in SI units.
 #[pyclass(frozen, module = "stiction._native")]
 pub struct Log {
     /// As the library has it.
-    pub log: stiction::Log,
+    pub source: Source,
 }
 
 /// Header, unit where it is not in the header, samples.
@@ -26,11 +28,9 @@ impl Log {
     /// Reads a file.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf, axis: &Axis) -> PyResult<Self> {
-        let (log, _) = run(py, &How::quiet(), |_| {
-            stiction::Log::open_with(&path, &axis.axis)
-        })?;
-        let log = log.map_err(|e| raised(py, &e))?;
-        Ok(Self { log })
+        let (source, _) = run(py, &How::quiet(), |_| source::load(&path, &axis.axis))?;
+        let source = source.map_err(|e| raised(py, &e))?;
+        Ok(Self { source })
     }
 
     /// Takes columns that are in memory.
@@ -56,51 +56,51 @@ impl Log {
                 }
             })
             .collect();
-        let (log, _) = run(py, &How::quiet(), |_| {
-            stiction::Log::from_columns(name, columns, &axis.axis)
+        let (source, _) = run(py, &How::quiet(), |_| {
+            source::in_memory(name, columns, &axis.axis)
         })?;
-        let log = log.map_err(|e| raised(py, &e))?;
-        Ok(Self { log })
+        let source = source.map_err(|e| raised(py, &e))?;
+        Ok(Self { source })
     }
 
     #[getter]
     fn path(&self) -> &Path {
-        self.log.path()
+        &self.source.path
     }
 
     #[getter]
     fn sha256(&self) -> &str {
-        self.log.sha256()
+        &self.source.sha256
     }
 
     #[getter]
     fn samples(&self) -> usize {
-        self.log.samples()
+        self.source.log.time.len()
     }
 
     #[getter]
     fn rate_hz(&self) -> f64 {
-        self.log.rate_hz()
+        self.source.log.rate_hz
     }
 
     #[getter]
     fn kind(&self) -> String {
-        self.log.motion().to_string()
+        self.source.log.motion.to_string()
     }
 
     #[getter]
     fn force_unit(&self) -> &str {
-        self.log.force_unit()
+        &self.source.log.force_unit
     }
 
     #[getter]
     fn detected(&self) -> Vec<String> {
-        self.log.detected().to_vec()
+        self.source.detected.clone()
     }
 
     #[getter]
     fn findings(&self) -> Vec<Told> {
-        let told = self.log.findings().iter().map(|f| {
+        let told = self.source.log.findings.iter().map(|f| {
             let severity = match f.severity {
                 Severity::Note => "note",
                 Severity::Warning => "warning",
@@ -112,26 +112,29 @@ impl Log {
 
     /// A channel by its name; `None` where the log has none.
     fn channel<'py>(&self, py: Python<'py>, name: &str) -> Option<Bound<'py, PyArray1<f64>>> {
-        let log = &self.log;
+        let log = &self.source.log;
         let values = match name {
-            "time" => Some(log.time()),
-            "position" => log.position(),
-            "velocity" => log.velocity(),
-            "force" => log.force(),
-            "reference" => log.reference(),
+            "time" => Some(&log.time),
+            "position" => log.position.as_ref(),
+            "velocity" => log.velocity.as_ref(),
+            "force" => log.force.as_ref(),
+            "reference" => log.reference.as_ref(),
             _ => None,
         };
-        values.map(|values| values.to_vec().into_pyarray(py))
+        values.map(|values| values.clone().into_pyarray(py))
     }
 }
 
 /// JSON, text for people, and whether each log determines a law that may be trusted.
 type Checked = (String, String, bool);
 
-fn checked(py: Python<'_>, found: Result<workflow::Check, stiction::Error>) -> PyResult<Checked> {
+fn checked(
+    py: Python<'_>,
+    found: Result<workflow::Check, stiction_workflows::Error>,
+) -> PyResult<Checked> {
     let found = found.map_err(|e| raised(py, &e))?;
     let json = serde_json::to_string(&found).expect("plain data");
-    let trusted = found.verdict() == stiction::Verdict::Trustworthy;
+    let trusted = found.verdict() == stiction_workflows::Verdict::Trustworthy;
     Ok((json, text::check(&found), trusted))
 }
 
@@ -149,9 +152,9 @@ pub fn check(
         threads,
         stopped: Stopped::Loses,
     };
-    let logs: Vec<stiction::Log> = logs.iter().map(|log| log.get().log.clone()).collect();
+    let sources: Vec<Source> = logs.iter().map(|log| log.get().source.clone()).collect();
     let (found, _) = run(py, &how, |observer| {
-        stiction::check(&logs, &axis.axis, observer)
+        workflow::check_logs(&sources, &axis.axis, observer)
     })?;
     checked(py, found)
 }
@@ -179,7 +182,9 @@ pub fn check_files(
 /// Writes the log of a simulated axis.
 #[pyfunction]
 pub fn write_demo_log(py: Python<'_>, path: PathBuf, seed: u64) -> PyResult<()> {
-    let (written, _) = run(py, &How::quiet(), |_| stiction::demo::write_log(path, seed))?;
+    let (written, _) = run(py, &How::quiet(), |_| {
+        stiction_workflows::demo::write_log(path, seed)
+    })?;
     written.map_err(|e| raised(py, &e))
 }
 
@@ -187,7 +192,7 @@ pub fn write_demo_log(py: Python<'_>, path: PathBuf, seed: u64) -> PyResult<()> 
 #[pyfunction]
 pub fn write_procedure_logs(py: Python<'_>, folder: PathBuf, seed: u64) -> PyResult<Vec<PathBuf>> {
     let (written, _) = run(py, &How::quiet(), |_| {
-        stiction::demo::procedures(folder, seed)
+        stiction_workflows::demo::procedures(folder, seed)
     })?;
     written.map(|(logs, _)| logs).map_err(|e| raised(py, &e))
 }
@@ -195,5 +200,5 @@ pub fn write_procedure_logs(py: Python<'_>, folder: PathBuf, seed: u64) -> PyRes
 /// Limits the memory that reading a log may take, bytes.
 #[pyfunction]
 pub fn allow_memory(bytes: u64) {
-    stiction::allow_memory(bytes);
+    stiction_formats::allow_memory(bytes);
 }

@@ -7,12 +7,11 @@ use crate::study::{Parts, bundled, saved, unbundled};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use std::path::PathBuf;
-use stiction::LawKind;
-use stiction::bundle;
-use stiction::commands::plan::SCHEMA;
-use stiction::commands::{
-    Bundle, Carrier, Known, Looks, PLANNED, PlanOptions, Want, looks, plan_motion, text,
-};
+use stiction_files::plan::SCHEMA;
+use stiction_files::{Bundle, Looks, looks};
+use stiction_pages::{bundle, text};
+use stiction_parameters::LawKind;
+use stiction_workflows::plan::{Carrier, Known, PLANNED, PlanOptions, Want, plan as plan_motion};
 
 /// A planned motion.
 #[pyclass(frozen, module = "stiction._native")]
@@ -76,7 +75,7 @@ impl Plan {
         py: Python<'py>,
     ) -> Vec<(String, Option<String>, Bound<'py, PyArray1<f64>>)> {
         let columns = self.file("setpoints.csv");
-        let columns = columns.and_then(|text| stiction::fit_columns(&text));
+        let columns = columns.and_then(|text| stiction_pages::bundle::fit_columns(&text));
         let columns = columns.into_iter().flatten();
         columns
             .map(|c| (c.name, c.unit, c.values.into_pyarray(py)))
@@ -146,7 +145,7 @@ pub fn plan(
             inputs: files.into_iter().flatten().collect(),
         }))
     })?;
-    let plan = found.map_err(|e: stiction::Error| raised(py, &e))?;
+    let plan = found.map_err(|e: stiction_workflows::Error| raised(py, &e))?;
     Ok((plan, stopped))
 }
 

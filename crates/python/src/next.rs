@@ -1,8 +1,8 @@
 //! What to do next with a fit, as data for Python.
 
 use serde_json::{Map, Value};
-use stiction::commands::text::next_action;
-use stiction::result::{Action, ResultFile};
+use stiction_files::result::{Action, ResultFile};
+use stiction_pages::text::next_action;
 
 /// The action on a result as JSON: its name, and what it has; a line of an axis file also as `key` and `value`. `None` of a
 /// result of another version.

@@ -3,10 +3,10 @@
 use crate::error::Refusal;
 use pyo3::prelude::*;
 use std::path::PathBuf;
-use stiction::commands::Carrier;
-use stiction::{
-    CostKind, Feedforward, LawKind, Method, Options, Procedures, Searching, Target, Width,
-};
+use stiction_parameters::LawKind;
+use stiction_workflows::export::{Feedforward, Target, Width};
+use stiction_workflows::identify::{CostKind, Method, Options, Procedures, Searching};
+use stiction_workflows::plan::Carrier;
 
 /// The law that stands for a choice by the data.
 const AUTO: &str = "auto";
@@ -113,7 +113,9 @@ pub fn choices(argument: &str) -> Vec<&'static str> {
         "formats" => Carrier::ALL.map(Carrier::name).to_vec(),
         "feedforward" => Feedforward::all().names(),
         "width" => Width::ALL.map(Width::name).to_vec(),
-        "planned_law" => stiction::commands::PLANNED.map(LawKind::name).to_vec(),
+        "planned_law" => stiction_workflows::plan::PLANNED
+            .map(LawKind::name)
+            .to_vec(),
         "stage" => STAGES.to_vec(),
         _ => Vec::new(),
     }

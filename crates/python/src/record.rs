@@ -4,8 +4,9 @@ use crate::error::raised;
 use crate::run::{How, Stopped, run};
 use pyo3::prelude::*;
 use std::path::PathBuf;
-use stiction::commands::record::{Device, End, Options, Recorded};
-use stiction::{Control, Error, Observer, Progress, Stage};
+use stiction_identify::{Control, Observer, Progress, Stage};
+use stiction_record::{Device, End, Options, Recorded};
+use stiction_workflows::Error;
 
 /// Numbers of a recording with their names, and why the device was lost: code and message.
 type Told = (
@@ -38,7 +39,7 @@ pub fn record(
         };
         let goes_on =
             &mut |part| watch.progress(&Progress::of(Stage::Recording, part)) == Control::Continue;
-        let recorded = stiction::commands::record::record(&mut *source, &out, &options, goes_on);
+        let recorded = stiction_record::record(&mut *source, &out, &options, goes_on);
         Ok(recorded?)
     })?;
     let recorded = recorded.map_err(|e| raised(py, &e))?;

@@ -5,10 +5,12 @@ use crate::fit::Fit;
 use crate::run::{How, Stopped, run};
 use pyo3::prelude::*;
 use std::path::{Path, PathBuf};
-use stiction::Verdict;
-use stiction::bundle;
-use stiction::commands::{check_folder_of, check_inputs, report, text};
-use stiction::robot::{Files, Options, RobotOutcome, SCHEMA, inputs};
+use stiction_files::robot::result::SCHEMA;
+use stiction_files::{check_folder_of, check_inputs};
+use stiction_pages::bundle;
+use stiction_pages::{report, text};
+use stiction_workflows::Verdict;
+use stiction_workflows::robot::{Files, Options, RobotOutcome};
 
 /// What was identified of a robot.
 #[pyclass(frozen, module = "stiction._native")]
@@ -50,14 +52,14 @@ impl Robot {
     fn fit(&self, name: &str) -> Option<Fit> {
         let mut joints = self.outcome.joints.iter();
         let joint = joints.find(|joint| joint.name == name)?;
-        stiction::robot::fit(joint).map(Fit::of)
+        joint.outcome.as_ref().ok().cloned().map(Fit::of)
     }
 
     /// Writes the files of the command line.
     fn write(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<PathBuf>> {
-        let write = || -> Result<Vec<PathBuf>, stiction::Error> {
+        let write = || -> Result<Vec<PathBuf>, stiction_workflows::Error> {
             check_folder_of(&folder, SCHEMA, force)?;
-            check_inputs(&folder, inputs(&self.outcome))?;
+            check_inputs(&folder, self.outcome.inputs())?;
             let bundle = bundle::robot(&self.outcome, &folder);
             let beside = bundle::beside_complete(&bundle, &folder, SCHEMA, self.stopped);
             Ok(bundle.write(beside.as_deref().unwrap_or(&folder))?)
@@ -95,7 +97,7 @@ pub fn robot(
         stopped: Stopped::Keeps,
     };
     let (found, stopped) = run(py, &how, |observer| {
-        stiction::robot::robot(&files, &options, observer)
+        stiction_workflows::robot::robot(&files, &options, observer)
     })?;
     let outcome = found.map_err(|e| raised(py, &e))?;
     Ok((Robot { outcome, stopped }, stopped))

@@ -12,7 +12,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Mutex, OnceLock};
 use std::thread;
 use std::time::Duration;
-use stiction::{Control, Observer, Progress};
+use stiction_identify::{Control, Observer, Progress};
 
 /// Between two looks for signals and progress.
 const BETWEEN: Duration = Duration::from_millis(20);
@@ -170,10 +170,7 @@ fn tell(py: Python<'_>, how: &How, shared: &Shared) -> PyResult<()> {
         return Ok(());
     };
     let error = last.best.is_finite().then_some(last.best);
-    let answer = progress.call1(
-        py,
-        (stiction::commands::stage(last.stage), last.fraction, error),
-    )?;
+    let answer = progress.call1(py, (last.stage.name(), last.fraction, error))?;
     // `None` and everything else go on.
     if answer.extract::<bool>(py).is_ok_and(|goes_on| !goes_on) {
         shared.stop.store(true, Ordering::Relaxed);

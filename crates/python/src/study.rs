@@ -4,9 +4,10 @@ use crate::error::raised;
 use crate::run::{How, Stopped, run};
 use pyo3::prelude::*;
 use std::path::PathBuf;
-use stiction::bundle;
-use stiction::commands::study::result::SCHEMA;
-use stiction::commands::{Bundle, check_folder_of, check_inputs, text};
+use stiction_files::study::result::SCHEMA;
+use stiction_files::{Bundle, check_folder_of, check_inputs};
+use stiction_pages::bundle;
+use stiction_pages::text;
 
 /// Files by name, JSON, text, paths that were read, and a verdict where there is one.
 pub type Parts = (Vec<(String, Vec<u8>)>, String, String, Vec<PathBuf>, String);
@@ -107,7 +108,7 @@ pub fn saved(
     folder: &std::path::Path,
     force: bool,
 ) -> PyResult<Vec<PathBuf>> {
-    let write = || -> Result<Vec<PathBuf>, stiction::Error> {
+    let write = || -> Result<Vec<PathBuf>, stiction_workflows::Error> {
         check_folder_of(folder, schema, force)?;
         check_inputs(folder, inputs)?;
         let beside = bundle::beside_complete(bundle, folder, schema, false);
@@ -132,22 +133,22 @@ pub fn simulate(
     };
     let (found, stopped) = run(py, &how, |observer| {
         let study = match max_samples {
-            Some(most) => stiction::Study::read_within(&study, most)?,
-            None => stiction::Study::read(&study)?,
+            Some(most) => stiction_files::study::Study::read_within(&study, most)?,
+            None => stiction_files::study::Study::read(&study)?,
         };
-        let outcome = stiction::simulate(&study, observer);
+        let outcome = stiction_workflows::study::simulate(&study, observer);
         Ok(Study {
             bundle: bundle::study(&outcome),
             json: serde_json::to_string(&outcome.file).expect("plain data"),
             text: text::study(&outcome),
             inputs: study.inputs().map(PathBuf::from).collect(),
             verdict: match outcome.verdict() {
-                stiction::Verdict::Trustworthy => "trustworthy",
-                stiction::Verdict::NotTrustworthy => "not-trustworthy",
-                stiction::Verdict::Interrupted => "interrupted",
+                stiction_workflows::Verdict::Trustworthy => "trustworthy",
+                stiction_workflows::Verdict::NotTrustworthy => "not-trustworthy",
+                stiction_workflows::Verdict::Interrupted => "interrupted",
             },
         })
     })?;
-    let study = found.map_err(|e: stiction::Error| raised(py, &e))?;
+    let study = found.map_err(|e: stiction_workflows::Error| raised(py, &e))?;
     Ok((study, stopped))
 }

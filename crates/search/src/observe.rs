@@ -110,6 +110,7 @@ impl Default for Limits {
 
 /// What is being done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Stage {
     /// Cut-offs tried on replicas.
     Tuning,
@@ -145,6 +146,25 @@ pub enum Stage {
         /// Of how many.
         all: usize,
     },
+}
+
+impl Stage {
+    /// In the words of the terminal.
+    pub fn name(self) -> &'static str {
+        match self {
+            Stage::Tuning => "choosing cut-offs",
+            Stage::Calibration => "measuring the bias",
+            Stage::Counts => "asking the encoder counts",
+            Stage::Search => "searching",
+            Stage::Scan => "scanning the box",
+            Stage::Coarse => "first descents",
+            Stage::Fine | Stage::Finish => "least squares",
+            Stage::CrossValidation => "comparing laws",
+            Stage::Recording => "recording",
+            Stage::Logs { .. } => "identifying",
+            Stage::Experiments { .. } => "simulating",
+        }
+    }
 }
 
 impl From<Phase> for Stage {

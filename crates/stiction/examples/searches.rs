@@ -3,10 +3,11 @@
 
 use std::fmt::Write;
 use std::time::Instant;
-use stiction::Silent;
-use stiction::commands::compare_file::{CompareFile, MethodEntry, Quartiles};
-use stiction::commands::{CompareOptions, Cost, Excitation, Input, Scheme, compare};
+use stiction_files::compare_file::{CompareFile, MethodEntry, Quartiles};
+use stiction_identify::Silent;
+use stiction_identify::candidates::Scheme;
 use stiction_testkit::workspace;
+use stiction_workflows::compare::{CompareOptions, Cost, Excitation, Input, compare};
 
 const PAGE: &str = "docs/searches.md";
 /// Methods that take costs only, without the slow ones where a candidate is alone.
@@ -311,7 +312,7 @@ fn main() -> std::io::Result<()> {
         let clock = Instant::now();
         put(&mut page, name, &make(seeds));
         eprintln!("{name}: {:.0} s", clock.elapsed().as_secs_f64());
-        stiction::commands::write_atomic(&file, page.as_bytes()).map_err(std::io::Error::other)?;
+        stiction_files::write_atomic(&file, page.as_bytes()).map_err(std::io::Error::other)?;
     }
     Ok(())
 }

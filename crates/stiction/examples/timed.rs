@@ -2,7 +2,7 @@
 //! compares the Python package with. `timed LOG TIMES`.
 
 use std::time::Instant;
-use stiction::{Axis, LawKind, Log, Options, identify, set_threads};
+use stiction::{Identification, LawKind, Log, set_threads};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut arguments = std::env::args().skip(1);
@@ -10,12 +10,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let times: u32 = arguments.next().ok_or("how many times")?.parse()?;
     set_threads(1);
     let log = [Log::open(path)?];
-    let mut options = Options::default();
-    (options.law, options.compare_laws) = (Some(LawKind::LuGre), false);
     let mut least = f64::INFINITY;
     for _ in 0..times {
         let clock = Instant::now();
-        identify(&log, &Axis::default(), &options)?;
+        Identification::of(&log)
+            .law(LawKind::LuGre)
+            .without_comparison()
+            .run()?;
         least = least.min(clock.elapsed().as_secs_f64());
     }
     println!("{least}");

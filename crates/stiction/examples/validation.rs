@@ -6,7 +6,7 @@ mod measure;
 
 use std::fmt::Write;
 use std::path::Path;
-use stiction::result::Action;
+use stiction_files::result::Action;
 use stiction_testkit::{CASES, DEFAULT_RUNS, recordings, workspace};
 
 fn main() -> std::io::Result<()> {
@@ -63,7 +63,7 @@ fn main() -> std::io::Result<()> {
             );
         }
     }
-    stiction::commands::write_atomic(workspace().join("docs/validation.md"), out.as_bytes())
+    stiction_files::write_atomic(workspace().join("docs/validation.md"), out.as_bytes())
         .map_err(std::io::Error::other)
 }
 
@@ -98,7 +98,7 @@ fn defaults(data: &Path, out: &mut String) {
             result.search.wall_s,
             match &result.trust.next {
                 Action::Export => "`stiction export DIR/model.toml --target c --out DIR/c`",
-                other => stiction::commands::text::why(other),
+                other => stiction_pages::text::why(other),
             }
         );
     }

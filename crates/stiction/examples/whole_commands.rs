@@ -6,14 +6,17 @@
 
 use std::fmt::Write;
 use std::hint::black_box;
-use stiction::commands::Files;
-use stiction::{LawKind, Options, Silent, bundle};
+use stiction_identify::Silent;
+use stiction_pages::bundle;
+use stiction_parameters::LawKind;
 use stiction_servo::cascade::Cascade;
 use stiction_servo::closed_loop::{ClosedLoop, ForceLog};
 use stiction_servo::encoder::Encoder;
 use stiction_servo::known;
 use stiction_servo::path::Path;
 use stiction_servo::plant::Plant;
+use stiction_workflows::identify::Files;
+use stiction_workflows::identify::Options;
 
 const RATE: f64 = 1000.0;
 const SECONDS: f64 = 1.5;
@@ -75,7 +78,7 @@ fn main() {
         }
         "command-demo" => {
             let file = folder.path().join("demo.csv");
-            stiction::demo::write_log(&file, 1).expect("a log on disk");
+            stiction_workflows::demo::write_log(&file, 1).expect("a log on disk");
             Files {
                 logs: vec![file],
                 ..Files::default()
@@ -92,7 +95,7 @@ fn main() {
     let one = rayon::ThreadPoolBuilder::new().num_threads(1);
     one.build().expect("a thread").install(|| {
         counted(&mut || {
-            let outcome = stiction::commands::identify(&files, &options, &mut Silent);
+            let outcome = stiction_workflows::identify::identify(&files, &options, &mut Silent);
             black_box(bundle::identification(&outcome.expect("an outcome")));
         });
     });

@@ -26,8 +26,10 @@ use identified::identified;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::time::{SystemTime, UNIX_EPOCH};
-use stiction::{Axis, LawKind, Options};
+use stiction_files::Axis;
+use stiction_parameters::LawKind;
 use stiction_testkit::worlds::{Case, Motion, World, record};
+use stiction_workflows::identify::Options;
 
 fn main() {
     let asked = Asked::of_arguments(2);
@@ -67,7 +69,7 @@ fn main() {
             let truths = machines
                 .iter()
                 .flat_map(|machine| case.setup.truth(machine));
-            claims::judged_by(&truths.collect::<Vec<_>>(), fit)
+            claims::judged_by(&truths.collect::<Vec<_>>(), fit.map(|fit| fit.0))
         })
         .collect();
     if asked.has("each") {

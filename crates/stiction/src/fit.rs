@@ -1,68 +1,30 @@
 //! An identified law with everything that is known of it.
 
-use crate::{Error, Log, Parameter, bundle};
+use crate::findings::findings;
+use crate::{Error, Law, Log, Model, Prediction, Quality, Series};
 use std::path::{Path, PathBuf};
-use stiction_files::result::{CovarianceEntry, FitEntry, ResultFile};
-use stiction_files::{Bundle, ModelFile, Warning};
+use stiction_files::ModelFile;
 use stiction_friction::compensator::Compensator;
-use stiction_identify::Series;
-use stiction_pages::report;
-use stiction_parameters::{FrictionLaw, LawError, LawKind, ParameterSet};
+use stiction_pages::{bundle, report, text};
 use stiction_workflows::Verdict;
-use stiction_workflows::export::{self, ExportOptions, Target};
-use stiction_workflows::identify::{self, Outcome, Prediction};
+use stiction_workflows::identify::{Outcome, predict};
 
-/// What an identification found: the law, its parameters with intervals and flags, how well it fits, and whether it may be
-/// trusted.
+/// What an identification found: the law, its parameters with intervals, friction by velocity, how well it fits, and whether it may
+/// be trusted.
 #[derive(Clone, Debug)]
-pub struct Fit {
-    pub(crate) outcome: Outcome,
-}
+pub struct Fit(pub(crate) Outcome);
+
+findings!(Fit, |fit| &fit.0.result);
 
 impl Fit {
-    /// The parameters, in the order of tables.
-    pub fn parameters(&self) -> impl ExactSizeIterator<Item = Parameter<'_>> {
-        self.outcome.result.parameters.iter().map(Parameter)
-    }
-
-    /// The parameter of this name, such as `coulomb`.
-    pub fn parameter(&self, name: &str) -> Option<Parameter<'_>> {
-        self.parameters().find(|p| p.name() == name)
-    }
-
-    /// Covariance of the identified parameters, in the squares and products of their units.
-    pub fn covariance(&self) -> &CovarianceEntry {
-        &self.outcome.result.covariance
-    }
-
-    /// The family of the law: the one that was asked for, or that the data chose.
-    pub fn law_kind(&self) -> LawKind {
-        self.outcome.law().law.kind
-    }
-
-    /// Whether the result may be used; if not, [`reasons`](Self::reasons) says why.
-    pub fn is_trustworthy(&self) -> bool {
-        self.outcome.result.trust.trustworthy
-    }
-
-    /// Why the result may not be used; empty if it may.
-    pub fn reasons(&self) -> &[String] {
-        &self.outcome.result.trust.reasons
-    }
-
-    /// What to know although the identification went on, each with its code.
-    pub fn warnings(&self) -> &[Warning] {
-        &self.outcome.result.warnings
-    }
-
-    /// How well the law fits the samples that it was fitted to.
-    pub fn quality(&self) -> &FitEntry {
-        &self.outcome.result.fit
+    /// What the result is worth, in one word.
+    pub fn verdict(&self) -> Verdict {
+        self.0.verdict()
     }
 
     /// The signals at the samples that were fitted.
-    pub fn series(&self) -> &Series {
-        &self.outcome.law().series
+    pub fn series(&self) -> Series {
+        self.0.law().series.clone().into()
     }
 
     /// What the law makes of another log, conditioned in the same way; nothing is fitted again.
@@ -71,79 +33,55 @@ impl Fit {
     /// Where the log is of another kind of axis, or lacks a channel that the law needs; and after a method that does not
     /// model the force sample by sample.
     pub fn predict(&self, log: &Log) -> Result<Prediction, Error> {
-        identify::predict(&self.outcome, &log.source)
+        let found = predict(&self.0, &log.0)?;
+        Ok(Prediction {
+            quality: Quality::from(&found.quality),
+            series: found.series.into(),
+        })
     }
 
-    /// The law as `stiction-friction` runs it, with a constant sigma1 as it was identified;
-    /// [`FrictionLaw::capped`] is the form for simulation and control.
+    /// The law with its numbers, sigma1 constant as it was identified; [`Law::stepped`] is the form for simulation and control.
     ///
     /// # Errors
-    /// Where an identified value is none that the law can have, such as a static friction below the Coulomb level.
-    pub fn law(&self) -> Result<FrictionLaw, LawError> {
-        let values = self.parameters().map(|p| (p.name(), p.value()));
-        ParameterSet::from_text(self.law_kind(), values).law()
+    /// Where an identified value is one that the law cannot have, such as a static friction below the Coulomb level.
+    pub fn law(&self) -> Result<Law, Error> {
+        self.model().law()
     }
 
-    /// The compensator that [`export`](crate::export()) writes, as a value to be stepped every `cycle_time` seconds, driven
-    /// by the reference velocity, with its limit and watchdog. Until the watchdog has seen the axis reverse without it, the
-    /// force is 0. Other settings:
-    /// [`Compensator::new`] with [`law`](Self::law).
+    /// The compensator that [`Export`](crate::Export) writes, as a value to be stepped every `cycle_time` seconds, driven by the
+    /// reference velocity, with its limit and watchdog. Until the watchdog has seen the axis reverse without it, the force is 0.
     ///
     /// # Errors
     /// Where the law cannot be exported, or the cycle time is out of range.
     pub fn compensator(&self, cycle_time: f64) -> Result<Compensator<f64>, Error> {
-        export::compensator(&self.model(), &ExportOptions::new(Target::Rust, cycle_time))
+        self.model().compensator(cycle_time)
     }
 
-    /// The law as `model.toml` keeps it: what [`export`](crate::export()) and studies take.
-    pub fn model(&self) -> ModelFile {
-        ModelFile::from_result(&self.outcome.result)
-    }
-
-    /// Everything that was found, as `result.json` keeps it.
-    pub fn result(&self) -> &ResultFile {
-        &self.outcome.result
+    /// The law as `model.toml` keeps it: what [`Export`](crate::Export) and studies take.
+    pub fn model(&self) -> Model {
+        Model(ModelFile::from_result(&self.0.result))
     }
 
     /// The report, one HTML file without scripts.
     pub fn report(&self) -> String {
-        report::identification(&self.outcome).to_html()
+        report::identification(&self.0).to_html()
     }
 
     /// As the command line prints it: parameters, fit, what it may be used for.
     pub fn text(&self) -> String {
-        stiction_pages::text::outcome(&self.outcome)
+        text::outcome(&self.0)
     }
 
-    /// What the result is worth, in one word.
-    pub fn verdict(&self) -> Verdict {
-        self.outcome.verdict()
-    }
-
-    /// The files that [`write`](Self::write) writes: `result.json`, `model.toml`, `report.html`, `fit.csv`, and where a study
-    /// takes the law `study.toml`.
-    pub fn bundle(&self) -> Bundle {
-        bundle::identification(&self.outcome)
-    }
-
-    /// The same for a folder, by which the commands in the report call those that follow.
-    pub fn bundle_in(&self, folder: &Path) -> Bundle {
-        bundle::identification_in(&self.outcome, folder)
-    }
-
-    /// The logs that were fitted, as they were given.
-    pub fn inputs(&self) -> impl Iterator<Item = &Path> {
-        self.outcome.sources.iter().map(|s| s.path.as_path())
-    }
-
-    /// Writes `result.json`, `model.toml`, `report.html` and `fit.csv` into a folder, whole or not at all.
+    /// Writes `result.json`, `model.toml`, `report.html`, `fit.csv`, and where a study takes the law `study.toml` into a folder, whole
+    /// or not at all; their paths.
     ///
     /// # Errors
     /// Where the folder cannot be written, or holds something that stiction did not write.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
         let folder = folder.as_ref();
+        let inputs = self.0.sources.iter().map(|source| source.path.as_path());
         stiction_files::check_folder(folder, false)?;
-        stiction_files::check_inputs(folder, self.inputs())?;
-        Ok(self.bundle_in(folder).write(folder)?)
+        stiction_files::check_inputs(folder, inputs)?;
+        Ok(bundle::identification_in(&self.0, folder).write(folder)?)
     }
 }

@@ -1,9 +1,9 @@
 //! Friction of servo axes: from a drive's log to a law with intervals, and on to its compensation.
 //!
-//! Begin with [`Log::open`] and [`identify()`]. A log in, a law out, with what may be said of each number:
+//! Begin with [`Identification`]. A log in, a law out, with what may be said of each number:
 //!
 //! ```
-//! use stiction::{Axis, Input, Log, Options, demo, identify};
+//! use stiction::{Identification, Input, LawKind, Log, Quantity, demo};
 //!
 //! # let folder = tempfile::tempdir()?;
 //! # std::env::set_current_dir(&folder)?;
@@ -12,24 +12,28 @@
 //! demo::write_log("another.csv", 2)?;
 //!
 //! // Read. Columns and units are those in the file; `Axis::read("axis.toml")` states what it does not say.
-//! let axis = Axis::default();
-//! let log = Log::open_with("run.csv", &axis)?;
+//! let log = Log::open("run.csv")?;
 //! println!("{} samples at {} Hz", log.samples(), log.rate_hz());
 //!
-//! // Identify LuGre, the default law; `options.law = None` lets the data choose.
-//! let fit = identify(&[log], &axis, &Options::default())?;
-//!
-//! // Look at an interval, and at what the log does not determine.
-//! let coulomb = fit.parameter("coulomb").expect("every law has a Coulomb level");
-//! println!("{} = {:.2} {}, 95 %: {:?}", coulomb.symbol(), coulomb.value(), coulomb.unit(), coulomb.interval());
-//! for p in fit.parameters().filter(|p| !p.is_identifiable()) {
-//!     println!("do not use {}: {} {}", p.name(), p.reason(), p.advice());
-//! }
+//! // Identify. Without `law` the data choose it; `without_comparison` saves the time for simpler laws.
+//! let fit = Identification::of(&[log]).law(LawKind::LuGre).without_comparison().run()?;
 //! assert!(fit.is_trustworthy(), "{:?}", fit.reasons());
 //!
+//! // Friction by velocity, whatever the law, with its 95 % interval for another day.
+//! let friction = fit.friction(0.02).expect("a speed that the log has seen");
+//! println!("{:.1} ± {:.1} {}", friction.force, friction.repeat, fit.force_unit());
+//!
+//! // A parameter, where the log determines it; else why not, and what to record.
+//! for p in fit.parameters() {
+//!     match p.determined() {
+//!         Some(own) => println!("{} = {:.3} in {:.3?} {}", p.name(), own.value, own.interval, p.unit()),
+//!         None => println!("do not use {}: {} {}", p.name(), p.reason(), p.advice()),
+//!     }
+//! }
+//! let coulomb = fit.parameter(Quantity::Coulomb).and_then(|p| p.determined()).expect("a Coulomb level");
+//!
 //! // Predict another log; nothing is fitted again.
-//! let unseen = Log::open_with("another.csv", &axis)?;
-//! let error = fit.predict(&unseen)?.quality.relative_error_percent;
+//! let error = fit.predict(&Log::open("another.csv")?)?.quality.relative_error_percent;
 //! assert!(error < 1.2);
 //!
 //! // Compensate at 4 kHz, along a reference that goes to and fro. The force comes in once the watchdog has seen the axis
@@ -45,14 +49,16 @@
 //! }
 //! # let share = compensator.state().share;
 //! # assert!((share - compensator.settings().gain).abs() < 1e-9, "{share}");
-//! # assert!((19.5..20.5).contains(&coulomb.value()));
+//! # assert!((19.5..20.5).contains(&coulomb.value));
+//! # assert!(coulomb.interval.0 < 20.0 && 20.0 < coulomb.interval.1, "{coulomb:?}");
+//! # assert!((20.0..30.0).contains(&friction.force) && friction.repeat < 1.0, "{friction:?}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Columns in memory go the same way; here with other options, a log to validate on, and on to files and code:
+//! Columns in memory go the same way; here with a log to validate on, and on to files and code:
 //!
 //! ```
-//! use stiction::{Axis, Column, ExportOptions, LawKind, Log, Options, Target, export, identify_validated};
+//! use stiction::{Axis, Export, Identification, LawKind, Log, Quantity, Target};
 //! # let folder = tempfile::tempdir()?;
 //! # let folder = folder.path();
 //!
@@ -62,29 +68,25 @@
 //!     let time: Vec<f64> = (0..6000).map(|k| 1e-3 * f64::from(k)).collect();
 //!     let motion = |t: f64| (stroke * (6.0 * t).sin(), 6.0 * stroke * (6.0 * t).cos());
 //!     let force = |t: f64| 20.0 * motion(t).1.signum() + 60.0 * motion(t).1 - 9.0 * 36.0 * motion(t).0;
-//!     let column = |name: &str, unit: &str, values: Vec<f64>| Column {
-//!         name: name.into(),
-//!         unit: Some(unit.into()),
-//!         values,
-//!         ..Column::default()
-//!     };
 //!     let position = time.iter().map(|&t| 1e3 * motion(t).0).collect();
 //!     let force = time.iter().map(|&t| force(t)).collect();
-//!     let columns = vec![column("time", "s", time), column("position", "mm", position), column("force", "N", force)];
-//!     Log::from_columns(name, columns, &axis)
+//!     Log::from_columns(name, [("time [s]", time), ("position [mm]", position), ("force [N]", force)], &axis)
 //! };
 //!
-//! let mut options = Options::default();
-//! options.law = Some(LawKind::CoulombViscous);
-//! options.compare_laws = false; // with no other law
-//! let fit = identify_validated(&[run("run 1", 0.05)?], &[run("run 2", 0.08)?], &axis, &options)?;
-//! let mass = fit.parameter("mass").expect("a fitted mass");
+//! let (fitted, unseen) = (run("run 1", 0.05)?, run("run 2", 0.08)?);
+//! let fit = Identification::of(&[fitted])
+//!     .axis(&axis)
+//!     .validate(&[unseen])
+//!     .law(LawKind::CoulombViscous)
+//!     .without_comparison()
+//!     .run()?;
+//! let mass = fit.parameter(Quantity::Mass).expect("a fitted mass");
 //! assert!((mass.value() - 9.0).abs() < 0.1, "{}", mass.value());
 //!
 //! fit.write(folder.join("result"))?; // result.json, model.toml, report.html, fit.csv
-//! let code = export(&fit.model(), &ExportOptions::new(Target::C, 1e-3))?; // called every millisecond
-//! code.write(folder.join("controller"), false)?; // true: over whatever is there
-//! # assert!(code.written.iter().any(|name| name.ends_with(".c")), "{:?}", code.written);
+//! let code = Export::new(Target::C, 1e-3).model(&fit.model())?; // called every millisecond
+//! code.write(folder.join("controller"))?;
+//! # assert!(code.files().any(|(path, _)| path.ends_with(".c")));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -92,51 +94,61 @@
 //! |---|---|---|
 //! | a file or columns in memory | [`Log`] | [`Log::open`], [`Log::from_columns`] |
 //! | what is known of the machine | [`Axis`] | [`Axis::read`], [`Axis::parse`] |
-//! | logs | [`Fit`] | [`identify()`], [`identify_validated`], [`identify_observed`] |
+//! | logs | [`Fit`], [`Check`] | [`Identification::run`], [`Identification::check`] |
 //! | a folder with a result | [`SavedFit`] | [`SavedFit::read`] |
-//! | a fit | law, prediction, compensator, files | [`Fit::law`], [`Fit::predict`], [`Fit::compensator`], [`Fit::write`] |
-//! | a model | code for a controller | [`export()`] |
+//! | a fit | friction, parameters, law, prediction, compensator, files | [`Fit::friction`], [`Fit::parameter`], [`Fit::law`], [`Fit::predict`], [`Fit::compensator`], [`Fit::write`] |
+//! | a [`Model`] | code for a controller, friction for a simulator | [`Export`] |
 //! | logs of a robot and its URDF | its rigid body and a fit of each joint | [`robot`] |
 //! | a name in the library | a machine that is identified already | [`library`] |
-//! | a study file | tracking errors with and without compensation | [`Study::read`], [`simulate`] |
+//! | a study file | tracking errors with and without compensation | [`Study`] |
 //!
 //! SI throughout; a force that the log has in A or V stays in it. Results do not depend on the number of threads. A result
 //! that should not be trusted is no error: [`Fit::is_trustworthy`] says so, and [`Fit::reasons`] why.
 //!
-//! [`commands`] has what the command line is made of: the same work from paths to outcomes, and the texts and reports of it.
+//! What a result has beyond these types is in [`Fit::result`], with the keys of `result.json`. The engine is no part of the interface;
+//! the laws for a drive without `std` are in `stiction-friction`.
 
-pub mod bundle;
-pub mod commands;
+mod axis;
+mod check;
+pub mod demo;
+mod error;
+mod export;
+mod findings;
 mod fit;
-mod fit_csv;
-mod identify;
+mod identification;
+mod law;
 pub mod library;
 mod log;
+mod model;
+mod notice;
 mod parameter;
+mod progress;
 pub mod robot;
 mod saved;
-mod stepped;
+mod search;
+mod study;
 
+pub use axis::Axis;
+pub use check::Check;
+pub use error::Error;
+pub use export::{Export, Exported, Feedforward, Width};
+pub use findings::Friction;
 pub use fit::Fit;
-pub use fit_csv::columns as fit_columns;
-pub use identify::{
-    Files, Options, check, identify, identify_files, identify_observed, identify_validated,
-};
-pub use log::{Column, Finding, Log, Severity};
-pub use parameter::Parameter;
+pub use identification::{Identification, Method, Recording};
+pub use law::{Law, SteppedLaw};
+pub use log::{Log, Motion};
+pub use model::Model;
+pub use notice::{Notice, Prediction, Quality, Series, Severity};
+pub use parameter::{Determined, HalfWidths, Parameter};
+pub use progress::Progress;
 pub use saved::SavedFit;
-pub use stepped::{SteppedLaw, forces_along};
+pub use search::{Search, SearchCost, SearchMethod};
 pub use stiction_codes::Code;
-pub use stiction_files::study::Study;
-pub use stiction_files::{Axis, ModelFile, Warning, model, result};
-pub use stiction_formats::{Reading, allow_memory, allowed_memory, watch};
+pub use stiction_files::result::{Origin, Status};
+pub use stiction_formats::allow_memory;
 pub use stiction_friction::compensator::{Compensator, Input};
-pub use stiction_identify::{Control, LawKind, Observer, Progress, Silent, Stage};
-pub use stiction_parameters::FrictionLaw;
-pub use stiction_workflows::export::{
-    Draws, ExportOptions, Exported, ExportedRobot, Feedforward, Safety, Target, Width, export,
-    export_file, export_robot_file,
-};
-pub use stiction_workflows::identify::{CostKind, Method, Prediction, Procedures, Searching};
-pub use stiction_workflows::study::{StudyOutcome, simulate};
-pub use stiction_workflows::{Error, Verdict, demo, set_threads};
+pub use stiction_identify::Stage;
+pub use stiction_parameters::{LawKind, Name, Quantity, Side, Wave};
+pub use stiction_workflows::export::Target;
+pub use stiction_workflows::{Verdict, set_threads};
+pub use study::{Metric, SimulatedRow, Simulation, Study};

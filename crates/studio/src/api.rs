@@ -205,8 +205,8 @@ struct Target {
 }
 
 async fn targets() -> Json<Vec<Target>> {
-    let all = stiction::Target::ALL.into_iter();
-    let one = |target: stiction::Target| Target {
+    let all = stiction_workflows::export::Target::ALL.into_iter();
+    let one = |target: stiction_workflows::export::Target| Target {
         name: target.name(),
         simulated: target.is_simulated(),
     };

@@ -11,9 +11,11 @@ use crate::refused::Refused;
 use crate::workspace::Workspace;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use stiction::commands::Bundle;
-use stiction::commands::shell::quoted;
-use stiction::{Error, Observer, Verdict, bundle};
+use stiction_files::Bundle;
+use stiction_files::shell::quoted;
+use stiction_identify::Observer;
+use stiction_pages::bundle;
+use stiction_workflows::{Error, Verdict};
 
 /// A piece of work.
 #[derive(Clone, Debug, Deserialize)]

@@ -9,7 +9,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
-use stiction::{Control, Observer, Progress};
+use stiction_identify::{Control, Observer, Progress};
 use tokio::sync::mpsc;
 
 /// Work that runs at once; more is refused, and the page says so.
@@ -258,7 +258,7 @@ impl Observer for Watch {
 
 impl Job {
     fn progress(&mut self, progress: &Progress) {
-        let stage = stiction::commands::stage(progress.stage);
+        let stage = progress.stage.name();
         if self.view.stage != Some(stage) {
             self.stage = (Instant::now(), progress.fraction);
         }

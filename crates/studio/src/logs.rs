@@ -19,9 +19,10 @@ use serde::Serialize;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 use std::time::SystemTime;
-use stiction::commands::axis::Marks;
-use stiction::commands::{Source, load, log_table, table};
-use stiction::{Axis, Severity};
+use stiction_files::Axis;
+use stiction_files::axis::Marks;
+use stiction_log::Severity;
+use stiction_workflows::source::{Source, load, table};
 
 /// Most that are kept.
 const MOST: usize = 4;
@@ -210,7 +211,7 @@ impl Key {
 }
 
 /// The columns of a file of which something has to be said before it is a log.
-fn undecided(table: log_table::Table, mut about: About) -> Loaded {
+fn undecided(table: stiction_log::Table, mut about: About) -> Loaded {
     about.columns = columns::unread(&table);
     let (series, over) = Series::of_undecided(table, &about.columns);
     let time = &series.time;

@@ -3,7 +3,8 @@
 use crate::refused::Refused;
 use crate::workspace::{UNFINISHED, Workspace};
 use std::path::Path;
-use stiction::{Axis, Study};
+use stiction_files::Axis;
+use stiction_files::study::Study;
 
 /// An axis file of the workspace, of which no log lies outside, and no file that a column of one of these logs comes from.
 pub fn read_axis(workspace: &Workspace, name: &str, logs: &[&Path]) -> Result<Axis, Refused> {

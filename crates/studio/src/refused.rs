@@ -70,16 +70,16 @@ impl Refused {
     }
 }
 
-impl From<stiction::Error> for Refused {
-    fn from(e: stiction::Error) -> Self {
+impl From<stiction_workflows::Error> for Refused {
+    fn from(e: stiction_workflows::Error) -> Self {
         let message = format!("[{}] {e}", e.code());
         Self::with(StatusCode::UNPROCESSABLE_ENTITY, message)
     }
 }
 
-impl From<stiction::commands::FileError> for Refused {
-    fn from(e: stiction::commands::FileError) -> Self {
-        stiction::Error::from(e).into()
+impl From<stiction_files::Error> for Refused {
+    fn from(e: stiction_files::Error) -> Self {
+        stiction_workflows::Error::from(e).into()
     }
 }
 

@@ -9,8 +9,8 @@ use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
-use stiction::Axis;
-use stiction::commands::batch::RESULTS;
+use stiction_files::Axis;
+use stiction_files::batch::RESULTS;
 
 /// Most folders below each other.
 const DEEPEST: usize = 6;

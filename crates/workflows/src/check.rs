@@ -20,7 +20,7 @@ use std::time::Instant;
 use stiction_codes::Code;
 use stiction_files::Warning;
 use stiction_files::axis::{Axis, Use};
-use stiction_files::result::{Action, Input};
+use stiction_files::result::{Action, Input, Origin};
 use stiction_identify::{Error as Fit, Observer};
 use stiction_log::{Found, Log, Severity, Understood};
 use stiction_number::four_digits as short;
@@ -131,11 +131,23 @@ pub fn check(
     axis: Option<&Path>,
     observer: &mut dyn Observer,
 ) -> Result<Check, Error> {
-    let read = match axis {
+    let axis = match axis {
         Some(file) => Axis::read(file)?,
         None => Axis::default(),
     };
-    let listed: Vec<PathBuf> = read.logs.iter().map(|log| log.file.clone()).collect();
+    check_files(logs, &axis, observer)
+}
+
+/// The same on an axis file that was read.
+///
+/// # Errors
+/// As [`check`].
+pub fn check_files(
+    logs: &[PathBuf],
+    axis: &Axis,
+    observer: &mut dyn Observer,
+) -> Result<Check, Error> {
+    let listed: Vec<PathBuf> = axis.logs.iter().map(|log| log.file.clone()).collect();
     let all_listed = logs.is_empty() && listed.len() > 1;
     let logs = if logs.is_empty() { &listed } else { logs };
     if logs.is_empty() {
@@ -144,22 +156,22 @@ pub fn check(
             "at least one log, here or under [[log]] of the axis file",
         ));
     }
-    source::refuse_several(&read, logs.len())?;
+    source::refuse_several(axis, logs.len())?;
     refuse_twice(logs)?;
-    let any_fitted = read
+    let any_fitted = axis
         .logs
         .iter()
         .any(|log| log.mapping(Use::Fitted).is_some());
     let mut out = Vec::new();
     let mut seen: HashMap<String, &PathBuf> = HashMap::new();
     for path in logs {
-        let source = source::load(path, &read)?;
+        let source = source::load(path, axis)?;
         // Two names of one file, or a copy of it.
         if let Some(twin) = seen.insert(source.sha256.clone(), path) {
             return Err(given_twice(twin, path));
         }
         let never_fitted = source.never_fitted;
-        let mut found = one(source, &read, observer)?;
+        let mut found = one(source, axis, observer)?;
         let goes_on = [Action::IDENTIFY, Action::Simulate].contains(&found.next);
         if never_fitted && goes_on && !any_fitted {
             found.next = Action::Remove {
@@ -171,7 +183,7 @@ pub fn check(
         }
         out.push(found);
     }
-    Ok(together(out, axis))
+    Ok(together(out, axis.file()))
 }
 
 /// Refuses a log that is given by two paths, as an identification does.
@@ -373,7 +385,7 @@ fn verdicts(outcome: &Outcome) -> Vec<ParameterCheck> {
         .result
         .parameters
         .iter()
-        .filter(|p| p.origin == "identified")
+        .filter(|p| p.origin == Origin::Identified)
         .map(|p| ParameterCheck {
             name: p.name.clone(),
             value: p.value,

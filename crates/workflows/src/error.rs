@@ -1,6 +1,9 @@
 //! What goes wrong in a workflow, with a stable code.
 
+mod parts;
+
 use crate::wording::Wording;
+pub use parts::Parts;
 use std::path::PathBuf;
 use stiction_codes::Code;
 use stiction_files::Axis;

@@ -53,6 +53,6 @@ pub use options::{CostKind, Files, Options, Procedures, Searching};
 pub use outcome::{ForceFit, Found, Outcome, Simulated};
 pub use predict::{Prediction, predict};
 pub(crate) use run::identify_asked;
-pub use run::{identify, identify_logs};
+pub use run::{identify, identify_files, identify_logs};
 pub(crate) use searched::ranges;
 pub use turn::{presliding_length, slowest_turn};

@@ -56,12 +56,14 @@ pub mod reproduce;
 pub mod robot;
 pub mod source;
 mod spread;
+mod stepped;
 pub mod study;
 mod turns;
 pub mod verdict;
 mod wording;
 
-pub use error::Error;
+pub use error::{Error, Parts};
+pub use stepped::{SteppedLaw, forces_along};
 pub use verdict::Verdict;
 pub use wording::{Part, Setting, Wording};
 

@@ -11,6 +11,7 @@ use serde::Serialize;
 use stiction_files::batch::BatchFile;
 use stiction_files::compare_file::CompareFile;
 use stiction_files::drift_file::DriftFile;
+use stiction_files::result::Status;
 
 /// Whether an outcome may be used. What a process exits with follows from it, and from nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -37,7 +38,7 @@ impl Verdict {
 impl Outcome {
     /// What the identification is worth.
     pub fn verdict(&self) -> Verdict {
-        let interrupted = self.result.search.status == "interrupted";
+        let interrupted = self.result.search.status == Status::Interrupted;
         Verdict::new(interrupted, self.result.trust.trustworthy)
     }
 }

@@ -10,10 +10,14 @@ use crate::output;
 use crate::progress::Bar;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use stiction::commands::batch::{Batch, SCHEMA};
-use stiction::commands::shell::text as path_text;
-use stiction::commands::{check_folder_of, check_inputs, has_runs};
-use stiction::{Code, Error, Options, bundle};
+use stiction_codes::Code;
+use stiction_files::batch::SCHEMA;
+use stiction_files::shell::text as path_text;
+use stiction_files::{check_folder_of, check_inputs, has_runs};
+use stiction_pages::bundle;
+use stiction_workflows::Error;
+use stiction_workflows::batch::Batch;
+use stiction_workflows::identify::Options;
 
 /// Runs the batch, writes its table and says what became of the logs.
 pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
@@ -69,7 +73,7 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
         let _ = writeln!(std::io::stderr(), "stiction: {}", output::line(&said));
     }
     let mut bar = Bar::new(common.json || common.quiet);
-    let report = |outcome: &stiction::commands::Outcome, name: &str| {
+    let report = |outcome: &stiction_workflows::identify::Outcome, name: &str| {
         let folder = dir.join(name);
         bundle::identification_in(outcome, &folder).write(&folder)?;
         Ok(())
@@ -81,7 +85,7 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
     if common.json {
         output::json(&file)?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::batch(&file, dir))?;
+        output::print(&stiction_pages::text::batch(&file, dir))?;
         let logs: Vec<&Path> = batch.inputs().collect();
         let failed = |log: &Path| file.failed.iter().any(|f| Path::new(&f.log.path) == log);
         let unread = file.failed.iter().filter(|f| f.code == Code::LogFormat);
@@ -102,7 +106,7 @@ pub fn run(typed: &arguments::Batch, common: &Common) -> Result<Exit, Error> {
     if interrupt::stopped() {
         return Ok(Exit::Interrupted);
     }
-    Ok(stiction::commands::verdict::of_batch(&file).into())
+    Ok(stiction_workflows::verdict::of_batch(&file).into())
 }
 
 /// The same batch of the logs of a folder that end otherwise than one that is none, where it alone ends so, the others have one

@@ -7,8 +7,9 @@ use crate::interrupt;
 use crate::output;
 use crate::progress::Bar;
 use std::path::{Path, PathBuf};
-use stiction::commands::{FileError, visible, write_atomic};
-use stiction::{Axis, Error};
+use stiction_files::Axis;
+use stiction_files::{Error as FileError, visible, write_atomic};
+use stiction_workflows::Error;
 
 /// Reads the logs and says what they hold, or begins an axis file.
 pub fn run(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
@@ -17,15 +18,15 @@ pub fn run(check: &arguments::Check, common: &Common) -> Result<Exit, Error> {
     }
     interrupt::nothing_to_keep();
     let mut bar = Bar::new(common.json || common.quiet);
-    let found = stiction::commands::check::check(&check.logs, check.axis.as_deref(), &mut bar);
+    let found = stiction_workflows::check::check(&check.logs, check.axis.as_deref(), &mut bar);
     bar.finish();
     let found = found?;
     if common.json {
         output::json(&found)?;
     } else if !common.quiet {
         output::print(&match common.verbose {
-            true => stiction::commands::text::check(&found),
-            false => stiction::commands::text::check_in_short(&found),
+            true => stiction_pages::text::check(&found),
+            false => stiction_pages::text::check_in_short(&found),
         })?;
     }
     Ok(found.verdict().into())
@@ -41,7 +42,7 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
         let reason = "needs a log, here or under [[log]] of the axis file";
         return Err(FileError::output(file, reason).into());
     };
-    let started = stiction::commands::check::init(log, check.axis.as_deref())?;
+    let started = stiction_workflows::check::init(log, check.axis.as_deref())?;
     let mut logs: Vec<&Path> = check.logs.iter().map(PathBuf::as_path).collect();
     if logs.is_empty() {
         logs.push(log);
@@ -54,7 +55,7 @@ fn init(check: &arguments::Check, file: &Path, common: &Common) -> Result<Exit, 
             "undecided": started.undecided,
         }))?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::started(&started, &logs, file))?;
+        output::print(&stiction_pages::text::started(&started, &logs, file))?;
     }
     Ok(Exit::Done)
 }

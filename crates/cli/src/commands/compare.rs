@@ -6,11 +6,11 @@ use crate::exit::Exit;
 use crate::large;
 use crate::output;
 use crate::progress::Bar;
-use stiction::commands::{
-    CompareOptions, Comparison, Cost, Excitation, Input, Scheme, check_folder_of, check_inputs,
-    compare_file,
-};
-use stiction::{Error, bundle};
+use stiction_files::{check_folder_of, check_inputs, compare_file};
+use stiction_identify::candidates::Scheme;
+use stiction_pages::bundle;
+use stiction_workflows::Error;
+use stiction_workflows::compare::{CompareOptions, Comparison, Cost, Excitation, Input};
 
 /// Runs the searches and writes how they fared.
 pub fn run(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error> {
@@ -54,7 +54,7 @@ pub fn run(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
     let mut bar = Bar::new(common.json || common.quiet);
     let comparison = Comparison::new(&options, &mut bar)?;
     large::announce(
-        stiction::commands::text::announced_comparison(comparison.size()),
+        stiction_pages::text::announced_comparison(comparison.size()),
         common,
     );
     let runs = large::keeping(&compare.out, compare.resume, |dir, resume| {
@@ -71,9 +71,9 @@ pub fn run(compare: &arguments::Compare, common: &Common) -> Result<Exit, Error>
     } else if !common.quiet {
         output::print(&format!(
             "{}\nwritten to {}: report.html, compare.json\n",
-            stiction::commands::text::comparison(&found),
+            stiction_pages::text::comparison(&found),
             out.display()
         ))?;
     }
-    Ok(stiction::commands::verdict::of_comparison(&found).into())
+    Ok(stiction_workflows::verdict::of_comparison(&found).into())
 }

@@ -7,12 +7,15 @@ use crate::output;
 use crate::progress::Bar;
 use std::io::Write;
 use std::path::Path;
-use stiction::Error;
-use stiction::commands::{Kept, check_folder};
+use stiction_files::{Kept, check_folder};
+use stiction_workflows::Error;
 
 /// Writes the log, identifies it and says what was found beside the truth.
 pub fn run(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
-    check_folder(&demo.out, demo.force || stiction::demo::is_begun(&demo.out))?;
+    check_folder(
+        &demo.out,
+        demo.force || stiction_workflows::demo::is_begun(&demo.out),
+    )?;
     if demo.procedures {
         return procedure_logs(demo, common);
     }
@@ -20,7 +23,7 @@ pub fn run(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
         return planned_log(plan, demo, common);
     }
     let mut bar = Bar::new(common.json || common.quiet);
-    let done = stiction::demo::demo(&demo.out, demo.seed, &mut bar);
+    let done = stiction_workflows::demo::demo(&demo.out, demo.seed, &mut bar);
     bar.finish();
     let (outcome, kept) = done?;
     say_kept(kept);
@@ -38,28 +41,28 @@ fn say_kept(kept: impl IntoIterator<Item = Kept>) {
 }
 
 fn planned_log(plan: &Path, demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
-    let (log, kept) = stiction::demo::planned(plan, &demo.out, demo.seed)?;
+    let (log, kept) = stiction_workflows::demo::planned(plan, &demo.out, demo.seed)?;
     say_kept(kept);
     if common.json {
         output::json(&serde_json::json!({ "written": [log.to_string_lossy()] }))?;
     } else if !common.quiet {
-        let truth = stiction::demo::truth_of_demo();
-        output::print(&stiction::commands::text::planned_log(plan, &log, &truth))?;
+        let truth = stiction_workflows::demo::truth_of_demo();
+        output::print(&stiction_pages::text::planned_log(plan, &log, &truth))?;
     }
     Ok(Exit::Done)
 }
 
 fn procedure_logs(demo: &arguments::Demo, common: &Common) -> Result<Exit, Error> {
-    let (written, kept) = stiction::demo::procedures(&demo.out, demo.seed)?;
+    let (written, kept) = stiction_workflows::demo::procedures(&demo.out, demo.seed)?;
     say_kept(kept);
     if common.json {
         let paths: Vec<_> = written.iter().map(|p| p.to_string_lossy()).collect();
         output::json(&serde_json::json!({ "written": paths }))?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::procedure_commands(
+        output::print(&stiction_pages::text::procedure_commands(
             &demo.out,
             &written,
-            &stiction::demo::truth_of_demo(),
+            &stiction_workflows::demo::truth_of_demo(),
         ))?;
     }
     Ok(Exit::Done)

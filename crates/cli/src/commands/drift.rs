@@ -5,9 +5,11 @@ use crate::arguments::{self, Common};
 use crate::exit::Exit;
 use crate::interrupt;
 use crate::output;
-use stiction::commands::drift::{Limit, SCHEMA, Times, drift};
-use stiction::commands::{check_folder_of, check_inputs};
-use stiction::{Error, bundle};
+use stiction_files::drift_file::SCHEMA;
+use stiction_files::{check_folder_of, check_inputs};
+use stiction_pages::bundle;
+use stiction_workflows::Error;
+use stiction_workflows::drift::{Limit, Times, drift};
 
 /// Follows the table, writes the report where it is wanted, and says what changed.
 pub fn run(typed: &arguments::Drift, common: &Common) -> Result<Exit, Error> {
@@ -34,12 +36,12 @@ pub fn run(typed: &arguments::Drift, common: &Common) -> Result<Exit, Error> {
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
-        let text = stiction::commands::text::drift(&outcome.file, typed.out.as_deref());
+        let text = stiction_pages::text::drift(&outcome.file, typed.out.as_deref());
         // What leads on stays last, with the line above it that says what for.
         let line = |at: usize| text[..at].rfind('\n').map_or(0, |before| before + 1);
         let at = text.find("\nnext: ").map_or(text.len(), line);
         let (said, next) = text.split_at(at);
         output::print(&format!("{said}{written}{next}"))?;
     }
-    Ok(stiction::commands::verdict::of_drift(&outcome.file).into())
+    Ok(stiction_workflows::verdict::of_drift(&outcome.file).into())
 }

@@ -5,8 +5,9 @@ use crate::exit::Exit;
 use crate::next::with_value;
 use crate::output;
 use clap::ValueEnum;
-use stiction::commands::{Looks, looks};
-use stiction::{Draws, Error, ExportOptions, Feedforward, Target, Width};
+use stiction_files::{Looks, looks};
+use stiction_workflows::Error;
+use stiction_workflows::export::{Draws, ExportOptions, Feedforward, Target, Width};
 
 /// Writes the code.
 pub fn run(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
@@ -43,12 +44,13 @@ pub fn run(export: &arguments::Export, common: &Common) -> Result<Exit, Error> {
             allowed: "the robot.toml of a robot takes one".into(),
         });
     }
-    let exported = stiction::export_file(&export.model, &options).map_err(fed_line)?;
+    let exported =
+        stiction_workflows::export::export_file(&export.model, &options).map_err(fed_line)?;
     exported.write(&export.out, export.force)?;
     if common.json {
         output::json(&exported)?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::exported(&exported, &export.out))?;
+        output::print(&stiction_pages::text::exported(&exported, &export.out))?;
     }
     Ok(exported.verdict().into())
 }
@@ -59,12 +61,16 @@ fn robot(
     options: &ExportOptions,
     common: &Common,
 ) -> Result<Exit, Error> {
-    let exported = stiction::export_robot_file(&export.model, export.urdf.as_deref(), options)?;
+    let exported = stiction_workflows::export::export_robot_file(
+        &export.model,
+        export.urdf.as_deref(),
+        options,
+    )?;
     exported.write(&export.out, export.force)?;
     if common.json {
         output::json(&exported)?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::exported_robot(
+        output::print(&stiction_pages::text::exported_robot(
             &exported,
             &export.out,
         ))?;

@@ -4,8 +4,11 @@ use super::{finish, law, method};
 use crate::arguments::{self, Common};
 use crate::exit::Exit;
 use crate::progress::Bar;
-use stiction::commands::{Files, check_apart, check_folder, check_inputs};
-use stiction::{Axis, CostKind, Error, Method, Options, Procedures, Searching};
+use stiction_files::Axis;
+use stiction_files::{check_apart, check_folder, check_inputs};
+use stiction_workflows::Error;
+use stiction_workflows::identify::Files;
+use stiction_workflows::identify::{CostKind, Method, Options, Procedures, Searching};
 
 /// Identifies the logs and writes what was found.
 pub fn run(identify: &arguments::Identify, common: &Common) -> Result<Exit, Error> {
@@ -52,7 +55,7 @@ pub fn run(identify: &arguments::Identify, common: &Common) -> Result<Exit, Erro
     };
     options.searching = searching(&identify.searching);
     let mut bar = Bar::new(common.json || common.quiet);
-    let outcome = stiction::commands::identify(&files, &options, &mut bar);
+    let outcome = stiction_workflows::identify::identify(&files, &options, &mut bar);
     bar.finish();
     finish(&outcome?, &identify.out, common)
 }

@@ -3,9 +3,9 @@
 use crate::arguments::{self, Common};
 use crate::exit::Exit;
 use crate::output;
-use stiction::Error;
-use stiction::commands::text;
-use stiction::library::Library;
+use stiction_pages::text;
+use stiction_workflows::Error;
+use stiction_workflows::library::Library;
 
 /// Lists the machines, shows one, or writes its files.
 pub fn run(typed: &arguments::Library, common: &Common) -> Result<Exit, Error> {

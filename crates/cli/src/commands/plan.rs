@@ -8,12 +8,14 @@ use crate::output;
 use crate::progress::Bar;
 use std::io::Write;
 use std::path::Path;
-use stiction::commands::shell::text as path_text;
-use stiction::commands::{
-    Carrier, Known, PlanOptions, Want, check_folder_of, check_inputs, limits_to_fill_in,
-    plan_motion,
+use stiction_files::shell::text as path_text;
+use stiction_files::{check_folder_of, check_inputs};
+use stiction_pages::bundle;
+use stiction_parameters::LawKind;
+use stiction_workflows::Error;
+use stiction_workflows::plan::{
+    Carrier, Known, PlanOptions, Want, limits_to_fill_in, plan as plan_motion,
 };
-use stiction::{Error, LawKind, bundle};
 
 /// Writes the lines of `[limits]` that an axis file lacks for a plan, as they are pasted.
 pub fn limits(error: &Error, plan: &arguments::Plan) {
@@ -36,7 +38,7 @@ pub fn limits(error: &Error, plan: &arguments::Plan) {
 
 /// Designs the motion and writes it.
 pub fn run(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
-    let schema = stiction::commands::plan::SCHEMA;
+    let schema = stiction_files::plan::SCHEMA;
     check_folder_of(&plan.out, schema, plan.force)?;
     let files = [Some(&plan.axis), plan.model.as_ref(), plan.log.as_ref()];
     check_inputs(&plan.out, files.into_iter().flatten())?;
@@ -73,7 +75,7 @@ pub fn run(plan: &arguments::Plan, common: &Common) -> Result<Exit, Error> {
     if common.json {
         output::json(&planned.file)?;
     } else if !common.quiet {
-        let text = stiction::commands::text::planned(&planned, &plan.axis, &dir);
+        let text = stiction_pages::text::planned(&planned, &plan.axis, &dir);
         output::print(&format!("{text}\n{}", written_to(&dir, &written)))?;
     }
     match interrupt::stopped() {

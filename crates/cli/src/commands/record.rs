@@ -5,8 +5,9 @@ use crate::exit::Exit;
 use crate::output;
 use crate::progress::Bar;
 use std::io::Write;
-use stiction::commands::record::{Device, End, Options, record};
-use stiction::{Control, Error, Observer, Progress, Stage};
+use stiction_identify::{Control, Observer, Progress, Stage};
+use stiction_record::{Device, End, Options, record};
+use stiction_workflows::Error;
 
 /// Records until the time is over, or the user or the device ends it.
 pub fn run(typed: &arguments::Record, common: &Common) -> Result<Exit, Error> {
@@ -47,7 +48,7 @@ pub fn run(typed: &arguments::Record, common: &Common) -> Result<Exit, Error> {
             "fault": fault.map(|e| serde_json::json!({ "code": e.code(), "message": e.to_string() })),
         }))?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::recorded(&recorded, &device))?;
+        output::print(&stiction_pages::text::recorded(&recorded, &device))?;
     }
     Ok(match recorded.end {
         End::Complete => Exit::Done,

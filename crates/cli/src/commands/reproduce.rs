@@ -6,18 +6,15 @@ use crate::exit::Exit;
 use crate::output;
 use crate::progress::Bar;
 use std::path::PathBuf;
-use stiction::commands::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
-use stiction::commands::{check_folder_of, check_inputs};
-use stiction::{Error, bundle};
+use stiction_files::{check_folder_of, check_inputs};
+use stiction_pages::bundle;
+use stiction_workflows::Error;
+use stiction_workflows::reproduce::{Budget, OwnAxis, canudas_1995, zhang_2025, zhang_2025_on};
 
 /// Simulates what was published and writes both figures.
 pub fn run(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, Error> {
     let dir = &reproduce.out;
-    check_folder_of(
-        dir,
-        stiction::commands::reproduce_file::SCHEMA,
-        reproduce.force,
-    )?;
+    check_folder_of(dir, stiction_files::reproduce_file::SCHEMA, reproduce.force)?;
     let inputs: Vec<PathBuf> = [&reproduce.model, &reproduce.axis]
         .into_iter()
         .flatten()
@@ -45,12 +42,12 @@ pub fn run(reproduce: &arguments::Reproduce, common: &Common) -> Result<Exit, Er
         }
     };
     bar.finish();
-    let schema = stiction::commands::reproduce_file::SCHEMA;
+    let schema = stiction_files::reproduce_file::SCHEMA;
     let (dir, written) = put(&bundle::reproduction(&outcome), dir, schema)?;
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
-        let text = stiction::commands::text::reproduction(&outcome.file);
+        let text = stiction_pages::text::reproduction(&outcome.file);
         output::print(&format!("{text}{}", written_to(&dir, &written)))?;
     }
     Ok(outcome.verdict().into())

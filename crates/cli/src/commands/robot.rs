@@ -7,9 +7,12 @@ use crate::interrupt;
 use crate::output;
 use crate::progress::Bar;
 use std::path::PathBuf;
-use stiction::commands::{check_folder_of, check_inputs, text};
-use stiction::robot::{Files, Options, SCHEMA, robot};
-use stiction::{Error, bundle};
+use stiction_files::robot::result::SCHEMA;
+use stiction_files::{check_folder_of, check_inputs};
+use stiction_pages::bundle;
+use stiction_pages::text;
+use stiction_workflows::Error;
+use stiction_workflows::robot::{Files, Options, robot};
 
 /// Identifies the robot and writes what was found.
 pub fn run(typed: &arguments::Robot, common: &Common) -> Result<Exit, Error> {

@@ -8,10 +8,11 @@ use crate::large;
 use crate::output;
 use crate::progress::Bar;
 use std::path::{Path, PathBuf};
-use stiction::commands::{
-    ExportedC, check_folder_of, check_inputs, compare_exported, visible, write_atomic,
-};
-use stiction::{Error, Study, bundle};
+use stiction_files::study::Study;
+use stiction_files::{check_folder_of, check_inputs, visible, write_atomic};
+use stiction_pages::bundle;
+use stiction_workflows::Error;
+use stiction_workflows::study::{ExportedC, compare_exported};
 
 /// Simulates the study and writes what came out, or begins one.
 pub fn run(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Error> {
@@ -21,35 +22,33 @@ pub fn run(simulate: &arguments::Simulate, common: &Common) -> Result<Exit, Erro
         let models = [&simulate.model, &simulate.second_model];
         return init_study(file, models.map(Option::as_deref), common);
     };
-    check_folder_of(
-        dir,
-        stiction::commands::study::result::SCHEMA,
-        simulate.force,
-    )?;
+    check_folder_of(dir, stiction_files::study::result::SCHEMA, simulate.force)?;
     let study = Study::read_within(study, simulate.max_samples)?;
     let inputs: Vec<PathBuf> = study.inputs().map(PathBuf::from).collect();
     check_inputs(dir, &inputs)?;
     let exported = simulate.exported_c.as_deref();
     let exported = exported.map(|dir| ExportedC::open(dir, &study));
     let exported = exported.transpose()?;
-    large::announce(stiction::commands::text::announced(&study), common);
+    large::announce(stiction_pages::text::announced(&study), common);
     let runs = large::keeping(dir, simulate.resume, |dir, resume| {
         let exported = exported.as_ref();
-        Ok(stiction::commands::keep(&study, exported, dir, resume)?)
+        Ok(stiction_workflows::study::keep(
+            &study, exported, dir, resume,
+        )?)
     })?;
     let mut bar = Bar::new(common.json || common.quiet);
-    let mut outcome = stiction::commands::simulate_keeping(&study, &runs, &mut bar);
+    let mut outcome = stiction_workflows::study::simulate_keeping(&study, &runs, &mut bar);
     bar.finish();
     if let Some(exported) = exported.filter(|_| !interrupt::stops()) {
         compare_exported(&mut outcome, &study, &exported, &runs)?;
     }
-    let schema = stiction::commands::study::result::SCHEMA;
+    let schema = stiction_files::study::result::SCHEMA;
     let (dir, written) = put(&bundle::study(&outcome), dir, schema)?;
     large::kept(runs, outcome.file.status == "complete");
     if common.json {
         output::json(&outcome.file)?;
     } else if !common.quiet {
-        let text = stiction::commands::text::study(&outcome);
+        let text = stiction_pages::text::study(&outcome);
         output::print(&format!("{text}\n{}", written_to(&dir, &written)))?;
     }
     // Exported C may be what was left out.
@@ -65,7 +64,7 @@ fn init_study(
     common: &Common,
 ) -> Result<Exit, Error> {
     is_new(file)?;
-    let started = stiction::commands::study::start(model, second, file)?;
+    let started = stiction_files::study::start(model, second, file)?;
     write_atomic(file, visible::toml(started.text.clone()).as_bytes())?;
     if common.json {
         output::json(&serde_json::json!({
@@ -73,7 +72,7 @@ fn init_study(
             "undecided": started.undecided,
         }))?;
     } else if !common.quiet {
-        output::print(&stiction::commands::text::started_study(&started, file))?;
+        output::print(&stiction_pages::text::started_study(&started, file))?;
     }
     Ok(Exit::Done)
 }

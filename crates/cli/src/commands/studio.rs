@@ -7,9 +7,9 @@ use crate::output;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
-use stiction::Error;
-use stiction::commands::FileError;
+use stiction_files::Error as FileError;
 use stiction_studio::Studio;
+use stiction_workflows::Error;
 
 /// Serves a folder. It becomes the working directory, so that results name their inputs as the command line does there.
 pub fn run(typed: &arguments::Studio, common: &Common) -> Result<Exit, Error> {

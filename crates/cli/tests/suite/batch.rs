@@ -5,8 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
-use stiction::commands::batch::{LogRow, read_results};
-use stiction::{Code, result::ResultFile};
+use stiction_codes::Code;
+use stiction_files::batch::{LogRow, read_results};
+use stiction_files::result::ResultFile;
 use tempfile::TempDir;
 
 /// A log of an axis of 9 kg with that Coulomb and 60 N s/m of viscous friction, with some noise.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 use std::process::{Command, Stdio};
-use stiction::commands::batch::{LogRow, ParameterRow, Results};
+use stiction_files::batch::{LogRow, ParameterRow, Results};
 
 /// A table of machines with a log a day for 40 days, Coulomb friction of 20 N with noise; of the first it steps up by 15 % on day
 /// 25 if `step`.

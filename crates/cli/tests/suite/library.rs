@@ -6,9 +6,9 @@ use rebuild::{Inputs, rebuild};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use stiction::ModelFile;
-use stiction::library::{Library, Machine, MachineKind, SCHEMA};
+use stiction_files::ModelFile;
 use stiction_testkit::{recordings, workspace};
+use stiction_workflows::library::{Library, Machine, MachineKind, SCHEMA};
 
 /// The machines that are identified in seconds.
 const CHEAP: [&str; 3] = ["tribometer", "so101-rotation", "xl330"];

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use stiction::commands::batch::{LogRow, ParameterRow, Results};
+use stiction_files::batch::{LogRow, ParameterRow, Results};
 
 /// A carriage of 10 kg with Coulomb friction of 20 N on a sine, positions in millimetres under a heading of this unit.
 fn log(file: &Path, unit: &str, samples: u32) {

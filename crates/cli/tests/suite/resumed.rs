@@ -293,7 +293,7 @@ fn a_study_that_is_too_large_says_how_to_run_it() {
     assert!(err.starts_with("stiction: [too-large] V2: "), "{err}");
     // What the options say is what the library does.
     let help = bench.run(&["simulate", "--help"]).1;
-    let usual = stiction::commands::study::MOST_SAMPLES;
+    let usual = stiction_files::study::MOST_SAMPLES;
     assert_eq!(usual as f64, 2e9);
     assert!(help.contains("[default: 2e9]"), "{help}");
 }

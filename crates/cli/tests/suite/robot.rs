@@ -122,7 +122,7 @@ fn an_arm_is_identified_and_written() {
 
     // What is known of the arm.
     let text = std::fs::read_to_string(dir.join("out/robot.json")).unwrap();
-    let file: stiction::robot::RobotFile = serde_json::from_str(&text).unwrap();
+    let file: stiction_files::robot::result::RobotFile = serde_json::from_str(&text).unwrap();
     for (joint, [coulomb, viscous, rotor]) in file.joints.iter().zip(FRICTION) {
         let fit = joint.fit.as_ref().unwrap();
         let near = |found: f64, truth: f64, part: f64| (found / truth - 1.0).abs() < part;
@@ -208,7 +208,7 @@ fn an_arm_is_identified_and_written() {
     );
     assert_eq!(code, 0);
     assert_eq!(
-        serde_json::from_str::<stiction::robot::RobotFile>(&json).unwrap(),
+        serde_json::from_str::<stiction_files::robot::result::RobotFile>(&json).unwrap(),
         file
     );
 }

@@ -99,7 +99,7 @@ impl LogRow {
                 low: range.and_then(|(low, _)| finite(low)),
                 high: range.and_then(|(_, high)| finite(high)),
                 identifiable: p.identifiable,
-                origin: p.origin.clone(),
+                origin: p.origin.name().into(),
             }
         });
         self.parameters = parameters.collect();

@@ -147,7 +147,7 @@ impl From<&ParameterEntry> for ModelParameter {
                 .filter(|half| half.is_finite()),
             interval: p.interval.clone(),
             identifiable: p.identifiable,
-            origin: p.origin.clone(),
+            origin: p.origin.name().into(),
         }
     }
 }

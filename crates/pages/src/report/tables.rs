@@ -3,7 +3,7 @@
 use crate::deviation::Deviation;
 use crate::inputs;
 use crate::names::{is_of_the_counts, law_beside, parameters_shown};
-use stiction_files::result::{Input, LawEntry, SimulationEntry};
+use stiction_files::result::{Input, LawEntry, Origin, SimulationEntry};
 use stiction_files::symbols;
 use stiction_number::Percent;
 use stiction_report::{Align, Block, Severity, Table, Text, number};
@@ -36,12 +36,12 @@ pub(super) fn parameters(outcome: &Outcome) -> Table {
             Some(std) if p.identifiable && std > 0.0 => digits(p.value, std),
             _ => number::sig(p.value, 4),
         };
-        let interval = match (p.range(), p.origin.as_str()) {
+        let interval = match (p.range(), p.origin) {
             (Some((f64::NEG_INFINITY, high)), _) => format!("at most {}", number::sig(high, 3)),
             (Some((low, f64::INFINITY)), _) => format!("at least {}", number::sig(low, 3)),
             _ if deviation == Deviation::Unbounded => "not bounded".into(),
             (Some((low, high)), _) => number::interval(low, high),
-            (None, "given") => String::new(),
+            (None, Origin::Given) => String::new(),
             _ => "not bounded".into(),
         };
         let transfer = match deviation {

@@ -10,7 +10,7 @@ use crate::trust::{constants, range, use_it};
 use std::fmt::Write;
 use stiction_codes::Code;
 use stiction_files::Warning;
-use stiction_files::result::{ParameterEntry, ResultFile};
+use stiction_files::result::{Origin, ParameterEntry, ResultFile};
 use stiction_number::{Percent, counted, sig, unit};
 use stiction_parameters::{Name, Side};
 use stiction_workflows::identify::Outcome;
@@ -97,7 +97,7 @@ fn parameters(outcome: &Outcome) -> String {
     }
     let mut rows = vec![header.into_iter().map(String::from).collect()];
     // What was stated stands in the axis file.
-    let fitted = parameters_shown(result).filter(|p| p.origin != "given");
+    let fitted = parameters_shown(result).filter(|p| p.origin != Origin::Given);
     let all: Vec<&ParameterEntry> = fitted.collect();
     let both = |a: &&ParameterEntry, b: &&ParameterEntry| {
         let name = |p: &ParameterEntry| p.name.parse::<Name>().ok();

@@ -1,9 +1,10 @@
 //! Axes with Maxwell-slip elements.
 
 use super::{Found, likely, log, one, plan, say, text};
-use stiction::commands::{Known, PlanOptions, Planned};
-use stiction::{Axis, LawKind};
+use stiction_files::Axis;
+use stiction_parameters::LawKind;
 use stiction_plan::{Aim, Candidate, Elements, Entry, Expected, HandMade, Subject, hand_made};
+use stiction_workflows::plan::{Known, PlanOptions, Planned};
 
 /// An axis: its name, its law, elements and what stands behind them.
 type Slipping = (&'static str, LawKind, [[f64; 2]; 3], &'static [f64]);

@@ -1,7 +1,7 @@
 //! A plan for an axis whose parameters are known before it is run: what can be had at best.
 
 use std::path::Path;
-use stiction::commands::{Known, PlanOptions};
+use stiction_workflows::plan::{Known, PlanOptions};
 
 /// Names and units of the values, in their order.
 const PARAMETERS: [(&str, &str); 7] = [

@@ -10,10 +10,17 @@ mod known;
 mod terms;
 
 use std::path::Path;
-use stiction::commands::{Known, PlanOptions, Planned, plan_motion};
-use stiction::{Axis, Column, LawKind, Log, Options, Parameter, Silent, identify};
+use stiction_files::Axis;
+use stiction_files::result::ParameterEntry;
+use stiction_identify::Silent;
+use stiction_log::Column;
+use stiction_parameters::LawKind;
 use stiction_plan::{Candidate, Entry, Expected, HandMade, Motion, hand_made, run_finely};
 use stiction_servo::noise::Noise;
+use stiction_workflows::identify::Options;
+use stiction_workflows::identify::identify_logs;
+use stiction_workflows::plan::{Known, PlanOptions, Planned, plan as plan_motion};
+use stiction_workflows::source::{Source, in_memory};
 
 /// Name, axis file, and sigma0, sigma1, sigma2, Fc, Fs, vs, M.
 const AXES: [(&str, &str, [f64; 7]); 3] = [
@@ -318,7 +325,7 @@ const PROBES: u64 = 2;
 const FRESH: u32 = 77;
 
 /// A simulated log.
-fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed: u64) -> Log {
+fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed: u64) -> Source {
     let plate = &planned.given.nameplate;
     let (limits, rig) = (&plate.limits, &plate.rig);
     let mut noise = Noise::new(1000 + seed);
@@ -351,15 +358,15 @@ fn log(motion: &Motion, truth: &Candidate, planned: &Planned, axis: &Axis, seed:
         ),
         column("force", &planned.given.motion.force().si_text(), force),
     ];
-    Log::from_columns("log", columns, axis).expect("a log")
+    in_memory("log", columns, axis).expect("a log")
 }
 
 /// A log as text.
-fn text(log: &Log) -> String {
-    let (Some(position), Some(force)) = (log.position(), log.force()) else {
+fn text(Source { log, .. }: &Source) -> String {
+    let (Some(position), Some(force)) = (&log.position, &log.force) else {
         return String::new();
     };
-    let rows = log.time().iter().zip(position).zip(force);
+    let rows = log.time.iter().zip(position).zip(force);
     let rows: Vec<String> = rows.map(|((t, x), f)| format!("{t},{x},{f}\n")).collect();
     format!("time [s],position [m],force [N]\n{}", rows.concat())
 }
@@ -370,12 +377,12 @@ fn one(
     truth: &Candidate,
     planned: &Planned,
     axis: &Axis,
-    (seed, before): (u64, Option<&Log>),
+    (seed, before): (u64, Option<&Source>),
     found: &mut Found,
 ) {
     let plate = &planned.given.nameplate;
     let (limits, rig) = (&plate.limits, &plate.rig);
-    let mut logs: Vec<Log> = before.into_iter().cloned().collect();
+    let mut logs: Vec<Source> = before.into_iter().cloned().collect();
     logs.push(log(motion, truth, planned, axis, seed));
     let mut options = Options::default();
     if planned.given.subject.asymmetric {
@@ -387,12 +394,13 @@ fn one(
             false => LawKind::MaxwellSlip,
         });
     }
-    let fit = identify(&logs, axis, &options).expect("a fit");
+    let fit = identify_logs(&options, axis, logs, Vec::new(), &mut Silent).expect("a fit");
+    let parameter = |name: &str| fit.result.parameters.iter().find(|p| p.name == name);
     let entry = Entry::of(motion, truth, (limits, rig), 1 << 25).expect("as before");
     let expected = Expected::of(&[entry], &planned.given.aim);
     let predicted = &expected.axes[0];
     let mut worst: f64 = 0.0;
-    let value = |name: &str| fit.parameter(name).map(|p| p.value());
+    let value = |name: &str| parameter(name).map(|p| p.value);
     // What changes along the stroke holds at the position that the fit names.
     let reference = value("position_reference").map(|x| x - planned.given.start);
     let names = planned.given.subject.names();
@@ -403,16 +411,16 @@ fn one(
     for (i, ((name, truth), (unit, predicted))) in each {
         found.all += 1;
         // One that the law holds, micro-damping of none, is not claimed.
-        let claims = |p: &Parameter| p.is_identifiable() && p.interval().is_some();
-        let Some(p) = fit.parameter(name).filter(claims) else {
+        let claims = |p: &&ParameterEntry| p.identifiable && p.range().is_some();
+        let Some(p) = parameter(name).filter(claims) else {
             found.flagged += 1;
             continue;
         };
-        let error = (p.value() - truth) / unit;
+        let error = (p.value - truth) / unit;
         worst = worst.max(error.abs());
         found.squares[i].push(1e4 * error * error);
         found.ratio.push((error / predicted) * (error / predicted));
-        if let Some((low, high)) = p.interval() {
+        if let Some((low, high)) = p.range() {
             found.claimed += 1;
             found.inside += usize::from(low <= truth && truth <= high);
         }

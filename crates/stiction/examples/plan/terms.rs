@@ -1,9 +1,9 @@
 //! Axes with terms beside LuGre.
 
 use super::{Found, one, plan, say};
-use stiction::Axis;
-use stiction::commands::PlanOptions;
+use stiction_files::Axis;
 use stiction_plan::{Back, Candidate, HandMade, Shape, hand_made};
+use stiction_workflows::plan::PlanOptions;
 
 /// A simulated axis.
 struct Made {

@@ -6,10 +6,11 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::ops::Range;
 use std::path::PathBuf;
-use stiction::commands::Outcome;
-use stiction::result::{Action, ResultFile};
-use stiction::{Control, LawKind, Observer, Progress, Silent, Stage};
+use stiction_files::result::{Action, Origin, ResultFile, Status};
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_identify::{Control, Observer, Progress, Silent, Stage};
+use stiction_parameters::LawKind;
+use stiction_workflows::identify::Outcome;
 
 const SAMPLES: usize = 8000;
 const STEP: f64 = 1e-3;
@@ -233,13 +234,13 @@ fn an_interrupted_choice_is_not_trusted() {
 /// nothing else is concluded.
 fn stopped(options: &common::Asked, patience: &mut Patience) -> ResultFile {
     let result = options.identify(patience).unwrap().result;
-    assert_eq!(result.search.status, "interrupted");
+    assert_eq!(result.search.status, Status::Interrupted);
     assert!(!result.trust.trustworthy && result.trust.constants.is_empty());
     assert_eq!(result.trust.next, Action::Again);
     let fitted = result
         .parameters
         .iter()
-        .filter(|p| p.origin == "identified");
+        .filter(|p| p.origin == Origin::Identified);
     for parameter in fitted {
         assert!(
             !parameter.identifiable && parameter.ci95.is_none(),

@@ -4,12 +4,16 @@
 use crate::common::{Bench, options};
 use std::fmt::Write;
 use std::path::PathBuf;
-use stiction::commands::study::result::ResultRow;
-use stiction::{ExportOptions, LawKind, ModelFile, Silent, Study, Target, bundle};
+use stiction_files::ModelFile;
+use stiction_files::study::Study;
+use stiction_files::study::result::ResultRow;
 use stiction_friction::compensator::{Compensator, Friction, Settings, Source};
 use stiction_friction::{
     Damping, Direction, ElastoPlastic, Element, Gms, Held, LuGre, Shape, Stribeck,
 };
+use stiction_identify::Silent;
+use stiction_pages::bundle;
+use stiction_parameters::LawKind;
 use stiction_servo::axis::{AxisSettings, Sample};
 use stiction_servo::feedforward::Feedforward;
 use stiction_servo::known;
@@ -19,6 +23,7 @@ use stiction_servo::noise::Noise;
 use stiction_servo::path::Path;
 use stiction_servo::plant::Plant;
 use stiction_servo::run::run;
+use stiction_workflows::export::{ExportOptions, Target};
 
 const RATE: f64 = 4000.0;
 
@@ -141,7 +146,7 @@ fn compensated<L: Held<f64>>(law: L, kind: LawKind, least: f64) {
     let dir = bench.path("found");
     bundle::identification(&outcome).write(&dir).unwrap();
     let study = Study::read(dir.join("study.toml")).unwrap();
-    let file = stiction::simulate(&study, &mut Silent).file;
+    let file = stiction_workflows::study::simulate(&study, &mut Silent).file;
     for path in ["as fast as in the log", "a tenth of that"] {
         let error = |compensator: &str| {
             let row = file.results.iter().find(|row| {
@@ -207,7 +212,7 @@ fn the_study_beside_a_model_shows_what_compensation_does() {
         .write(&dir)
         .unwrap();
     let study = Study::read(dir.join("study.toml")).unwrap();
-    let file = stiction::simulate(&study, &mut Silent).file;
+    let file = stiction_workflows::study::simulate(&study, &mut Silent).file;
     // The model knows its errors, so that it promises: the axis as modelled is near what it is promised to be.
     assert_eq!(file.promise.len(), 4, "{:?}", file.not_promised);
     assert!(file.promise.iter().all(|p| p.left90_percent[1] < 60.0));

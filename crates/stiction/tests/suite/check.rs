@@ -3,10 +3,12 @@
 use crate::common::{Bench, both_ways, friction, noise, options};
 use std::f64::consts::PI;
 use std::path::Path;
-use stiction::commands::check::{Check, check, init};
-use stiction::commands::text;
-use stiction::result::Action;
-use stiction::{Axis, LawKind, Silent};
+use stiction_files::Axis;
+use stiction_files::result::Action;
+use stiction_identify::Silent;
+use stiction_pages::text;
+use stiction_parameters::LawKind;
+use stiction_workflows::check::{Check, check, init};
 
 fn checked(log: &Path, axis: Option<&Path>) -> Check {
     check(&[log.to_path_buf()], axis, &mut Silent).unwrap()
@@ -261,7 +263,7 @@ fn assumed_units_stand_at_the_head_of_every_result() {
         head.contains("[unit-assumed]") && head.contains(expected[1]),
         "{head}"
     );
-    let bundle = stiction::bundle::identification(&found);
+    let bundle = stiction_pages::bundle::identification(&found);
     let (_, report) = bundle
         .files()
         .iter()

@@ -1,8 +1,9 @@
 //! Comparisons in memory: every problem can be solved, and what cannot be compared is refused.
 
-use stiction::commands::compare_file::CompareFile;
-use stiction::commands::{CompareOptions, Cost, Excitation, Input, Scheme, compare};
-use stiction::{Control, Progress, Silent};
+use stiction_files::compare_file::CompareFile;
+use stiction_identify::candidates::Scheme;
+use stiction_identify::{Control, Progress, Silent};
+use stiction_workflows::compare::{CompareOptions, Cost, Excitation, Input, compare};
 
 fn options(problem: &str, methods: &[&str]) -> CompareOptions {
     CompareOptions {
@@ -137,7 +138,7 @@ fn motions_costs_and_integrators_can_be_chosen() {
         // Read back, nothing is lost.
         let text = serde_json::to_string(file).unwrap();
         assert_eq!(&serde_json::from_str::<CompareFile>(&text).unwrap(), file);
-        for (name, content) in stiction::bundle::comparison(file).files() {
+        for (name, content) in stiction_pages::bundle::comparison(file).files() {
             let text = std::str::from_utf8(content).unwrap();
             if *name == "report.html" {
                 stiction_testkit::assert_tables_fit(text);
@@ -176,7 +177,7 @@ fn courses_never_rise() {
 /// Stops after so many looks.
 struct After(usize);
 
-impl stiction::Observer for After {
+impl stiction_identify::Observer for After {
     fn progress(&mut self, _: &Progress) -> Control {
         self.0 = self.0.saturating_sub(1);
         match self.0 {
@@ -195,7 +196,7 @@ fn what_was_complete_is_kept() {
     let file = compare(&long, &mut After(40)).unwrap();
     assert_eq!(file.status, "interrupted");
     assert!(file.methods[0].runs.len() < 5000);
-    assert!(stiction::commands::text::comparison(&file).ends_with("are left out\n"));
+    assert!(stiction_pages::text::comparison(&file).ends_with("are left out\n"));
 }
 
 #[test]

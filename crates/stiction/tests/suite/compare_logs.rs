@@ -2,12 +2,12 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction::Silent;
-use stiction::commands::compare_file::CompareFile;
-use stiction::commands::number;
-use stiction::commands::{CompareOptions, Input, Scheme, compare};
+use stiction_files::compare_file::CompareFile;
 use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
+use stiction_identify::Silent;
+use stiction_identify::candidates::Scheme;
 use stiction_servo::noise::Noise;
+use stiction_workflows::compare::{CompareOptions, Input, compare};
 
 const STEP: f64 = 1e-3;
 const COULOMB: f64 = 14.0;
@@ -99,11 +99,11 @@ fn the_exponent_of_the_axis_file_is_fitted_with() {
     assert!((fs / 19.5 - 1.0).abs() < 0.05, "Fs {fs}");
     assert!((vs / 8e-3 - 1.0).abs() < 0.1, "vs {vs}");
     // Of a log nobody knows the answer: the report shows what each method found.
-    let bundle = stiction::bundle::comparison(&right);
+    let bundle = stiction_pages::bundle::comparison(&right);
     let (_, page) = &bundle.files()[0];
     let page = std::str::from_utf8(page).unwrap();
     let table = page.split_once("Parameters found").unwrap().1;
-    assert!(table.contains(&number::sig(fs, 5)), "{fs}");
+    assert!(table.contains(&stiction_number::sig(fs, 5)), "{fs}");
 }
 
 /// A micro-damping of zero has no logarithm; a box about it is a box about next to nothing.

@@ -1,8 +1,10 @@
 //! Studies of two axes: the circle that is known from elsewhere, wrong parameters on both axes, what is refused.
 
-use stiction::commands::FileError;
-use stiction::commands::study::result::{ResultRow, StudyFile};
-use stiction::{Silent, Study, StudyOutcome};
+use stiction_files::Error as FileError;
+use stiction_files::study::Study;
+use stiction_files::study::result::{ResultRow, StudyFile};
+use stiction_identify::Silent;
+use stiction_workflows::study::StudyOutcome;
 
 const AXES: &str = r#"
 [axis]
@@ -57,7 +59,7 @@ fn read(text: &str) -> Result<Study, FileError> {
 }
 
 fn run(text: &str) -> StudyOutcome {
-    stiction::simulate(&read(text).unwrap(), &mut Silent)
+    stiction_workflows::study::simulate(&read(text).unwrap(), &mut Silent)
 }
 
 fn row<'f>(
@@ -103,7 +105,7 @@ fn the_published_circle() {
         .unwrap();
     assert!(circular.mean >= 0.9 * 64.8e-6 && circular.mean < 2.0 * 64.8e-6);
 
-    let bundle = stiction::bundle::study(&outcome);
+    let bundle = stiction_pages::bundle::study(&outcome);
     let html = String::from_utf8(bundle.files()[0].1.clone()).unwrap();
     for words in [
         "Deviations ×",
@@ -113,7 +115,7 @@ fn the_published_circle() {
     ] {
         assert!(html.contains(words), "{words}");
     }
-    let text = stiction::commands::text::study(&outcome);
+    let text = stiction_pages::text::study(&outcome);
     assert!(text.contains("coupling"), "{text}");
     assert!(text.contains("second axis: Known axis machine"), "{text}");
 }
@@ -137,7 +139,7 @@ fn a_contour_from_a_file() {
     let file = folder.path().join("study.toml");
     std::fs::write(&file, [AXES, contour, CONTROLLER, WHOLE].concat()).unwrap();
     let study = Study::read(&file).unwrap();
-    let outcome = stiction::simulate(&study, &mut Silent);
+    let outcome = stiction_workflows::study::simulate(&study, &mut Silent);
     assert!(
         outcome.file.warnings.is_empty(),
         "{:?}",
@@ -147,7 +149,7 @@ fn a_contour_from_a_file() {
         let row = row(&outcome.file, "none", coupled, "exact");
         row.metric(name).unwrap().mean
     };
-    let bundle = stiction::bundle::study(&outcome);
+    let bundle = stiction_pages::bundle::study(&outcome);
     let rows = String::from_utf8(bundle.files()[1].1.clone()).unwrap();
     assert_eq!(bundle.files()[1].0, "contours.csv");
     let mut worst = 0.0_f64;
@@ -254,7 +256,7 @@ fn contours_beside_paths() {
         let outcome = pool
             .build()
             .unwrap()
-            .install(|| stiction::simulate(&study, &mut Silent));
+            .install(|| stiction_workflows::study::simulate(&study, &mut Silent));
         serde_json::to_string(&outcome.file).unwrap()
     };
     let one = with(1);

@@ -1,8 +1,11 @@
 //! A motor whose voltage or duty is logged: the same axis as from its force.
 
-use crate::common::identified::identified;
-use stiction::{Axis, Column, Fit, Log, Options, identify};
+use crate::common::identified::{Fit, identified, identify};
+use stiction_files::Axis;
+use stiction_log::Column;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
+use stiction_workflows::identify::Options;
+use stiction_workflows::source::{Source, in_memory};
 
 const SEED: u64 = 1;
 /// N/A, ohm, V: back EMF and resistance brake the axis more than its own viscous friction.
@@ -32,7 +35,7 @@ fn with(
     log: &stiction_testkit::worlds::Recording,
     (unit, values): (&str, &[f64]),
     axis: &Axis,
-) -> Result<Log, stiction::Error> {
+) -> Result<Source, stiction_workflows::Error> {
     let of = |name: &str, unit: &str, values: &[f64]| Column {
         name: name.into(),
         unit: Some(unit.into()),
@@ -44,7 +47,7 @@ fn with(
         of("position", "m", log.position.as_ref().unwrap()),
         of("force", unit, values),
     ];
-    Log::from_columns("log.csv", columns, axis)
+    in_memory("log.csv", columns, axis)
 }
 
 fn fitted(log: &stiction_testkit::worlds::Recording, column: (&str, &[f64]), axis: &str) -> Fit {

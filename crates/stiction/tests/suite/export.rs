@@ -1,7 +1,8 @@
 //! `stiction export` from a model file: what is written, what is refused, what is said.
 
 use std::path::{Path, PathBuf};
-use stiction::{Error, ExportOptions, Exported, Feedforward, Target, export_file};
+use stiction_workflows::Error;
+use stiction_workflows::export::{ExportOptions, Exported, Feedforward, Target, export_file};
 
 const LUGRE: [(&str, f64, &str); 6] = [
     ("sigma0", 1.2e5, "N/m"),
@@ -416,7 +417,7 @@ fn doubts_are_said_and_written() {
     ];
     assert_eq!(codes, all);
     assert!(!exported.trustworthy);
-    let said = stiction::commands::text::exported(&exported, Path::new("out"));
+    let said = stiction_pages::text::exported(&exported, Path::new("out"));
     assert!(
         said.contains("the log leaves sigma0 open") && said.contains("mass is not friction"),
         "{said}"
@@ -441,7 +442,7 @@ fn a_current_stays_one() {
         .replace("unit = \"N\"", "unit = \"A\"");
     let bench = Bench::new();
     let exported = bench.export(&model).unwrap();
-    let said = stiction::commands::text::exported(&exported, Path::new("out"));
+    let said = stiction_pages::text::exported(&exported, Path::new("out"));
     assert!(said.contains("force at most 60.00 A"), "{said}");
     assert!(said.contains("limited to 60 A, which"), "{said}");
     for (name, bytes) in contents(&bench.path("out")) {
@@ -757,7 +758,7 @@ fn an_export_without_a_name_is_called_after_its_log() {
             (exported.name.as_str(), exported.named_after_log),
             (name, true)
         );
-        let said = stiction::commands::text::exported(&exported, &bench.path(name));
+        let said = stiction_pages::text::exported(&exported, &bench.path(name));
         assert!(
             said.contains(&format!(
                 "compensator `{name}`, named after its log (--name gives another), for a cycle"
@@ -792,7 +793,7 @@ fn the_whole_force_is_named_where_it_is_warranted() {
         let mut options = bench.options(model);
         change(&mut options);
         let exported = export_file(bench.path("model.toml"), &options).unwrap();
-        stiction::commands::text::exported(&exported, &bench.path("out"))
+        stiction_pages::text::exported(&exported, &bench.path("out"))
     };
     let line = "a gain of 0.75 leaves 25 % of the friction, and the levels of friction are known within 0.80 %: where it runs well, \
                 export again with --gain 1, or --adapt where friction changes\n";
@@ -874,7 +875,7 @@ fn beside() -> Vec<(&'static str, f64, &'static str)> {
 const SEEN: &str = "\n[range]\nposition = [0.0, 0.2]\ntemperature = [290.0, 310.0]\nload = [80.0, 150.0]\nacceleration = 5.0\n\n\
      [pitch]\ncogging = [0.024]\n";
 
-fn file(files: &[stiction::commands::export::File], name: &str) -> String {
+fn file(files: &[stiction_workflows::export::File], name: &str) -> String {
     let found = files.iter().find(|f| f.path.ends_with(name)).unwrap();
     String::from_utf8(found.bytes.clone()).unwrap()
 }

@@ -3,10 +3,13 @@
 use crate::common::{Asked, Bench, options};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction::commands::Outcome;
-use stiction::result::ParameterEntry;
-use stiction::{ExportOptions, LawKind, ModelFile, Silent, Target, export};
+use stiction_files::ModelFile;
+use stiction_files::result::ParameterEntry;
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
 use stiction_testkit::geared::Geared;
+use stiction_workflows::export::{ExportOptions, Target, export};
+use stiction_workflows::identify::Outcome;
 
 /// A joint with a bristle, whose load a model of the robot says in a column of its own.
 fn joint() -> Geared {
@@ -58,7 +61,7 @@ fn what_a_gear_transmits_reaches_every_file() {
     let with = run("[terms]\ncoulomb_transmitted = true\ncoulomb_driven = true\n");
     let reference = parameter(&with, "transmitted_reference");
     assert_eq!(
-        (reference.origin.as_str(), reference.unit.as_str()),
+        (reference.origin.name(), reference.unit.as_str()),
         ("given", "N*m")
     );
     for (name, truth) in [
@@ -85,7 +88,7 @@ fn what_a_gear_transmits_reaches_every_file() {
         (0.0..0.1).contains(&least) && (3.0..7.0).contains(&largest),
         "{least} {largest}"
     );
-    let bundle = stiction::bundle::identification(&with);
+    let bundle = stiction_pages::bundle::identification(&with);
     let text = |wanted: &str| {
         let mut files = bundle.files().iter();
         let (_, bytes) = files.find(|(name, _)| *name == wanted).unwrap();

@@ -1,13 +1,24 @@
 //! What the library says to a program: its own names, no options of a command, no files that are none.
 
 use crate::common::Bench;
-use stiction::{
-    Axis, CostKind, Error, ExportOptions, LawKind, Log, Method, ModelFile, Options, Target, export,
-    identify, identify_validated,
-};
+use stiction_files::{Axis, ModelFile};
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
+use stiction_workflows::Error;
+use stiction_workflows::export::{ExportOptions, Target, export};
+use stiction_workflows::identify::identify_logs;
+use stiction_workflows::identify::{CostKind, Method, Options};
+use stiction_workflows::source::{Source, load};
 
-fn said(options: &Options, logs: &[Log], validate: &[Log]) -> String {
-    let error = identify_validated(logs, validate, &Axis::default(), options).unwrap_err();
+fn said(options: &Options, logs: &[Source], validate: &[Source]) -> String {
+    let error = identify_logs(
+        options,
+        &Axis::default(),
+        logs.to_vec(),
+        validate.to_vec(),
+        &mut Silent,
+    )
+    .unwrap_err();
     assert_eq!(error.code().as_str(), "usage");
     error.to_string()
 }
@@ -15,8 +26,8 @@ fn said(options: &Options, logs: &[Log], validate: &[Log]) -> String {
 #[test]
 fn options_are_named_as_fields() {
     let bench = Bench::new();
-    let logs = [Log::open(bench.good("a.csv", 1)).unwrap()];
-    let other = [Log::open(bench.good("b.csv", 2)).unwrap()];
+    let logs = [load(bench.good("a.csv", 1), &Axis::default()).unwrap()];
+    let other = [load(bench.good("b.csv", 2), &Axis::default()).unwrap()];
     let with = |change: fn(&mut Options)| {
         let mut options = Options::default();
         change(&mut options);
@@ -37,7 +48,14 @@ fn options_are_named_as_fields() {
         (o.law, o.procedures.method) = (Some(LawKind::Stribeck), Method::Static);
     });
     found.push(said(&statics, &logs, &other));
-    let refused = identify(&[], &Axis::default(), &Options::default()).unwrap_err();
+    let refused = identify_logs(
+        &Options::default(),
+        &Axis::default(),
+        vec![],
+        vec![],
+        &mut Silent,
+    )
+    .unwrap_err();
     found.push(refused.to_string());
     insta::assert_snapshot!(found.join("\n"));
 }
@@ -46,7 +64,7 @@ fn options_are_named_as_fields() {
 fn a_model_in_memory_has_keys_and_no_lines() {
     let bench = Bench::new();
     let outcome = crate::common::options(&[&bench.good("a.csv", 1)], LawKind::Stribeck)
-        .identify(&mut stiction::Silent)
+        .identify(&mut stiction_identify::Silent)
         .unwrap();
     let good = ModelFile::from_result(&outcome.result);
     let options = ExportOptions::new(Target::C, 1e-3);
@@ -81,7 +99,7 @@ fn a_model_in_memory_has_keys_and_no_lines() {
 
 fn compensator(model: &ModelFile, cycle_time: f64) -> String {
     let options = ExportOptions::new(Target::Rust, cycle_time);
-    let refused: Result<_, Error> = stiction::commands::export::compensator(model, &options);
+    let refused: Result<_, Error> = stiction_workflows::export::compensator(model, &options);
     refused.unwrap_err().to_string()
 }
 
@@ -89,7 +107,7 @@ fn compensator(model: &ModelFile, cycle_time: f64) -> String {
 fn a_folder_that_is_taken_is_refused_without_options() {
     let bench = Bench::new();
     bench.write("mine.txt", "mine");
-    let error = stiction::commands::check_folder(bench.dir(), false).unwrap_err();
+    let error = stiction_files::check_folder(bench.dir(), false).unwrap_err();
     let message = error.to_string();
     assert!(!message.contains("--"), "{message}");
     assert!(message.contains("choose another folder"), "{message}");

@@ -18,6 +18,7 @@ mod motions;
 mod paper;
 mod procedures;
 mod promise;
+mod public;
 mod recordings;
 mod rests;
 mod saved;

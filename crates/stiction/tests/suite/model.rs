@@ -2,9 +2,11 @@
 //! a covariance that comes back bit for bit and is one.
 
 use crate::common::{Bench, both_ways, friction, noise, options};
-use stiction::commands::Outcome;
-use stiction::result::CovarianceEntry;
-use stiction::{LawKind, ModelFile, Silent};
+use stiction_files::ModelFile;
+use stiction_files::result::{CovarianceEntry, Origin};
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
+use stiction_workflows::identify::Outcome;
 
 fn stribeck(bench: &Bench, axis: &str, asymmetric: bool) -> Outcome {
     // A Stribeck curve of 8 N and 30 mm/s with exponent 1.4 on top of the friction of the other tests.
@@ -113,7 +115,7 @@ fn an_open_interval_is_written_and_read() {
     open.ci95 = Some([None, Some(0.5)]);
     let json = serde_json::to_string(&result).unwrap();
     assert!(json.contains("\"ci95\":[null,0.5]"));
-    let back: stiction::result::ResultFile = serde_json::from_str(&json).unwrap();
+    let back: stiction_files::result::ResultFile = serde_json::from_str(&json).unwrap();
     assert_eq!(back, result);
     let model = ModelFile::from_result(&result);
     let text = model.to_toml();
@@ -132,7 +134,7 @@ fn a_fitted_exponent_is_that_of_the_log() {
         .iter()
         .find(|p| p.name == "stribeck_exponent")
         .unwrap();
-    assert_eq!(p.origin, "identified");
+    assert_eq!(p.origin, Origin::Identified);
     let (low, high) = p.range().unwrap();
     assert!(low < 1.4 && 1.4 < high, "{} in {low} .. {high}", p.value);
 }

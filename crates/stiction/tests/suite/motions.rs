@@ -1,7 +1,8 @@
 //! Motions of a study that go by a name alone, and what is measured on them.
 
-use stiction::commands::study::result::{ResultRow, StudyFile};
-use stiction::{Silent, Study};
+use stiction_files::study::Study;
+use stiction_files::study::result::{ResultRow, StudyFile};
+use stiction_identify::Silent;
 
 const AXIS: &str = "[axis]\nknown = \"motor\"\nrate = \"4 kHz\"\n";
 const LOOP: &str =
@@ -17,7 +18,7 @@ fn read(parts: &[&str]) -> Result<Study, String> {
 }
 
 fn run(parts: &[&str]) -> StudyFile {
-    stiction::simulate(&read(parts).unwrap(), &mut Silent).file
+    stiction_workflows::study::simulate(&read(parts).unwrap(), &mut Silent).file
 }
 
 fn value(row: &ResultRow, name: &str) -> Option<f64> {

@@ -2,12 +2,12 @@
 //! stop keeps what is done.
 
 use crate::common::counted;
-use stiction::commands::reproduce::{
+use stiction_files::reproduce_file::ReproduceFile;
+use stiction_identify::{Control, Progress, Silent};
+use stiction_workflows::reproduce::{
     Body, Budget, Compensation, Control as StageControl, Hold, OwnAxis, Reproduction, zhang_2025,
     zhang_2025_on,
 };
-use stiction::commands::reproduce_file::ReproduceFile;
-use stiction::{Control, Progress, Silent};
 
 /// A fraction of the searching; least squares make up for it.
 const SMALL: Budget = Budget {
@@ -83,7 +83,7 @@ fn the_simulated_axis_is_found_and_compensated() {
     assert_eq!(published.count(), 4);
     baselines(file);
     what_the_measured_velocity_does(&outcome);
-    let bundle = stiction::bundle::reproduction(&outcome);
+    let bundle = stiction_pages::bundle::reproduction(&outcome);
     let text = |name: &str| {
         let found = bundle.files().iter().find(|(n, _)| *n == name);
         String::from_utf8(found.unwrap().1.clone()).unwrap()
@@ -281,7 +281,7 @@ fn on_an_axis_of_the_user() {
         said.contains("Of the axis file search, terms.gravity are not used"),
         "{said}"
     );
-    let html = stiction::bundle::reproduction(&outcome);
+    let html = stiction_pages::bundle::reproduction(&outcome);
     let (_, html) = html
         .files()
         .iter()
@@ -312,7 +312,10 @@ fn a_stop_keeps_what_is_done() {
     assert_eq!(experiments[..4], ["static"; 4]);
     assert_eq!(experiments[4..], ["outliers"; 4]);
     assert!(file.claims.is_empty());
-    assert_eq!(stiction::bundle::reproduction(&outcome).files().len(), 2);
-    let text = stiction::commands::text::reproduction(file);
+    assert_eq!(
+        stiction_pages::bundle::reproduction(&outcome).files().len(),
+        2
+    );
+    let text = stiction_pages::text::reproduction(file);
     assert!(text.contains("STOPPED EARLY"), "{text}");
 }

@@ -2,9 +2,15 @@
 
 use crate::common::{Asked, Bench, noise, options};
 use std::path::{Path, PathBuf};
-use stiction::commands::{Outcome, text};
-use stiction::result::ResultFile;
-use stiction::{Code, Error, LawKind, Method, ModelFile, Procedures, Silent, Warning};
+use stiction_codes::Code;
+use stiction_files::result::{Origin, ResultFile};
+use stiction_files::{ModelFile, Warning};
+use stiction_identify::Silent;
+use stiction_pages::text;
+use stiction_parameters::LawKind;
+use stiction_workflows::Error;
+use stiction_workflows::identify::Outcome;
+use stiction_workflows::identify::{Method, Procedures};
 
 fn with(logs: &[&Path], procedures: Procedures) -> Asked {
     options(logs, LawKind::LuGre).but(|asked| asked.procedures = procedures)
@@ -37,7 +43,7 @@ fn near_truth(outcome: &Outcome, share: f64) {
         .result
         .parameters
         .iter()
-        .filter(|p| p.origin == "identified")
+        .filter(|p| p.origin == Origin::Identified)
     {
         let Some((_, truth)) = TRUTH.iter().find(|(name, _)| *name == p.name) else {
             continue;
@@ -66,7 +72,7 @@ fn near_truth(outcome: &Outcome, share: f64) {
 /// What is written can be read back, and the report is whole.
 fn files(outcome: &Outcome, bench: &Bench, name: &str) -> PathBuf {
     let dir = bench.path(name);
-    stiction::bundle::identification(outcome)
+    stiction_pages::bundle::identification(outcome)
         .write(&dir)
         .unwrap();
     let json = std::fs::read_to_string(dir.join("result.json")).unwrap();
@@ -88,7 +94,7 @@ fn varies_as_a_whole(step: &Outcome, before: &Outcome) {
         .result
         .parameters
         .iter()
-        .filter(|p| p.origin == "identified")
+        .filter(|p| p.origin == Origin::Identified)
         .map(|p| p.name.as_str())
         .collect();
     assert_eq!(step.result.covariance.names, identified);
@@ -122,8 +128,10 @@ fn drawn_from(model: &Path, bench: &Bench) {
          [[parameter_error]]\nkind = \"covariance\"\ndraws = 20\n",
         model.display().to_string()
     );
-    let study = stiction::Study::read(bench.write("drawn.toml", &text)).unwrap();
-    let rows = stiction::simulate(&study, &mut Silent).file.results;
+    let study = stiction_files::study::Study::read(bench.write("drawn.toml", &text)).unwrap();
+    let rows = stiction_workflows::study::simulate(&study, &mut Silent)
+        .file
+        .results;
     let drawn = rows
         .iter()
         .find(|r| r.compensator == "lugre" && r.parameters == "20 draws");
@@ -138,7 +146,9 @@ fn drawn_from(model: &Path, bench: &Bench) {
 #[test]
 fn the_logs_of_the_demo() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
+    let logs = stiction_workflows::demo::procedures(bench.dir(), 0)
+        .unwrap()
+        .0;
     let log = |name: &str| {
         let found = logs.iter().find(|p| p.ends_with(name));
         found.unwrap_or_else(|| panic!("no {name}")).clone()
@@ -219,7 +229,10 @@ fn the_logs_of_the_demo() {
         .iter()
         .find(|p| p.name == "static")
         .unwrap();
-    assert!(!entry.identifiable && entry.origin == "given", "{entry:?}");
+    assert!(
+        !entry.identifiable && entry.origin == Origin::Given,
+        "{entry:?}"
+    );
     let warned = |w: &Warning| w.code == Code::NotIdentifiable && w.message.contains("static (");
     assert!(
         step.result.warnings.iter().any(warned),
@@ -419,7 +432,9 @@ fn terms_that_a_static_map_does_not_count_are_refused_with_their_key() {
 #[test]
 fn a_motion_with_another_friction_than_the_map_is_named() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
+    let logs = stiction_workflows::demo::procedures(bench.dir(), 0)
+        .unwrap()
+        .0;
     let (speeds, motion) = (&logs[0], &logs[1]);
     let text = std::fs::read_to_string(motion).unwrap();
     for by in [1.03, 1.2, 0.8] {
@@ -451,7 +466,7 @@ fn a_motion_with_another_friction_than_the_map_is_named() {
         assert!(!result.trust.trustworthy);
         assert_eq!(
             result.trust.next,
-            stiction::result::Action::LetTheDataChoose
+            stiction_files::result::Action::LetTheDataChoose
         );
         for name in ["coulomb", "static", "sigma0", "sigma1", "mass"] {
             assert!(
@@ -486,7 +501,9 @@ stribeck_velocity = [\"0.1 mm/s\", \"100 mm/s\"]
 #[ignore = "soak: a search alone beside it"]
 fn both_steps_by_a_search() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
+    let logs = stiction_workflows::demo::procedures(bench.dir(), 0)
+        .unwrap()
+        .0;
     let (speeds, motion) = (&logs[0], &logs[1]);
     let axis = bench.write("axis.toml", SEARCH);
     for name in ["ga", "adaptive-ga", "annealing-ga", "niched-ga"] {
@@ -533,7 +550,9 @@ fn both_steps_by_a_search() {
 #[test]
 fn a_search_alone() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
+    let logs = stiction_workflows::demo::procedures(bench.dir(), 0)
+        .unwrap()
+        .0;
     let (speeds, motion) = (&logs[0], &logs[1]);
     let in_steps = Procedures {
         statics: vec![speeds.clone()],
@@ -553,7 +572,7 @@ fn a_search_alone() {
         asked.searching.evaluations = Some(600);
         let outcome = run(&asked).unwrap();
         let result = &outcome.result;
-        assert_eq!(result.trust.next, stiction::result::Action::Finish);
+        assert_eq!(result.trust.next, stiction_files::result::Action::Finish);
         assert!(result.trust.reasons[0].contains("no intervals"), "{cost}");
         let searched = result.searched.as_ref().unwrap();
         assert_eq!(searched.cost, cost);
@@ -579,7 +598,7 @@ fn a_search_alone() {
         for p in result
             .parameters
             .iter()
-            .filter(|p| p.origin == "identified")
+            .filter(|p| p.origin == Origin::Identified)
         {
             assert!(
                 p.std.is_none() && p.ci95.is_none() && !p.identifiable,
@@ -603,7 +622,9 @@ fn a_search_alone() {
 #[test]
 fn a_box_off_the_truth_does_not_decide() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
+    let logs = stiction_workflows::demo::procedures(bench.dir(), 0)
+        .unwrap()
+        .0;
     let alone = run(&with(&[&logs[0]], method(Method::Static))).unwrap();
     for range in [
         "sigma2 = [\"600 N s/m\", \"6000 N s/m\"]",
@@ -652,7 +673,9 @@ fn a_box_off_the_truth_does_not_decide() {
 #[test]
 fn searches_of_steps_are_refused_elsewhere() {
     let bench = Bench::new();
-    let logs = stiction::demo::procedures(bench.dir(), 0).unwrap().0;
+    let logs = stiction_workflows::demo::procedures(bench.dir(), 0)
+        .unwrap()
+        .0;
     let refused = |method_: Method, change: &dyn Fn(&mut Asked)| {
         let mut asked = with(&[&logs[0]], method(method_));
         change(&mut asked);

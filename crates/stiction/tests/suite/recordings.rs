@@ -1,8 +1,9 @@
 //! What must hold on measured recordings.
 
 use crate::measure;
-use stiction::{ExportOptions, ModelFile, Target, export};
+use stiction_files::ModelFile;
 use stiction_testkit::{CASES, Case, DEFAULT_RUNS, recordings};
+use stiction_workflows::export::{ExportOptions, Target, export};
 
 #[test]
 fn every_limit_holds() {
@@ -67,8 +68,9 @@ fn damiao_reports_its_gaps() {
         return;
     };
     let axis =
-        stiction::Axis::read(stiction_testkit::workspace().join("validation/damiao.toml")).unwrap();
-    let source = stiction::commands::load(data.join("damiao/motor_2.npz"), &axis).unwrap();
+        stiction_files::Axis::read(stiction_testkit::workspace().join("validation/damiao.toml"))
+            .unwrap();
+    let source = stiction_workflows::source::load(data.join("damiao/motor_2.npz"), &axis).unwrap();
     let longest = source
         .log
         .gaps

@@ -3,8 +3,10 @@
 use crate::common::{Bench, RATE, friction, noise, options};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
-use stiction::commands::Outcome;
-use stiction::{Code, LawKind, Silent};
+use stiction_codes::Code;
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
+use stiction_workflows::identify::Outcome;
 
 /// To and fro from rest, and at rest again after five seconds: position, velocity, acceleration.
 fn to_and_fro(t: f64) -> [f64; 3] {
@@ -85,13 +87,13 @@ fn they_are_left_out_as_by_the_crop_that_is_named() {
         a.rmse
     );
     // And it is said at the head of the terminal and of the report.
-    let text = stiction::commands::text::outcome(&found);
+    let text = stiction_pages::text::outcome(&found);
     let head = text.split("\n\n").next().unwrap();
     assert!(
         head.contains("not fitted: 0 to 2.98") && head.contains("[rest-at-end]"),
         "{head}"
     );
-    let bundle = stiction::bundle::identification(&found);
+    let bundle = stiction_pages::bundle::identification(&found);
     let (_, report) = bundle
         .files()
         .iter()
@@ -180,7 +182,7 @@ fn short_rests_are_asked_of_the_counts() {
     let said: Vec<&String> = found.result.axis.conditioning.iter().filter(says).collect();
     assert_eq!(said.len(), 1);
     insta::assert_snapshot!(said[0]);
-    let bundle = stiction::bundle::identification(&found);
+    let bundle = stiction_pages::bundle::identification(&found);
     let mut files = bundle.files().iter();
     let (_, report) = files.find(|(name, _)| *name == "report.html").unwrap();
     let report = std::str::from_utf8(report).unwrap();

@@ -1,28 +1,29 @@
 //! A fit that is read from its folder is the fit that was written there.
 
 use crate::common::Bench;
-use stiction::{
-    Axis, LawKind, Log, Options, SavedFit, Silent, check, fit_columns, identify, identify_files,
-};
+use stiction::{Fit, Identification, LawKind, Log, Recording, SavedFit};
+use stiction_pages::bundle::fit_columns;
 
-fn stribeck() -> Options {
-    let mut options = Options::default();
-    (options.law, options.compare_laws) = (Some(LawKind::Stribeck), false);
-    options
+fn stribeck<'a>(log: impl Into<Recording<'a>>) -> Fit {
+    let asked = Identification::of([log]).law(LawKind::Stribeck);
+    asked.without_comparison().run().unwrap()
 }
 
 #[test]
 fn a_folder_gives_back_what_was_written() {
     let bench = Bench::new();
     let log = Log::open(bench.good("a.csv", 1)).unwrap();
-    let fit = identify(&[log], &Axis::default(), &stribeck()).unwrap();
+    let fit = stribeck(&log);
     let (folder, other) = (bench.path("fit"), bench.path("other"));
     fit.write(&folder).unwrap();
 
     let saved = SavedFit::read(&folder).unwrap();
-    assert_eq!(saved.model(), &fit.model());
-    assert_eq!(saved.law().unwrap().unwrap(), fit.law().unwrap());
-    let mut series = saved.series().unwrap().into_iter();
+    assert_eq!(saved.model(), fit.model());
+    assert_eq!(saved.law().unwrap(), fit.law().unwrap());
+    assert_eq!(saved.result(), fit.result());
+    assert!(saved.parameters().eq(fit.parameters()));
+    let written = stiction_pages::SavedFit::read(&folder).unwrap();
+    let mut series = written.series().unwrap().into_iter();
     let residual = series.find(|column| column.name == "residual").unwrap();
     assert_eq!(residual.unit.as_deref(), Some("N"));
     assert_eq!(residual.values, fit.series().residual());
@@ -39,7 +40,7 @@ fn a_folder_gives_back_what_was_written() {
 fn a_folder_that_is_none_is_refused_by_file() {
     let bench = Bench::new();
     let log = Log::open(bench.good("a.csv", 1)).unwrap();
-    let fit = identify(&[log], &Axis::default(), &stribeck()).unwrap();
+    let fit = stribeck(&log);
     let folder = bench.path("fit");
     fit.write(&folder).unwrap();
     let result = folder.join("result.json");
@@ -73,19 +74,10 @@ fn logs_in_memory_are_checked_and_identified_as_files_are() {
     let bench = Bench::new();
     let path = bench.good("a.csv", 1);
     let log = Log::open(&path).unwrap();
-    let axis = Axis::default();
-    let mut silent = Silent;
-    let of_file =
-        stiction::commands::check::check(std::slice::from_ref(&path), None, &mut silent).unwrap();
-    let of_log = check(std::slice::from_ref(&log), &axis, &mut silent).unwrap();
-    let json = |found: &_| serde_json::to_value(found).unwrap();
-    assert_eq!(json(&of_log), json(&of_file));
+    let of_file = Identification::of([&path]).check().unwrap();
+    let of_log = Identification::of([&log]).check().unwrap();
+    assert_eq!(of_log.result(), of_file.result());
 
-    let files = stiction::Files {
-        logs: vec![path],
-        ..Default::default()
-    };
-    let of_file = identify_files(&files, &stribeck(), &mut silent).unwrap();
-    let of_log = identify(&[log], &axis, &stribeck()).unwrap();
-    assert_eq!(of_file.model().to_toml(), of_log.model().to_toml());
+    let of_file = stribeck(&path);
+    assert_eq!(of_file.model().to_toml(), stribeck(&log).model().to_toml());
 }

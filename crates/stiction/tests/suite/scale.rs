@@ -1,8 +1,9 @@
 //! The unit of the force is a choice: nothing in an identification depends on how large its numbers are.
 
-use crate::common::identified::identified;
-use stiction::{Axis, Fit, Options};
+use crate::common::identified::{Fit, identified};
+use stiction_files::Axis;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
+use stiction_workflows::identify::Options;
 
 fn scaled(machine: &Machine, by: f64) -> Fit {
     let mut log = record(machine, Motion::Commissioning, World::Faithful, 1);

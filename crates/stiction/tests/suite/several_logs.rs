@@ -1,10 +1,12 @@
 //! Several logs of one axis: what is said where they tell the same, and where they do not.
 
-use crate::common::identified::identified;
-use stiction::result::Action;
-use stiction::{Axis, Code, Fit, Options};
+use crate::common::identified::{Fit, identified};
+use stiction_codes::Code;
+use stiction_files::Axis;
+use stiction_files::result::{Action, Origin};
 use stiction_testkit::gate;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
+use stiction_workflows::identify::Options;
 
 /// What the seed of a second log is more than that of the first.
 const LATER: u64 = 1_000_000;
@@ -43,7 +45,7 @@ fn open_is_what_is_not_identifiable(fit: &Fit) {
     let fitted = result
         .parameters
         .iter()
-        .filter(|p| p.origin == "identified");
+        .filter(|p| p.origin == Origin::Identified);
     let open: Vec<&str> = fitted
         .filter(|p| !p.identifiable)
         .map(|p| p.name.as_str())
@@ -146,7 +148,7 @@ fn levels_of_each_log_are_found() {
         }
         assert!(fit.parameter("coulomb_log2").unwrap().is_identifiable());
         open_is_what_is_not_identifiable(&fit);
-        let model = fit.model();
+        let model = stiction_files::ModelFile::from_result(fit.result());
         assert!(model.parameter.iter().all(|p| !p.name.contains("_log")));
     }
     assert!(10 * inside >= 9 * stated, "{inside} of {stated} inside");

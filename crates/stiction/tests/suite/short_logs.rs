@@ -1,11 +1,14 @@
 //! What is said of logs that are too short to tell much.
 
-use crate::common::identified::identified;
+use crate::common::identified::{identified, identify};
 use crate::common::noise;
 use std::f64::consts::TAU;
-use stiction::{Axis, Column, Log, Options, identify};
+use stiction_files::Axis;
+use stiction_log::Column;
 use stiction_testkit::gate;
 use stiction_testkit::worlds::{Machine, Motion, Recording, World, record};
+use stiction_workflows::identify::Options;
+use stiction_workflows::source::{Source, in_memory};
 
 /// The rows of a log from `from` s on, of that many seconds.
 fn cut(log: &Recording, rate: f64, from: f64, seconds: f64) -> Recording {
@@ -42,7 +45,7 @@ fn half_a_second_names_nothing_that_takes_time() {
 
 /// LuGre with 20 N, 1.2e5 N/m, 600 and 60 N s/m under 10 kg, on a sine whose stroke is so many times the travel of the bristles from
 /// one side to the other.
-fn sine_of(ways: f64) -> Log {
+fn sine_of(ways: f64) -> Source {
     const FINE: usize = 100;
     let (rate, frequency, seconds) = (4000.0, 12.0, 2.0);
     let (stiffness, level, damping) = (1.2e5, 20.0, 600.0);
@@ -83,7 +86,7 @@ fn sine_of(ways: f64) -> Log {
         column("position", "m", position),
         column("force", "N", force),
     ];
-    Log::from_columns("sine.csv", columns, &Axis::default()).unwrap()
+    in_memory("sine.csv", columns, &Axis::default()).unwrap()
 }
 
 /// Where bristles do not come near their level the law says what it is, and another law says another.

@@ -4,12 +4,14 @@
 use crate::common::{Asked, Bench, options};
 use std::fmt::Write;
 use std::path::PathBuf;
-use stiction::commands::Outcome;
-use stiction::{LawKind, Method, Silent};
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
 use stiction_servo::cascade::{Cascade, CascadeState};
 use stiction_servo::known;
 use stiction_servo::path::Reference;
 use stiction_servo::plant::{Load, Motion, Plant};
+use stiction_workflows::identify::Method;
+use stiction_workflows::identify::Outcome;
 
 const CASCADE: Cascade = Cascade {
     position_gain: 60.0,
@@ -89,7 +91,7 @@ fn simulated(bench: &Bench, axis: &str, change: impl FnOnce(&mut Asked)) -> Aske
     options
 }
 
-fn run(options: &Asked) -> Result<Outcome, stiction::Error> {
+fn run(options: &Asked) -> Result<Outcome, stiction_workflows::Error> {
     options.identify(&mut Silent)
 }
 
@@ -142,7 +144,7 @@ fn a_closed_loop_is_identified_from_its_file() {
     assert_eq!(simulation.validation_force.len(), 1);
 
     let out = bench.path("out");
-    stiction::bundle::identification(&outcome)
+    stiction_pages::bundle::identification(&outcome)
         .write(&out)
         .unwrap();
     let csv = std::fs::read_to_string(out.join("fit.csv")).unwrap();
@@ -151,7 +153,7 @@ fn a_closed_loop_is_identified_from_its_file() {
     ));
     assert_eq!(csv.lines().count(), 4001);
     let json = std::fs::read_to_string(out.join("result.json")).unwrap();
-    let read: stiction::result::ResultFile = serde_json::from_str(&json).unwrap();
+    let read: stiction_files::result::ResultFile = serde_json::from_str(&json).unwrap();
     assert_eq!(read.simulation, result.simulation);
     let html = std::fs::read_to_string(out.join("report.html")).unwrap();
     stiction_testkit::assert_tables_fit(&html);
@@ -162,7 +164,7 @@ fn a_closed_loop_is_identified_from_its_file() {
     ] {
         assert!(html.contains(words), "{words}");
     }
-    let text = stiction::commands::text::outcome(&outcome);
+    let text = stiction_pages::text::outcome(&outcome);
     assert!(
         text.contains("simulation  closed loop, one run from a fitted start (4 values); force"),
         "{text}"

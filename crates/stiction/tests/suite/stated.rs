@@ -1,9 +1,10 @@
 //! What an axis file states and a log contradicts.
 
 use crate::common::identified::identified;
-use stiction::{Axis, Options};
+use stiction_files::Axis;
 use stiction_testkit::gate;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
+use stiction_workflows::identify::Options;
 
 const SEED: u64 = 1;
 

@@ -1,7 +1,8 @@
 //! A law that is run by itself: in real time and along a record.
 
-use stiction::{FrictionLaw, LawKind, SteppedLaw, forces_along};
 use stiction_parameters::ParameterSet;
+use stiction_parameters::{FrictionLaw, LawKind};
+use stiction_workflows::{SteppedLaw, forces_along};
 
 /// Every family with one set of numbers.
 fn laws() -> Vec<FrictionLaw> {

@@ -2,9 +2,10 @@
 
 use crate::common::counted;
 use std::path::PathBuf;
-use stiction::commands::FileError;
-use stiction::commands::study::result::{ResultRow, StudyFile};
-use stiction::{Control, Progress, Silent, Study};
+use stiction_files::Error as FileError;
+use stiction_files::study::Study;
+use stiction_files::study::result::{ResultRow, StudyFile};
+use stiction_identify::{Control, Progress, Silent};
 use tempfile::TempDir;
 
 /// A folder with a study in it.
@@ -41,7 +42,7 @@ impl Desk {
 }
 
 fn run(study: &Study) -> StudyFile {
-    stiction::simulate(study, &mut Silent).file
+    stiction_workflows::study::simulate(study, &mut Silent).file
 }
 
 pub(crate) fn row<'f>(file: &'f StudyFile, compensator: &str, parameters: &str) -> &'f ResultRow {
@@ -156,7 +157,7 @@ fn threads_do_not_count_and_an_interrupt_keeps_what_is_done() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
     let mut seen = 0;
     let cut = pool.build().unwrap().install(|| {
-        stiction::simulate(&study, &mut |progress: &Progress| {
+        stiction_workflows::study::simulate(&study, &mut |progress: &Progress| {
             let (done, all) = counted(progress);
             seen = done;
             assert_eq!(all, 4 * (1 + 65 + 1));
@@ -171,7 +172,7 @@ fn threads_do_not_count_and_an_interrupt_keeps_what_is_done() {
     let kept: usize = cut.file.results.iter().map(|r| r.runs).sum();
     assert_eq!(kept, 5);
     // What is kept can be drawn.
-    assert_eq!(stiction::bundle::study(&cut).files().len(), 3);
+    assert_eq!(stiction_pages::bundle::study(&cut).files().len(), 3);
 }
 
 /// A model file of the stage whose static and Coulomb friction have the standard deviations given, N, and correlate fully.
@@ -339,7 +340,7 @@ fn a_watchdog_has_learnt_before_the_run() {
     let supplied = "\n[[compensator]]\nkind = \"lugre\"\n";
     let unwatched = "\n[[compensator]]\nname = \"unwatched\"\nkind = \"lugre\"\nwatchdog = false\n";
     let study = Desk::new().study(&together(&[AXIS, there, CASCADE, supplied, unwatched]));
-    let outcome = stiction::simulate(&study.unwrap(), &mut Silent);
+    let outcome = stiction_workflows::study::simulate(&study.unwrap(), &mut Silent);
     let file = &outcome.file;
     let metrics = |name: &str| &row(file, name, "exact").metrics;
     assert_eq!(metrics("lugre"), metrics("unwatched"));
@@ -347,7 +348,7 @@ fn a_watchdog_has_learnt_before_the_run() {
     assert!(peak.reduction_percent.unwrap() > 40.0, "{peak:?}");
     assert!(file.warnings.is_empty(), "{:?}", file.warnings);
     let courses =
-        String::from_utf8(stiction::bundle::study(&outcome).files()[1].1.clone()).unwrap();
+        String::from_utf8(stiction_pages::bundle::study(&outcome).files()[1].1.clone()).unwrap();
     let first = courses.lines().find_map(|line| {
         let numbers: Vec<f64> = line.split(',').filter_map(|x| x.parse().ok()).collect();
         (numbers.last().is_some_and(|force| *force != 0.0)).then(|| numbers[0])
@@ -465,8 +466,9 @@ fn what_the_report_does_not_draw_it_says() {
     let study = Desk::new()
         .study(&together(&[AXIS, SHORT, CASCADE, &gains, corners]))
         .unwrap();
-    let outcome = stiction::simulate(&study, &mut Silent);
-    let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
+    let outcome = stiction_workflows::study::simulate(&study, &mut Silent);
+    let html =
+        String::from_utf8(stiction_pages::bundle::study(&outcome).files()[0].1.clone()).unwrap();
     stiction_testkit::assert_tables_fit(&html);
     assert!(html.contains("7 of 9: without compensation, and those that leave the least"));
     assert!(
@@ -483,8 +485,9 @@ fn figures_of_every_motion() {
         .collect();
     let pid = "\n[[controller]]\nkind = \"pid\"\nbandwidth = \"40 Hz\"\n";
     let study = Desk::new().study(&together(&[AXIS, &paths, CASCADE, pid]));
-    let outcome = stiction::simulate(&study.unwrap(), &mut Silent);
-    let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
+    let outcome = stiction_workflows::study::simulate(&study.unwrap(), &mut Silent);
+    let html =
+        String::from_utf8(stiction_pages::bundle::study(&outcome).files()[0].1.clone()).unwrap();
     assert!(html.contains("16 of 18 motions and controllers have figures"));
     assert_eq!(html.matches("<title>Tracking error</title>").count(), 16);
     let (_, last) = html.rsplit_once(">9 times, cascade 60 Hz<").unwrap();
@@ -549,8 +552,8 @@ fn courses_beside_the_report() {
     let study = Desk::new()
         .study(&together(&[AXIS, &path, CASCADE, WHOLE, corners]))
         .unwrap();
-    let outcome = stiction::simulate(&study, &mut Silent);
-    let bundle = stiction::bundle::study(&outcome);
+    let outcome = stiction_workflows::study::simulate(&study, &mut Silent);
+    let bundle = stiction_pages::bundle::study(&outcome);
     let (name, rows) = &bundle.files()[1];
     assert_eq!(*name, "trajectories.csv");
     let rows = String::from_utf8(rows.clone()).unwrap();
@@ -707,7 +710,7 @@ fn learning_stops_between_passes() {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1);
     let mut asked = 0;
     let outcome = pool.build().unwrap().install(|| {
-        stiction::simulate(&study, &mut |progress: &Progress| {
+        stiction_workflows::study::simulate(&study, &mut |progress: &Progress| {
             let (done, _) = counted(progress);
             // The run without compensation, then three passes.
             asked += 1;

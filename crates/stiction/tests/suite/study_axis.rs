@@ -3,7 +3,7 @@
 
 use crate::study::{AXIS, CASCADE, Desk, SHORT, WHOLE, row, together};
 use std::f64::consts::TAU;
-use stiction::commands::study::result::StudyFile;
+use stiction_files::study::result::StudyFile;
 
 pub(crate) const FRICTIONLESS: &str = r#"
 [axis]
@@ -85,7 +85,8 @@ fn forces_at_rest_are_carried_by_the_controller() {
     close(largest(&held), 23.0 / STIFFNESS, 1e-6);
     // Against the positive direction.
     let outcome = desk.study(&together(&[FRICTIONLESS, weight, REST, LOOP]));
-    let outcome = stiction::simulate(&outcome.unwrap(), &mut stiction::Silent);
+    let outcome =
+        stiction_workflows::study::simulate(&outcome.unwrap(), &mut stiction_identify::Silent);
     assert!(outcome.traces[0].whole.error.iter().all(|e| *e > 0.0));
     // The same weight from a file, in other units, is the same run.
     desk.write("weight.csv", "t [s],load [kN]\n5,0.023\n6,0.023\n");

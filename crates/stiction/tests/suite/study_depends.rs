@@ -1,7 +1,7 @@
 //! Friction of a study that depends on load, temperature and position.
 
 use crate::study::{CASCADE, Desk, WHOLE, row, together};
-use stiction::commands::study::result::StudyFile;
+use stiction_files::study::result::StudyFile;
 
 /// 12 N of Coulomb friction: a third more at the end of the stroke, 2 % less a kelvin, and in proportion to the load.
 const MODEL: &str = r#"

@@ -1,7 +1,8 @@
 //! An axis that changes while it runs: what a change does, what finds it, and what is refused.
 
 use crate::study::{AXIS, CASCADE, Desk, SHORT, row, together};
-use stiction::{Silent, StudyOutcome};
+use stiction_identify::Silent;
+use stiction_workflows::study::StudyOutcome;
 
 /// Twenty millimetres either way at 1.5 Hz for 9 s, counted from the sixth second on.
 const LONG: &str = r#"
@@ -22,7 +23,8 @@ fn compensator(name: &str, more: &str) -> String {
 }
 
 fn outcome(desk: &Desk, parts: &[&str]) -> StudyOutcome {
-    let outcome = stiction::simulate(&desk.study(&together(parts)).unwrap(), &mut Silent);
+    let outcome =
+        stiction_workflows::study::simulate(&desk.study(&together(parts)).unwrap(), &mut Silent);
     let warnings = &outcome.file.warnings;
     // Motors on a voltage are braked by their own.
     let braked = warnings.iter().all(|w| w.code.as_str() == "back-emf");
@@ -37,11 +39,11 @@ fn a_load_estimate_that_learns_nothing_is_named() {
     let slow = "\n[[path]]\nkind = \"sine\"\namplitude = \"1 mm\"\nfrequency = \"1 Hz\"\n";
     let estimate = compensator("estimate", "load_estimate = true");
     let study = desk.study(&together(&[AXIS, slow, CASCADE, &estimate]));
-    let outcome = stiction::simulate(&study.unwrap(), &mut Silent);
+    let outcome = stiction_workflows::study::simulate(&study.unwrap(), &mut Silent);
     let said: Vec<_> = outcome.file.warnings.iter().collect();
     let named = said.iter().find(|w| w.code.as_str() == "load-not-learnt");
     assert!(named.unwrap().message.contains("no time"), "{said:?}");
-    let text = stiction::commands::text::study(&outcome);
+    let text = stiction_pages::text::study(&outcome);
     let line = text.lines().find(|l| l.contains("mass found")).unwrap();
     let at = line.find("mass found").unwrap();
     let rows = text.lines().filter(|l| l.starts_with("estimate"));
@@ -124,7 +126,8 @@ fn a_load_that_is_taken_up_is_found() {
     assert!((end / 1.3 - 1.0).abs() < 0.02, "{end}");
     let mass = adapted.found_mass.last().unwrap();
     assert!((mass / 4.6 - 1.0).abs() < 0.05, "{mass}");
-    let html = String::from_utf8(stiction::bundle::study(&after).files()[0].1.clone()).unwrap();
+    let html =
+        String::from_utf8(stiction_pages::bundle::study(&after).files()[0].1.clone()).unwrap();
     stiction_testkit::assert_tables_fit(&html);
     for words in [
         "The load found while running",
@@ -192,7 +195,7 @@ fn a_change_after_the_end_of_a_path() {
     let long = SHORT.replace("cycles    = 2", "cycles    = 4\nname = \"longer\"");
     let late = "\n[[event]]\ntime = \"0.7 s\"\nmass = \"6.9 kg\"\n";
     let study = Desk::new().study(&together(&[AXIS, SHORT, &long, CASCADE, late]));
-    let outcome = stiction::simulate(&study.unwrap(), &mut Silent);
+    let outcome = stiction_workflows::study::simulate(&study.unwrap(), &mut Silent);
     let [warning] = &outcome.file.warnings[..] else {
         panic!("{:?}", outcome.file.warnings);
     };
@@ -201,7 +204,7 @@ fn a_change_after_the_end_of_a_path() {
         (warning.code.as_str(), warning.message.as_str()),
         ("late-event", said)
     );
-    let html = stiction::bundle::study(&outcome).files()[0].1.clone();
+    let html = stiction_pages::bundle::study(&outcome).files()[0].1.clone();
     let html = String::from_utf8(html).unwrap();
     // On the longer path alone there is a line at that time.
     let figures: Vec<&str> = html

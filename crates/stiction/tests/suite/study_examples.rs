@@ -1,15 +1,19 @@
 //! The examples of studies, run: what they are there to show.
 
-use stiction::commands::study::result::ResultRow;
-use stiction::{Silent, Study, StudyOutcome};
+use stiction_files::study::Study;
+use stiction_files::study::result::ResultRow;
+use stiction_identify::Silent;
+use stiction_workflows::study::StudyOutcome;
 
 fn example(name: &str) -> StudyOutcome {
     let folder = stiction_testkit::workspace().join("examples/stage");
-    let outcome = stiction::simulate(&Study::read(folder.join(name)).unwrap(), &mut Silent);
+    let outcome =
+        stiction_workflows::study::simulate(&Study::read(folder.join(name)).unwrap(), &mut Silent);
     assert_eq!(outcome.file.status, "complete");
     let warnings = &outcome.file.warnings;
     assert!(warnings.is_empty(), "{warnings:?}");
-    let html = String::from_utf8(stiction::bundle::study(&outcome).files()[0].1.clone()).unwrap();
+    let html =
+        String::from_utf8(stiction_pages::bundle::study(&outcome).files()[0].1.clone()).unwrap();
     stiction_testkit::assert_tables_fit(&html);
     outcome
 }

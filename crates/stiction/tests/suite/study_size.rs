@@ -1,8 +1,9 @@
 //! How large a study is: counted before it runs, refused where it is too large.
 
 use crate::study::Desk;
-use stiction::commands::study::{MOST_SAMPLES, Size};
-use stiction::{Silent, Study};
+use stiction_files::study::Study;
+use stiction_files::study::{MOST_SAMPLES, Size};
+use stiction_identify::Silent;
 
 /// 2 s of a sine at 2 kHz, 4001 samples.
 const ONE: &str = r#"
@@ -30,13 +31,13 @@ fn size(desk: &Desk, parts: &str) -> Size {
     let study = desk.study(&with(parts)).unwrap();
     let size = study.size();
     let mut seen = 0;
-    let mut watch = |progress: &stiction::Progress| {
-        if let stiction::Stage::Experiments { all, .. } = progress.stage {
+    let mut watch = |progress: &stiction_identify::Progress| {
+        if let stiction_identify::Stage::Experiments { all, .. } = progress.stage {
             seen = all;
         }
-        stiction::Control::Continue
+        stiction_identify::Control::Continue
     };
-    let file = stiction::simulate(&study, &mut watch).file;
+    let file = stiction_workflows::study::simulate(&study, &mut watch).file;
     assert_eq!(size.runs, seen);
     let runs: usize = file.results.iter().map(|row| row.runs).sum();
     assert!(runs <= seen && file.warnings.iter().all(|w| w.code.as_str() != "not-run"));
@@ -108,7 +109,9 @@ values = ["5 kg", "6 kg"]
     // The smallest of them runs.
     let one = Study::read(desk.write("one.toml", ONE)).unwrap();
     assert_eq!(
-        stiction::simulate(&one, &mut Silent).file.status,
+        stiction_workflows::study::simulate(&one, &mut Silent)
+            .file
+            .status,
         "complete"
     );
 }

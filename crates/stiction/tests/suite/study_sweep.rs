@@ -2,8 +2,8 @@
 
 use crate::study::{AXIS, CASCADE, Desk, SHORT, WHOLE, together};
 use crate::study_axis::{FRICTIONLESS, LOOP, REST, STIFFNESS, desk};
-use stiction::Silent;
-use stiction::commands::study::result::{StudyFile, SweepEntry, SweepRow};
+use stiction_files::study::result::{StudyFile, SweepEntry, SweepRow};
+use stiction_identify::Silent;
 
 fn sweep(key: &str, values: &[&str]) -> String {
     let values: Vec<String> = values.iter().map(|v| format!("{v:?}")).collect();
@@ -136,7 +136,7 @@ fn sweeps_are_shown() {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
         pool.build()
             .unwrap()
-            .install(|| stiction::simulate(&study, &mut Silent))
+            .install(|| stiction_workflows::study::simulate(&study, &mut Silent))
     };
     let [one, three] = [1, 3].map(with);
     let json = |file: &StudyFile| serde_json::to_string(file).unwrap();
@@ -155,9 +155,9 @@ fn sweeps_are_shown() {
         without.windows(2).all(|pair| pair[1] == pair[0]),
         "{without:?}"
     );
-    let html = String::from_utf8(stiction::bundle::study(&one).files()[0].1.clone()).unwrap();
+    let html = String::from_utf8(stiction_pages::bundle::study(&one).files()[0].1.clone()).unwrap();
     stiction_testkit::assert_tables_fit(&html);
-    let text = stiction::commands::text::study(&one);
+    let text = stiction_pages::text::study(&one);
     for words in ["tiffness", "gain of the compensator"] {
         assert!(
             html.contains(words) || html.contains(&words.replacen('g', "G", 1)),

@@ -5,8 +5,11 @@ use crate::common::{Asked, Bench, both_ways, noise, options};
 use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use stiction::commands::Outcome;
-use stiction::{LawKind, ModelFile, Silent};
+use stiction_files::ModelFile;
+use stiction_files::result::Origin;
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
+use stiction_workflows::identify::Outcome;
 
 const LOAD_MEAN: f64 = 100.0;
 
@@ -71,7 +74,7 @@ fn load_and_temperature_reach_every_file() {
     }
     let given = |name: &str| {
         let p = result.parameters.iter().find(|p| p.name == name).unwrap();
-        assert_eq!(p.origin, "given");
+        assert_eq!(p.origin, Origin::Given);
         (p.value, p.unit.as_str())
     };
     let (load, unit) = given("load_reference");
@@ -97,7 +100,7 @@ fn load_and_temperature_reach_every_file() {
         "{coulomb}: {low} .. {high}"
     );
 
-    let bundle = stiction::bundle::identification(&outcome);
+    let bundle = stiction_pages::bundle::identification(&outcome);
     let text = |wanted: &str| {
         let (_, bytes) = bundle
             .files()
@@ -116,8 +119,7 @@ fn load_and_temperature_reach_every_file() {
     assert!(report.contains("Coulomb friction per normal load"));
     assert!(report.contains("<mi>L</mi>"), "the level in the formula");
     insta::assert_snapshot!(
-        stiction::commands::text::outcome(&outcome)
-            .replace(&format!("{}/", bench.dir().display()), "")
+        stiction_pages::text::outcome(&outcome).replace(&format!("{}/", bench.dir().display()), "")
     );
 }
 
@@ -300,12 +302,12 @@ fn the_cause_of_what_is_left_leads() {
             None => options(&[&file], LawKind::CoulombViscous),
         };
         let outcome = run(&asked);
-        let text = stiction::commands::text::outcome(&outcome);
+        let text = stiction_pages::text::outcome(&outcome);
         let verdict = text
             .lines()
             .find(|l| l.starts_with("for compensation"))
             .unwrap();
-        let next = stiction::commands::text::next(&outcome.result, Path::new("out"), None);
+        let next = stiction_pages::text::next(&outcome.result, Path::new("out"), None);
         let first = outcome
             .result
             .warnings

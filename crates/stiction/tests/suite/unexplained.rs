@@ -2,8 +2,9 @@
 //! own.
 
 use crate::common::{Bench, noise, options};
-use stiction::commands::Outcome;
-use stiction::{LawKind, Silent};
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
+use stiction_workflows::identify::Outcome;
 
 fn fitted(bench: &Bench, rows: impl Iterator<Item = [f64; 3]>) -> Outcome {
     let rows: Vec<String> = rows

@@ -1,9 +1,11 @@
 //! Units that make an axis which nobody can have built.
 
 use crate::common::{Bench, options};
-use stiction::commands::Outcome;
-use stiction::{Code, LawKind, Silent};
+use stiction_codes::Code;
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
 use stiction_testkit::worlds::{Machine, Motion, World, record};
+use stiction_workflows::identify::Outcome;
 
 /// A log of an axis whose header says another unit.
 fn identified(bench: &Bench, axis: &str, unit: [&str; 2], columns: &str) -> Outcome {

@@ -5,13 +5,17 @@ use crate::common::{Asked, Bench, both_ways, friction, noise, options};
 use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::path::Path;
-use stiction::commands::{Outcome, Setting, check_folder};
-use stiction::result::ResultFile;
-use stiction::{
-    Axis, Control, Error, LawKind, Method, ModelFile, Observer, Progress, Silent, Stage,
-};
+use stiction_files::check_folder;
+use stiction_files::result::{Origin, ResultFile, Status};
+use stiction_files::{Axis, ModelFile};
+use stiction_identify::{Control, Observer, Progress, Silent, Stage};
+use stiction_parameters::LawKind;
+use stiction_workflows::Error;
+use stiction_workflows::Setting;
+use stiction_workflows::identify::Method;
+use stiction_workflows::identify::Outcome;
 
-fn run(options: &Asked) -> Result<Outcome, stiction::Error> {
+fn run(options: &Asked) -> Result<Outcome, stiction_workflows::Error> {
     options.identify(&mut Silent)
 }
 
@@ -39,7 +43,7 @@ fn a_size_of_no_machine_is_not_trusted() {
         .unwrap()
         .result;
     assert!(!result.trust.trustworthy);
-    assert_eq!(result.trust.next, stiction::result::Action::AxisFile);
+    assert_eq!(result.trust.next, stiction_files::result::Action::AxisFile);
     assert!(
         result
             .trust
@@ -160,7 +164,7 @@ fn poor_logs_are_refused_or_flagged() {
 
 /// Every file of an outcome can be read by what it is for, whatever the log was.
 fn whole(outcome: &Outcome) {
-    let bundle = stiction::bundle::identification(outcome);
+    let bundle = stiction_pages::bundle::identification(outcome);
     let names: Vec<&str> = bundle.files().iter().map(|(name, _)| &**name).collect();
     let mut sorted = names.clone();
     // Where a study takes the law there is one.
@@ -266,7 +270,7 @@ fn the_axis_file_counts() {
         .iter()
         .find(|p| p.name == "mass")
         .unwrap();
-    assert_eq!((mass.value, mass.origin.as_str()), (9.0, "given"));
+    assert_eq!((mass.value, mass.origin), (9.0, Origin::Given));
     assert_eq!(outcome.result.inputs[0].samples, 4001);
     assert_eq!(outcome.result.low_speed.as_ref().unwrap().bound, 0.02);
     whole(&outcome);
@@ -282,7 +286,7 @@ fn the_fit_is_a_log() {
     let (a, b) = (bench.good("a.csv", 3), bench.good("b.csv", 4));
     for logs in [vec![a.as_path()], vec![a.as_path(), b.as_path()]] {
         let outcome = run(&options(&logs, LawKind::CoulombViscous)).unwrap();
-        let bundle = stiction::bundle::identification(&outcome);
+        let bundle = stiction_pages::bundle::identification(&outcome);
         let fit = &bundle
             .files()
             .iter()
@@ -291,7 +295,7 @@ fn the_fit_is_a_log() {
             .1;
         let file = bench.path("fit.csv");
         std::fs::write(&file, fit).unwrap();
-        let table = stiction::commands::table(&file, &Axis::default()).unwrap();
+        let table = stiction_workflows::source::table(&file, &Axis::default()).unwrap();
         let series = &outcome.law().series;
         assert_eq!(table.columns[0].name, "time");
         assert_eq!(table.columns[1].unit.as_deref(), Some("N"));
@@ -320,7 +324,7 @@ fn the_folder_is_whole_or_untouched() {
     let bench = Bench::new();
     let log = bench.good("good.csv", 5);
     let outcome = run(&options(&[&log], LawKind::CoulombViscous)).unwrap();
-    let bundle = stiction::bundle::identification(&outcome);
+    let bundle = stiction_pages::bundle::identification(&outcome);
     let out = bench.path("deep/er/out");
     check_folder(&out, false).unwrap();
     assert!(!bench.path("deep").exists(), "a check makes nothing");
@@ -382,7 +386,7 @@ fn edits_are_kept() {
     let bench = Bench::new();
     let log = bench.good("good.csv", 5);
     let outcome = run(&options(&[&log], LawKind::CoulombViscous)).unwrap();
-    let bundle = stiction::bundle::identification(&outcome);
+    let bundle = stiction_pages::bundle::identification(&outcome);
     let out = bench.path("out");
     bundle.write(&out).unwrap();
     assert!(bundle.kept(&out).is_empty());
@@ -431,12 +435,12 @@ fn a_complete_result_stays() {
     let log = bench.good("good.csv", 5);
     let mut outcome = run(&options(&[&log], LawKind::CoulombViscous)).unwrap();
     let out = bench.path("out");
-    let whole = stiction::bundle::identification(&outcome);
-    outcome.result.search.status = "interrupted".into();
-    let part = stiction::bundle::identification(&outcome);
-    let schema = stiction::result::SCHEMA;
-    let beside = |bundle| stiction::bundle::beside_complete(bundle, &out, schema, false);
-    let late = |bundle| stiction::bundle::beside_complete(bundle, &out, schema, true);
+    let whole = stiction_pages::bundle::identification(&outcome);
+    outcome.result.search.status = Status::Interrupted;
+    let part = stiction_pages::bundle::identification(&outcome);
+    let schema = stiction_files::result::SCHEMA;
+    let beside = |bundle| stiction_pages::bundle::beside_complete(bundle, &out, schema, false);
+    let late = |bundle| stiction_pages::bundle::beside_complete(bundle, &out, schema, true);
     assert_eq!(late(&whole), None);
     assert_eq!(beside(&part), None);
     whole.write(&out).unwrap();
@@ -482,8 +486,8 @@ fn the_same_input_gives_the_same_bytes() {
         options.seed = u64::MAX;
         options.compare_laws = law == LawKind::CoulombViscous;
         let (a, b) = (
-            stiction::bundle::identification(&run(&options).unwrap()),
-            stiction::bundle::identification(&run(&options).unwrap()),
+            stiction_pages::bundle::identification(&run(&options).unwrap()),
+            stiction_pages::bundle::identification(&run(&options).unwrap()),
         );
         for ((name, a), (_, b)) in a.files().iter().zip(b.files()) {
             // Only result.json tells how long it took.
@@ -766,7 +770,7 @@ fn a_split_is_one_of_the_samples_that_count() {
 /// Results of earlier versions, whose next step was a name and whose cure was a line or a law alone.
 #[test]
 fn actions_of_earlier_results_are_read() {
-    use stiction::result::{Action, Trust};
+    use stiction_files::result::{Action, Trust};
     let trust = |next: &str, cure: &str| -> Trust {
         let text = format!(
             r#"{{"trustworthy": true, "reasons": [], "next": {next}, "cause": {{"code": "law-shape", "text": "", "size": "", "cure": {cure}}}}}"#

@@ -2,18 +2,21 @@
 
 use crate::claims::{Figures, Run, judged_by};
 use crate::common::Bench;
-use crate::common::identified::identified;
+use crate::common::identified::{Fit, identified};
 use rayon::prelude::*;
-use stiction::commands::check::{Finding, check};
-use stiction::{Axis, Fit, LawKind, Options, Silent};
+use stiction_files::Axis;
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
 use stiction_testkit::gate;
 use stiction_testkit::worlds::{Case, Drive, Machine, Motion, Set, World, record};
+use stiction_workflows::check::{Finding, check};
+use stiction_workflows::identify::Options;
 
 const SEED: u64 = 1;
 
-fn judged(machines: &[Machine], fit: Result<Fit, stiction::Error>) -> Run {
+fn judged(machines: &[Machine], fit: Result<Fit, stiction_workflows::Error>) -> Run {
     let truths = machines.iter().flat_map(Machine::truth);
-    judged_by(&truths.collect::<Vec<_>>(), fit)
+    judged_by(&truths.collect::<Vec<_>>(), fit.map(|fit| fit.0))
 }
 
 fn run(machine: &Machine, motion: Motion, world: World) -> Run {
@@ -199,7 +202,7 @@ fn a_level_that_follows_a_channel_is_named_after_it() {
             &Options::default(),
         )
         .unwrap();
-        let named = |fit: &stiction::Fit| -> Vec<String> {
+        let named = |fit: &Fit| -> Vec<String> {
             let codes = fit.warnings().iter().map(|w| w.code.to_string());
             codes.filter(|c| causes.contains(&c.as_str())).collect()
         };
@@ -559,8 +562,8 @@ fn the_whole_delay_of_a_late_force_is_stated() {
         crate::common::identified::identified(
             &machine,
             log,
-            &stiction::Axis::default(),
-            &stiction::Options::default(),
+            &stiction_files::Axis::default(),
+            &stiction_workflows::identify::Options::default(),
         )
         .unwrap()
     };
@@ -572,7 +575,7 @@ fn the_whole_delay_of_a_late_force_is_stated() {
     let warning = behind
         .warnings()
         .iter()
-        .find(|w| w.code == stiction::Code::ForceLate)
+        .find(|w| w.code == stiction_codes::Code::ForceLate)
         .unwrap();
     let line = format!(
         "delay = \"{} ms\"",
@@ -597,7 +600,7 @@ fn found_in(cases: &[Case]) -> (Figures, String) {
         .par_iter()
         .map(|case| {
             let fit = identified(&case.machine, &[case.record()], &axis, &Options::default());
-            judged_by(&case.truth(), fit)
+            judged_by(&case.truth(), fit.map(|fit| fit.0))
         })
         .collect();
     let figures = Figures::of(cases.iter().zip(&runs));
@@ -749,7 +752,7 @@ fn a_weight_is_told_from_another_shape() {
             .any(|w| w.code.as_str() == "spring-force");
         let is_taken = fit.parameter("gravity_sin").is_some();
         assert!(named || is_taken, "{motion:?}");
-        let shape = |w: &stiction::Warning| w.code.as_str() == "law-shape";
+        let shape = |w: &stiction_files::Warning| w.code.as_str() == "law-shape";
         assert!(!fit.warnings().iter().any(shape), "{motion:?}");
     }
     let without = of("joint", Motion::Sine, World::MaxwellSlip);
@@ -791,7 +794,7 @@ fn a_stretch_of_dead_force_moves_nothing() {
     dead.force[2200..4200].fill(0.0);
     let [whole, part] = [log, dead]
         .map(|log| identified(&machine, &[log], &Axis::default(), &Options::default()).unwrap());
-    let named = |fit: &stiction::Fit| {
+    let named = |fit: &Fit| {
         fit.warnings()
             .iter()
             .any(|w| w.code.as_str() == "force-dead")
@@ -873,8 +876,11 @@ fn a_gap_is_kept_in_the_model() {
         let machine = machines.find(|(name, _)| *name == axis).unwrap().1;
         let log = record(&machine, motion, world, SEED);
         let fit = identified(&machine, &[log], &Axis::default(), &Options::default()).unwrap();
-        let model = stiction::ModelFile::from_result(fit.result());
-        assert_eq!(stiction::ModelFile::parse(&model.to_toml()).unwrap(), model);
+        let model = stiction_files::ModelFile::from_result(fit.result());
+        assert_eq!(
+            stiction_files::ModelFile::parse(&model.to_toml()).unwrap(),
+            model
+        );
         let Some(truth) = world.coupling(&machine) else {
             assert_eq!(model.backlash, None);
             continue;

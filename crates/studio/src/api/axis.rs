@@ -9,8 +9,10 @@ use crate::workspace::Workspace;
 use axum::extract::State;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use stiction::Axis;
-use stiction::commands::{check, table, visible, write_atomic};
+use stiction_files::Axis;
+use stiction_files::{visible, write_atomic};
+use stiction_workflows::check;
+use stiction_workflows::source::table;
 
 /// The axis file of a folder, unless a log has its own.
 const USUAL: &str = "axis.toml";

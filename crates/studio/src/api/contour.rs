@@ -7,8 +7,8 @@ use crate::refused::Refused;
 use crate::workspace::Workspace;
 use axum::extract::State;
 use serde::{Deserialize, Serialize};
-use stiction::commands::contour::{ContourTrace, Plane};
-use stiction::commands::study::result::StudyFile;
+use stiction_files::study::result::StudyFile;
+use stiction_workflows::study::{ContourTrace, Plane};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -9,8 +9,9 @@ use crate::workspace::{Workspace, kind_of_file};
 use axum::extract::State;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use stiction::commands::{study, visible, write_atomic};
-use stiction::{Axis, ModelFile, Study};
+use stiction_files::study::Study;
+use stiction_files::{Axis, ModelFile};
+use stiction_files::{study, visible, write_atomic};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -6,8 +6,9 @@ use crate::logs::{Channel, Drawable, Series};
 use crate::refused::Refused;
 use axum::extract::State;
 use serde::{Deserialize, Serialize};
-use stiction::ModelFile;
-use stiction::commands::{Quality, presliding_length, slowest_turn};
+use stiction_files::ModelFile;
+use stiction_identify::Fit as Quality;
+use stiction_workflows::identify::{presliding_length, slowest_turn};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

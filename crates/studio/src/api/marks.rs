@@ -7,9 +7,10 @@ use crate::workspace::Workspace;
 use axum::extract::State;
 use serde::Deserialize;
 use std::path::Path;
-use stiction::Axis;
-use stiction::commands::axis::{Marks, mark as written};
-use stiction::commands::{check, visible, write_atomic};
+use stiction_files::Axis;
+use stiction_files::axis::{Marks, mark as written};
+use stiction_files::{visible, write_atomic};
+use stiction_workflows::check;
 
 /// What a stretch is marked as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -155,7 +156,7 @@ fn joined(all: &[Stretch], with: Stretch) -> Vec<Stretch> {
 mod tests {
     use super::{As, marked};
     use proptest::prelude::*;
-    use stiction::commands::axis::{Marks, mark};
+    use stiction_files::axis::{Marks, mark};
 
     const WHOLE: (f64, f64) = (0.0, 60.0);
 

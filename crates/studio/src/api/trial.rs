@@ -7,7 +7,7 @@ use crate::refused::Refused;
 use axum::extract::State;
 use serde::Deserialize;
 use std::collections::BTreeMap;
-use stiction::commands::trial::{Which, trial};
+use stiction_workflows::study::{Which, trial};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -6,8 +6,8 @@ use crate::refused::Refused;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
-use stiction::commands::check::{LogCheck, TrackingChange};
-use stiction::commands::text;
+use stiction_pages::text;
+use stiction_workflows::check::{LogCheck, TrackingChange};
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -49,7 +49,7 @@ impl Work for Check {
         }
         let axis = self.axis.as_ref().map(|axis| run.workspace.file(axis));
         let axis = axis.transpose()?;
-        let found = stiction::commands::check::check(&logs, axis.as_deref(), run.observer)?;
+        let found = stiction_workflows::check::check(&logs, axis.as_deref(), run.observer)?;
         Ok(Done {
             verdict: Some(found.verdict()),
             json: Some(json!({

@@ -5,9 +5,12 @@ use crate::refused::Refused;
 use crate::units::Shown;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use stiction::commands::drift::{self, Alarm, DriftFile, DriftOutcome, Limit, Times};
-use stiction::commands::{text, verdict};
-use stiction::{Control, Progress, Stage};
+use stiction_files::drift_file::{Alarm, DriftFile, NoiseEntry};
+use stiction_identify::{Control, Progress, Stage};
+use stiction_pages::text;
+use stiction_workflows::drift;
+use stiction_workflows::drift::{DriftOutcome, Limit, Times};
+use stiction_workflows::verdict;
 
 /// Most courses that are drawn, and most logs of all of them.
 const MOST: (usize, usize) = (24, 20_000);
@@ -71,7 +74,7 @@ impl Work for Drift {
 fn shown(found: &DriftOutcome) -> Value {
     let file = &found.file;
     let words = text::followed(file);
-    let unclear = |noise: &drift::NoiseEntry| {
+    let unclear = |noise: &NoiseEntry| {
         let own = (&noise.parameter, &noise.law);
         let mut all = file.unclear.iter();
         all.any(|other| (&other.parameter, &other.law) == own)

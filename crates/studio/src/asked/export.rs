@@ -4,8 +4,8 @@ use super::{Done, Run, What, Words, Work};
 use crate::refused::Refused;
 use serde::Deserialize;
 use std::path::Path;
-use stiction::commands::text;
-use stiction::{ExportOptions, Feedforward, Target};
+use stiction_pages::text;
+use stiction_workflows::export::{ExportOptions, Feedforward, Target};
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -70,7 +70,8 @@ impl Work for Export {
         options.rated_force = self.rated_force;
         options.adapt = self.adapt;
         options.feedforward = Feedforward::from_names(self.fed())?;
-        let exported = stiction::export_file(run.workspace.file(&self.model)?, &options)?;
+        let exported =
+            stiction_workflows::export::export_file(run.workspace.file(&self.model)?, &options)?;
         exported.write(&dir, self.force)?;
         Ok(Done {
             verdict: Some(exported.verdict()),

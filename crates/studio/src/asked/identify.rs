@@ -6,8 +6,13 @@ use crate::refused::Refused;
 use crate::workspace::Workspace;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
-use stiction::commands::{Files, check_folder_of, check_inputs, text};
-use stiction::{LawKind, Method, Options, Procedures, bundle, result};
+use stiction_files::result;
+use stiction_files::{check_folder_of, check_inputs};
+use stiction_pages::bundle;
+use stiction_pages::text;
+use stiction_parameters::LawKind;
+use stiction_workflows::identify::Files;
+use stiction_workflows::identify::{Method, Options, Procedures};
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -62,7 +67,7 @@ impl Work for Identify {
         check_folder_of(&dir, schema, false)?;
         let (files, statics) = self.files(run.workspace, &dir)?;
         let options = self.options(statics)?;
-        let outcome = stiction::commands::identify(&files, &options, run.observer)?;
+        let outcome = stiction_workflows::identify::identify(&files, &options, run.observer)?;
         let found = Found {
             workspace: run.workspace,
             bundle: &bundle::identification_in(&outcome, &dir),

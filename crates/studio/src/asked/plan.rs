@@ -4,10 +4,11 @@ use super::{Done, Found, Run, What, Words, Work};
 use crate::named::read_axis;
 use crate::refused::Refused;
 use serde::Deserialize;
-use stiction::commands::{
-    Known, PlanOptions, Want, check_folder_of, check_inputs, plan, plan_motion, text,
-};
-use stiction::{Verdict, bundle};
+use stiction_files::{check_folder_of, check_inputs, plan};
+use stiction_pages::bundle;
+use stiction_pages::text;
+use stiction_workflows::Verdict;
+use stiction_workflows::plan::{Known, PlanOptions, Want, plan as plan_motion};
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]

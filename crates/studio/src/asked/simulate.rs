@@ -5,8 +5,9 @@ use crate::named::read_study;
 use crate::refused::Refused;
 use serde::Deserialize;
 use std::path::PathBuf;
-use stiction::bundle;
-use stiction::commands::{check_folder_of, check_inputs, study, text};
+use stiction_files::{check_folder_of, check_inputs, study};
+use stiction_pages::bundle;
+use stiction_pages::text;
 
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -35,7 +36,7 @@ impl Work for Simulate {
         let read = read_study(run.workspace, &self.study)?;
         let inputs: Vec<PathBuf> = read.inputs().map(PathBuf::from).collect();
         check_inputs(&dir, &inputs)?;
-        let outcome = stiction::simulate(&read, run.observer);
+        let outcome = stiction_workflows::study::simulate(&read, run.observer);
         let found = Found {
             workspace: run.workspace,
             bundle: &bundle::study(&outcome),

@@ -5,9 +5,12 @@ use crate::named::read_as;
 use crate::refused::Refused;
 use crate::workspace::Workspace;
 use serde::Deserialize;
-use stiction::Axis;
-use stiction::commands::axis::{Addition, extend};
-use stiction::commands::{check, load, log_table, recording, visible, write_atomic};
+use stiction_files::Axis;
+use stiction_files::axis::{Addition, extend};
+use stiction_files::{visible, write_atomic};
+use stiction_log as recording;
+use stiction_workflows::check;
+use stiction_workflows::source::load;
 
 /// Columns that are told of.
 const MOST: usize = 256;
@@ -49,10 +52,10 @@ pub fn understood(column: &recording::Understood) -> Column {
 }
 
 /// The columns of a file that is not understood, with those that are clear by themselves.
-pub fn unread(table: &log_table::Table) -> Vec<Column> {
+pub fn unread(table: &recording::Table) -> Vec<Column> {
     let clear = recording::Mapping::clear_columns(table);
     let columns = table.columns.iter().enumerate().take(MOST);
-    let one = |(at, column): (usize, &stiction::Column)| {
+    let one = |(at, column): (usize, &stiction_log::Column)| {
         let number = table.number(at);
         let is = |channel: &&recording::Channel| match &channel.column {
             recording::Selector::Name(name) => *name == column.name,
@@ -205,9 +208,13 @@ pub fn correct(
     {
         // Units that the file does not give are asked for one after the other: the others are taken as they were.
         let (whole, _) = extend(&next, &assumed(&before.about.columns, &asked.role));
-        read_as(&file, &whole, |beside| -> Result<_, stiction::Error> {
-            load(&log, &Axis::read(beside)?.of_whole(&log))
-        })?;
+        read_as(
+            &file,
+            &whole,
+            |beside| -> Result<_, stiction_workflows::Error> {
+                load(&log, &Axis::read(beside)?.of_whole(&log))
+            },
+        )?;
     }
     write_atomic(&file, visible::toml(next).as_bytes())?;
     Ok(changes)

@@ -3,8 +3,8 @@
 use super::{Column, Drawable};
 use crate::pyramid::Pyramid;
 use crate::units::Shown;
-use stiction::commands::check::speeds;
-use stiction::commands::{log_table, recording};
+use stiction_log as recording;
+use stiction_workflows::check::speeds;
 
 /// Columns that are drawn of a file before it is clear what they are.
 const MOST_UNDECIDED: usize = 8;
@@ -108,7 +108,7 @@ impl Series {
 
     /// Columns of a file that is no log yet, by their numbers, those first of which it is clear what they are; and what they
     /// are over: the time where that is clear, else the rows.
-    pub fn of_undecided(mut table: log_table::Table, columns: &[Column]) -> (Self, String) {
+    pub fn of_undecided(mut table: recording::Table, columns: &[Column]) -> (Self, String) {
         let rows = table.rows();
         let mut take = |at: usize| std::mem::take(&mut table.columns[at].values);
         let is_time = |own: &Column| own.role.as_deref() == Some("time");
@@ -138,9 +138,9 @@ impl Series {
     }
 
     /// The numeric columns of a table over its time, of one run where there are several: a run ends where the time falls.
-    pub fn of_table(table: log_table::Table, run: usize) -> Self {
+    pub fn of_table(table: recording::Table, run: usize) -> Self {
         let mut columns = table.columns;
-        let is_clock = |column: &stiction::Column| is_time(&column.name);
+        let is_clock = |column: &stiction_log::Column| is_time(&column.name);
         let Some(at) = columns.iter().position(is_clock) else {
             return Self::default();
         };

@@ -2,7 +2,7 @@
 
 use crate::client::{Answer, Served, open};
 use std::time::{Duration, Instant};
-use stiction::commands::batch::{LogRow, ParameterRow, Results};
+use stiction_files::batch::{LogRow, ParameterRow, Results};
 
 /// A log of an axis that moves to and fro, with Coulomb and viscous friction.
 fn log(served: &Served, name: &str) {

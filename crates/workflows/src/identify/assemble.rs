@@ -12,7 +12,7 @@ use crate::source::Source;
 use stiction_files::Axis;
 use stiction_files::axis::{ListedLog, Use};
 use stiction_files::result::{
-    Action, CovarianceEntry, ElementsEntry, HalfWidthEntry, LawEntry, LowSpeedEntry,
+    Action, CovarianceEntry, ElementsEntry, HalfWidthEntry, LawEntry, LowSpeedEntry, Origin,
     ParameterEntry, PartnerEntry, ResolvedAxis, ResultFile, SCHEMA, Search, Unsettled,
     ValidationEntry,
 };
@@ -184,7 +184,7 @@ pub(super) fn result(parts: Parts) -> ResultFile {
         friction_curve: None,
         level_along: operating_range::level_along(estimate),
         search: Search {
-            status: estimate.status.name().into(),
+            status: estimate.status.into(),
             evaluations: estimate.counts.total(),
             with_sensitivities: estimate.counts.with_derivatives(),
             thinned: estimate.counts.coarse(),
@@ -252,7 +252,11 @@ fn parameter(p: &Parameter, motion: Motion, force_unit: &str, load_unit: &str) -
         }),
         interval: p.ci95.map(|_| p.interval.name().into()),
         identifiable: p.identifiable,
-        origin: if p.identified { "identified" } else { "given" }.into(),
+        origin: if p.identified {
+            Origin::Identified
+        } else {
+            Origin::Given
+        },
         reason: p.reason.clone(),
         moves_with: p
             .moves_with

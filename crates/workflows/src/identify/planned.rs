@@ -6,7 +6,7 @@ use crate::source::Source;
 use std::path::Path;
 use stiction_files::Warning;
 use stiction_files::plan::ReadPlan;
-use stiction_files::result::{PieceEntry, PlannedEntry, PlannedParameter, ResultFile};
+use stiction_files::result::{Origin, PieceEntry, PlannedEntry, PlannedParameter, ResultFile};
 use stiction_plan::{How, Recognised, recognise};
 use stiction_policy::plan;
 use stiction_say::{Notice, OffPlan};
@@ -123,7 +123,7 @@ fn parameters(plan: &ReadPlan, result: &ResultFile) -> Vec<PlannedParameter> {
         let mut own = result.parameters.iter();
         Some((
             expected,
-            own.find(|p| p.name == expected.name && p.origin != "given")?,
+            own.find(|p| p.name == expected.name && p.origin != Origin::Given)?,
         ))
     });
     both.map(|(expected, found)| {

@@ -39,16 +39,30 @@ pub fn identify(
     options: &Options,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, Error> {
-    let clock = Instant::now();
     let axis = match &files.axis {
         Some(file) => Axis::read(file)?,
         None => Axis::default(),
     };
+    identify_files(options, &axis, &files.logs, &files.validate, observer)
+}
+
+/// The same on an axis file that was read: logs that it lists, and parts of them, are used as it says.
+///
+/// # Errors
+/// As [`identify`].
+pub fn identify_files(
+    options: &Options,
+    axis: &Axis,
+    given: &[PathBuf],
+    validate: &[PathBuf],
+    observer: &mut dyn Observer,
+) -> Result<Outcome, Error> {
+    let clock = Instant::now();
     let ramps = &options.procedures.break_away;
     let logs = match options.procedures.method {
         // Ramps are a commanded force like any other.
-        Method::OutputError if files.logs.is_empty() => ramps,
-        _ if files.logs.is_empty() && axis.logs.is_empty() && !ramps.is_empty() => {
+        Method::OutputError if given.is_empty() => ramps.as_slice(),
+        _ if given.is_empty() && axis.logs.is_empty() && !ramps.is_empty() => {
             return Err(Error::usage(
                 [Setting::BreakAway.into(), " without a log".into()],
                 [
@@ -58,17 +72,17 @@ pub fn identify(
                 ],
             ));
         }
-        _ => &files.logs,
+        _ => given,
     };
     let listed: Vec<PathBuf> = axis.logs.iter().map(|log| log.file.clone()).collect();
-    let logs = if files.logs.is_empty() && !listed.is_empty() {
+    let logs = if given.is_empty() && !listed.is_empty() {
         &listed
     } else {
         logs
     };
-    refuse_split(options, &axis, logs)?;
+    refuse_split(options, axis, logs)?;
     let others = [
-        &files.validate,
+        validate,
         &options.procedures.statics,
         &options.procedures.break_away,
     ];
@@ -76,10 +90,10 @@ pub fn identify(
         .into_iter()
         .flatten()
         .filter(|log| !logs.contains(log));
-    refuse_several(&axis, logs.len() + others.count())?;
-    let used = Used::load(logs, &axis)?;
+    refuse_several(axis, logs.len() + others.count())?;
+    let used = Used::load(logs, axis)?;
     let mut held_out = used.held_out;
-    held_out.extend(load_held_out(&files.validate, &axis)?);
+    held_out.extend(load_held_out(validate, axis)?);
     if used.fitted.is_empty() && !held_out.is_empty() {
         if let Some(listed) = logs.iter().find_map(|path| axis.listed(path)) {
             let found = format!(
@@ -89,7 +103,7 @@ pub fn identify(
             let allowed = "stretches of the log, or a log beside it that is fitted: without logs on the command line all that are listed \
                            are taken";
             return Err(usage_at(
-                &axis,
+                axis,
                 &format!("{}.validate", listed.key),
                 found,
                 allowed,
@@ -102,7 +116,7 @@ pub fn identify(
     }
     let asked = Asked {
         options,
-        axis: &axis,
+        axis,
         clock,
     };
     identify_asked(asked, used.fitted, held_out, observer)

@@ -4,6 +4,7 @@ use super::load::{JointLogs, Urdf};
 use crate::error::Error;
 use crate::identify::Outcome;
 use crate::source::Source;
+use std::path::Path;
 use stiction_files::robot::result::RobotFile;
 use stiction_identify::{RigidFit, Series};
 use stiction_signal::interpolate;
@@ -39,6 +40,17 @@ pub struct JointOutcome {
     pub left: [Vec<f64>; 2],
     /// Root mean square of the error of the rigid torque on the fitted logs by its covariance, N m or N.
     pub rigid_deviation: f64,
+}
+
+impl RobotOutcome {
+    /// The files that were read: logs, URDF, robot file.
+    pub fn inputs(&self) -> impl Iterator<Item = &Path> {
+        let result = &self.result;
+        let logs = result.inputs.iter().map(|input| input.path.as_str());
+        let files = [Some(&result.urdf), result.robot.as_ref()];
+        let files = files.into_iter().flatten().map(|file| file.path.as_str());
+        logs.chain(files).map(Path::new)
+    }
 }
 
 impl JointOutcome {

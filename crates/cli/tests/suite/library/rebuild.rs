@@ -4,8 +4,8 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use stiction::commands::sha256;
-use stiction::library::{Found, FoundJoint, Machine};
+use stiction_files::sha256;
+use stiction_workflows::library::{Found, FoundJoint, Machine};
 
 /// What a command gave.
 pub struct Rebuilt {

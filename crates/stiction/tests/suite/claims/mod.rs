@@ -4,9 +4,9 @@
 //! value is off by more than the width of its interval for another motion.
 
 use std::fmt;
-use stiction::Fit;
-use stiction::result::HalfWidthEntry;
+use stiction_files::result::HalfWidthEntry;
 use stiction_testkit::worlds::Case;
+use stiction_workflows::identify::Outcome;
 
 /// What a run claims, and what of it holds.
 #[derive(Clone, Debug, Default)]
@@ -97,9 +97,12 @@ impl fmt::Display for Run {
 
 /// Judges a fit by what is true, by name; a claim about several machines holds as far as it does for the one that it holds least
 /// for.
-pub fn judged_by(truths: &[(&'static str, f64)], fit: Result<Fit, stiction::Error>) -> Run {
-    let fit = match fit {
-        Ok(fit) => fit,
+pub fn judged_by(
+    truths: &[(&'static str, f64)],
+    found: Result<Outcome, stiction_workflows::Error>,
+) -> Run {
+    let outcome = match found {
+        Ok(outcome) => outcome,
         Err(e) => {
             return Run {
                 refused: Some(e.to_string()),
@@ -107,22 +110,23 @@ pub fn judged_by(truths: &[(&'static str, f64)], fit: Result<Fit, stiction::Erro
             };
         }
     };
-    let trust = &fit.result().trust;
+    let result = &outcome.result;
+    let trust = &result.trust;
     let mut run = Run {
-        trusted: fit.is_trustworthy(),
-        law: fit.law_kind().name().to_owned(),
+        trusted: trust.trustworthy,
+        law: result.law.clone(),
         open: trust.open.len(),
-        coupling: fit.result().effects.iter().find_map(|effect| {
+        coupling: result.effects.iter().find_map(|effect| {
             let value = effect.size("frequency").or(effect.size("lost_motion"))?;
             Some((value, effect.std_percent?))
         }),
-        effects: (fit.result().effects.iter())
+        effects: (result.effects.iter())
             .map(|own| {
                 let std = own.std_percent.unwrap_or(f64::NAN);
                 (own.code.as_str(), own.explains_percent, std)
             })
             .collect(),
-        codes: fit.warnings().iter().map(|w| w.code.as_str()).collect(),
+        codes: result.warnings.iter().map(|w| w.code.as_str()).collect(),
         ..Run::default()
     };
     run.codes.sort_unstable();
@@ -130,27 +134,24 @@ pub fn judged_by(truths: &[(&'static str, f64)], fit: Result<Fit, stiction::Erro
     if !run.trusted {
         return run;
     }
-    for p in fit
-        .parameters()
-        .filter(|p| trust.constants.iter().any(|c| c == p.name()))
-    {
-        let base = p.name().trim_end_matches("_pos").trim_end_matches("_neg");
-        let Some((low, high)) = p.interval() else {
+    for p in (result.parameters.iter()).filter(|p| trust.constants.contains(&p.name)) {
+        let base = p.name.trim_end_matches("_pos").trim_end_matches("_neg");
+        let Some((low, high)) = p.range() else {
             continue;
         };
         let centre = 0.5 * (low + high);
         let claims = truths.iter().filter(|t| t.0 == base).map(|(_, truth)| {
             let repeat = (centre - truth) / (0.5 * (high - low));
             // Those of positive parameters are of logarithms.
-            let off = match truth * p.value() > 0.0 {
-                true => p.value() * (p.value() / truth).ln(),
-                false => p.value() - truth,
+            let off = match truth * p.value > 0.0 {
+                true => p.value * (p.value / truth).ln(),
+                false => p.value - truth,
             };
-            let half = p.half_widths();
+            let half = p.half_width;
             let beside = |of: fn(HalfWidthEntry) -> f64| half.map_or(repeat, |half| off / of(half));
             Claim {
-                name: p.name().to_owned(),
-                part: p.value() / truth - 1.0,
+                name: p.name.clone(),
+                part: p.value / truth - 1.0,
                 at_once: beside(|half| half.at_once),
                 repeat,
                 transfer: beside(|half| half.transfer),

@@ -2,11 +2,15 @@
 
 use super::identified::identified;
 use std::fmt;
-use stiction::{Axis, Options, Silent, Study, simulate};
+use stiction_files::Axis;
+use stiction_files::study::Study;
 use stiction_friction::LuGre;
+use stiction_identify::Silent;
 use stiction_servo::integrator::Integrator;
 use stiction_servo::plant::{Load, Motion as State, Plant};
 use stiction_testkit::worlds::{Machine, Motion, Running, Setup, record};
+use stiction_workflows::identify::Options;
+use stiction_workflows::study::simulate;
 use stiction_workflows::study::simulate_on;
 
 /// What becomes of a log.
@@ -82,7 +86,9 @@ pub fn kept(machine: &Machine, motion: Motion, setup: impl Into<Setup>, seed: u6
         Err(e) => return Told::Nothing(e.to_string()),
     };
     let folder = tempfile::tempdir().unwrap();
-    fit.write(folder.path().join("fit")).unwrap();
+    let kept = folder.path().join("fit");
+    let files = stiction_pages::bundle::identification_in(&fit.0, &kept);
+    files.write(&kept).unwrap();
     let study = match Study::read(folder.path().join("fit/study.toml")) {
         Ok(study) => study,
         Err(e) => return Told::Nothing(e.to_string()),

@@ -7,8 +7,11 @@ pub mod kept;
 use std::fmt::Write;
 use std::ops::{Deref, DerefMut};
 use std::path::{Path, PathBuf};
-use stiction::commands::{Files, Outcome};
-use stiction::{Error, LawKind, Observer, Options, Progress, Stage};
+use stiction_identify::{Observer, Progress, Stage};
+use stiction_parameters::LawKind;
+use stiction_workflows::Error;
+use stiction_workflows::identify::Options;
+use stiction_workflows::identify::{Files, Outcome};
 use tempfile::TempDir;
 
 /// Sample rate of every log here, Hz.
@@ -112,7 +115,7 @@ pub struct Asked {
 
 impl Asked {
     pub fn identify(&self, observer: &mut dyn Observer) -> Result<Outcome, Error> {
-        stiction::commands::identify(&self.files, &self.options, observer)
+        stiction_workflows::identify::identify(&self.files, &self.options, observer)
     }
 
     /// The same but for a change.

@@ -3,10 +3,12 @@
 mod xl330;
 
 use std::path::{Path, PathBuf};
-use stiction::commands::{Files, Outcome, identify};
-use stiction::result::{LawEntry, ResultFile};
-use stiction::{LawKind, Method, Options, Silent};
+use stiction_files::result::{LawEntry, ResultFile};
+use stiction_identify::Silent;
+use stiction_parameters::LawKind;
 use stiction_testkit::{Case, DefaultRun, Limit, Metric, workspace};
+use stiction_workflows::identify::{Files, Outcome, identify};
+use stiction_workflows::identify::{Method, Options};
 
 /// A limit with what was measured.
 pub struct Measured {
@@ -165,7 +167,7 @@ pub fn measure(case: &Case, limit: &Limit, outcome: &Outcome, data: &Path) -> Me
     }
 }
 
-fn low_speed_words(result: &stiction::result::ResultFile, law: &str) -> String {
+fn low_speed_words(result: &stiction_files::result::ResultFile, law: &str) -> String {
     let low = result.low_speed.as_ref().expect("slow samples");
     let side = if result.asymmetric { "asymmetric " } else { "" };
     format!(

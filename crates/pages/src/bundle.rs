@@ -1,6 +1,10 @@
 //! What goes into an output folder: the outcome of a workflow as files, with its report.
 
-use crate::fit_csv::fit_csv;
+mod fit_csv;
+
+use crate::report;
+pub use fit_csv::columns as fit_columns;
+use fit_csv::fit_csv;
 use serde::Serialize;
 use std::io::Read;
 use std::path::{Component, Path, PathBuf};
@@ -8,7 +12,6 @@ use stiction_files::compare_file::CompareFile;
 use stiction_files::robot::model;
 use stiction_files::study::template::{Shown, template};
 use stiction_files::{Bundle, ModelFile, check_folder_of, shell, visible};
-use stiction_pages::report;
 use stiction_workflows::drift::DriftOutcome;
 use stiction_workflows::identify::Outcome;
 use stiction_workflows::plan::{Carrier, Planned};

@@ -1,7 +1,8 @@
 //! A law that is run: sample by sample in real time, or along a record.
 
-use crate::{Error, FrictionLaw};
+use crate::Error;
 use stiction_friction::{Elements, Gms, GmsState, MOST_ELEMENTS, MaxwellSlip, State};
+use stiction_parameters::FrictionLaw;
 
 /// A law with its state, one call a sample: the form for simulation and control, whose sigma1 is capped
 /// ([`FrictionLaw::capped`]).
