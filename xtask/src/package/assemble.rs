@@ -49,45 +49,50 @@ fn sources(package: &Package, to: &Path) -> Outcome {
         used.find(|other| other.parts.contains(&part))
             .map(|other| format!("stiction_{}::internal::{part}", other.root))
     };
-    let targets = [Some((package.root, package.parts)), package.program];
-    for (root, parts) in targets.into_iter().flatten() {
-        let of = |name: &str| {
-            let part = name.strip_prefix("stiction_")?;
-            match parts.contains(&part) {
-                true => Some(format!("crate::internal::{part}")),
-                false => sibling(part),
-            }
-        };
-        let library = root == package.root;
-        let at = match library {
-            true => to.to_path_buf(),
-            false => to.join("crates").join(root),
-        };
-        take(root, &at, &Paths { own: "", of: &of })?;
-        for part in parts {
-            known(package, root, part)?;
-            let own = format!("internal::{part}");
-            take(
-                part,
-                &to.join("crates").join(part),
-                &Paths { own: &own, of: &of },
-            )?;
+    let program = package.program.map_or(&[][..], |(_, parts)| parts);
+    let of = |name: &str| {
+        let part = name.strip_prefix("stiction_")?;
+        match package.parts.contains(&part) || program.contains(&part) {
+            true => Some(format!("crate::internal::{part}")),
+            false => sibling(part),
         }
-        if !parts.is_empty() {
-            let up = if library { "../crates" } else { "../.." };
-            let seen = if package.shared {
-                "#[doc(hidden)]\npub "
-            } else {
-                ""
+    };
+    take(package.root, to, &Paths { own: "", of: &of })?;
+    let mut modules = "//! Crates of the workspace of stiction as modules: no part of the interface.\n\n#![allow(dead_code, unused_imports, missing_docs)]\n".to_owned();
+    for part in package.parts.iter().chain(program) {
+        known(package, part)?;
+        let own = format!("internal::{part}");
+        let at = to.join("crates").join(part);
+        take(part, &at, &Paths { own: &own, of: &of })?;
+        let only = match package.program {
+            Some((feature, parts)) if parts.contains(part) => {
+                format!("#[cfg(feature = \"{feature}\")]\n")
+            }
+            _ => String::new(),
+        };
+        modules += &format!("\n{only}#[path = \"../crates/{part}/src/lib.rs\"]\npub mod {part};\n");
+    }
+    if !package.parts.is_empty() {
+        write(&to.join("src/internal.rs"), &modules)?;
+        let seen = if package.shared {
+            "#[doc(hidden)]\npub "
+        } else {
+            ""
+        };
+        let library = to.join("src/lib.rs");
+        let mut text = format!("{}\n{seen}mod internal;\n", read(&library)?);
+        if let Some((name, _)) = package.program {
+            text += &format!(
+                "\n#[cfg(feature = \"{name}\")]\n#[doc(hidden)]\npub mod program {{\n    pub use crate::internal::{name}::run;\n}}\n"
+            );
+            let main = to.join("crates").join(name).join("src/main.rs");
+            let own = shell::root().join("crates").join(name).join("src/main.rs");
+            let of = |crate_: &str| {
+                (crate_ == format!("stiction_{name}")).then(|| format!("{}::program", package.root))
             };
-            let main = at.join(if library { "src/lib.rs" } else { "src/main.rs" });
-            write(&main, &format!("{}\n{seen}mod internal;\n", read(&main)?))?;
-            let mut modules = "//! Crates of the workspace of stiction as modules: no part of the interface.\n\n#![allow(dead_code, unused_imports, missing_docs)]\n".to_owned();
-            for part in parts {
-                modules += &format!("\n#[path = \"{up}/{part}/src/lib.rs\"]\npub mod {part};\n");
-            }
-            write(&at.join("src/internal.rs"), &modules)?;
+            write(&main, &rewritten(&read(&own)?, &Paths { own: "", of: &of }))?;
         }
+        write(&library, &text)?;
     }
     for file in ["README.md", "LICENSE-APACHE", "LICENSE-MIT"] {
         copy(
@@ -99,12 +104,14 @@ fn sources(package: &Package, to: &Path) -> Outcome {
 }
 
 /// Refuses a part that depends on a crate which is nowhere in the package and those that it uses.
-fn known(package: &Package, root: &str, part: &str) -> Outcome {
+fn known(package: &Package, part: &str) -> Outcome {
+    let root = package.root;
     let used = PACKAGES
         .iter()
         .filter(|other| package.uses.contains(&other.root));
     let mut there: Vec<&str> = package.parts.to_vec();
     there.extend(used.flat_map(|other| other.parts.iter().chain([&other.root])));
+    there.extend(package.program.map_or(&[][..], |(_, parts)| parts));
     match of(part)?.own().find(|own| !there.contains(own)) {
         Some(own) => Err(format!(
             "{part}, a part of {root}, needs {own}: give it a package in xtask/src/package.rs"
@@ -171,7 +178,7 @@ fn text(package: &Package, workspace: &Manifest) -> Result<String, String> {
     let mut program = String::new();
     if let Some((name, parts)) = package.program {
         let own = of(name)?;
-        let mut names = all.add(&own, true);
+        let mut names = Vec::new();
         for part in parts {
             names.extend(all.add(&of(part)?, true));
         }
