@@ -53,8 +53,6 @@ class Stiction:
         v, a = peers.derivatives(log)
         force = self.fit.law.record(log.time, v) + value("mass") * a + value("offset", 0.0)
         force += value("gravity_sin", 0.0) * np.sin(log.position) + value("gravity_cos", 0.0) * np.cos(log.position)
-        for side, on in (("", 1.0), ("_pos", v > 0.0), ("_neg", v < 0.0)):
-            force += value("quadratic_viscous" + side, 0.0) * v * np.abs(v) * on
         return np.interp(log.time - value("delay", 0.0), log.time, force)
 
 

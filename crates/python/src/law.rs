@@ -6,13 +6,12 @@ use pyo3::prelude::*;
 use pyo3::sync::MutexExt;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use stiction_files::ModelFile;
-use stiction_parameters::FrictionLaw;
-use stiction_workflows::{SteppedLaw, forces_along};
+use stiction_workflows::{self as workflows, SteppedLaw, forces_along};
 
 /// A friction law with its state.
 #[pyclass(frozen, module = "stiction._native")]
 pub struct Law {
-    law: FrictionLaw,
+    law: workflows::Law,
     /// Calls from several threads follow one another.
     stepped: Mutex<SteppedLaw>,
     /// The model file of the law.
@@ -32,7 +31,7 @@ impl Law {
         let values = model.values();
         let values =
             values.ok_or_else(|| refused("a law that this version does not know".into()))?;
-        let law = values.law().map_err(|e| refused(e.to_string()))?;
+        let law = workflows::Law::of(&values).map_err(|e| refused(e.to_string()))?;
         Ok(Self {
             stepped: Mutex::new(SteppedLaw::new(law.clone())),
             law,

@@ -2,10 +2,10 @@
 
 use crate::Error;
 use stiction_friction::LuGre;
-use stiction_parameters::{FrictionLaw, LawKind, Name, ParameterSet};
+use stiction_parameters::{LawKind, Name, ParameterSet};
 use stiction_workflows::{self as workflows, forces_along};
 
-/// A friction law with its numbers.
+/// A friction law with its numbers, quadratic viscous friction among them.
 ///
 /// ```
 /// use stiction::{Law, LawKind, Quantity};
@@ -28,7 +28,7 @@ use stiction_workflows::{self as workflows, forces_along};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Law {
     kind: LawKind,
-    law: FrictionLaw,
+    law: workflows::Law,
 }
 
 impl Law {
@@ -46,7 +46,7 @@ impl Law {
     }
 
     pub(crate) fn of(values: &ParameterSet) -> Result<Self, Error> {
-        let law = values.law()?;
+        let law = workflows::Law::of(values)?;
         let kind = values.kind();
         Ok(Self { kind, law })
     }
@@ -58,10 +58,7 @@ impl Law {
 
     /// Friction at a constant velocity, m/s (rad/s), in the unit of the law; of the sign of the velocity, but for a constant force.
     pub fn steady(&self, velocity: f64) -> f64 {
-        match &self.law {
-            FrictionLaw::CoulombViscous(law) => law.force(velocity),
-            law => law.curve().map_or(0.0, |curve| curve.force(velocity)),
-        }
+        self.law.steady(velocity)
     }
 
     /// The law at rest with nothing deflected, for simulation and control.
@@ -79,9 +76,9 @@ impl Law {
     }
 
     /// The law as `stiction-friction` has it, for a drive without `std`; `None` for another law than LuGre and Dahl. Its sigma1 is
-    /// constant, as it was identified.
+    /// constant, as it was identified; quadratic viscous friction is not in it.
     pub fn lugre(&self) -> Option<LuGre<f64>> {
-        self.law.lugre()
+        self.law.law.lugre()
     }
 }
 

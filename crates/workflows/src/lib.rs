@@ -63,7 +63,7 @@ pub mod verdict;
 mod wording;
 
 pub use error::{Error, Parts};
-pub use stepped::{SteppedLaw, forces_along};
+pub use stepped::{Law, SteppedLaw, forces_along};
 pub use verdict::Verdict;
 pub use wording::{Part, Setting, Wording};
 

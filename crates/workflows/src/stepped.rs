@@ -2,7 +2,53 @@
 
 use crate::Error;
 use stiction_friction::{Elements, Gms, GmsState, MOST_ELEMENTS, MaxwellSlip, State};
-use stiction_parameters::FrictionLaw;
+use stiction_parameters::{FrictionLaw, LawError, ParameterSet, Quantity, Side};
+
+/// A friction law, and the quadratic viscous friction that an identification found beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Law {
+    /// The law.
+    pub law: FrictionLaw,
+    /// Force per squared speed in positive and negative direction, N s^2/m^2 (N m s^2/rad^2).
+    pub quadratic: [f64; 2],
+}
+
+impl Law {
+    /// The law of a set of parameters.
+    ///
+    /// # Errors
+    /// Where they make none.
+    pub fn of(set: &ParameterSet) -> Result<Self, LawError> {
+        let quadratic = |side| set.on(Quantity::QuadraticViscous, side).unwrap_or(0.0);
+        Ok(Self {
+            law: set.law()?,
+            quadratic: [Side::Positive, Side::Negative].map(quadratic),
+        })
+    }
+
+    /// Force at a constant velocity, m/s (rad/s).
+    pub fn steady(&self, velocity: f64) -> f64 {
+        let force = match &self.law {
+            FrictionLaw::CoulombViscous(law) => law.force(velocity),
+            law => law.curve().map_or(0.0, |curve| curve.force(velocity)),
+        };
+        force + self.beside(velocity)
+    }
+
+    /// The quadratic viscous friction at a velocity, m/s (rad/s).
+    fn beside(&self, velocity: f64) -> f64 {
+        self.quadratic[usize::from(velocity < 0.0)] * velocity * velocity.abs()
+    }
+}
+
+impl From<FrictionLaw> for Law {
+    fn from(law: FrictionLaw) -> Self {
+        Self {
+            law,
+            quadratic: [0.0; 2],
+        }
+    }
+}
 
 /// A law with its state, one call a sample: the form for simulation and control, whose sigma1 is capped
 /// ([`FrictionLaw::capped`]).
@@ -22,7 +68,7 @@ use stiction_parameters::FrictionLaw;
 /// ```
 #[derive(Clone, Debug)]
 pub struct SteppedLaw {
-    law: FrictionLaw,
+    law: Law,
     memory: Memory,
     force: f64,
 }
@@ -36,7 +82,8 @@ enum Memory {
 
 impl SteppedLaw {
     /// At rest, with nothing deflected.
-    pub fn new(law: FrictionLaw) -> Self {
+    pub fn new(law: impl Into<Law>) -> Self {
+        let Law { law, quadratic } = law.into();
         let law = law.capped();
         let (memory, force) = match &law {
             FrictionLaw::CoulombViscous(law) => (Memory::None, law.force(0.0)),
@@ -45,22 +92,25 @@ impl SteppedLaw {
             FrictionLaw::ElastoPlastic(law) => (Memory::Bristle(law.rest()), law.rest().force),
             FrictionLaw::MaxwellSlip(law) => (Memory::Elements(law.rest()), law.rest().force),
         };
+        let law = Law { law, quadratic };
         Self { law, memory, force }
     }
 
     /// Advances by `h` seconds at the velocity `v` (m/s, rad/s): the friction force in the unit of the law, positive against
     /// positive velocities. A sample that is not finite leaves the law as it is and returns the force before.
     pub fn step(&mut self, h: f64, v: f64) -> f64 {
-        let force = match (&self.law, &mut self.memory) {
+        let force = match (&self.law.law, &mut self.memory) {
             (FrictionLaw::LuGre(law), Memory::Bristle(state)) => law.step(state, h, v),
             (FrictionLaw::ElastoPlastic(law), Memory::Bristle(state)) => law.step(state, h, v),
             (FrictionLaw::MaxwellSlip(law), Memory::Elements(state)) => law.step(state, h, v),
             (FrictionLaw::CoulombViscous(law), _) if v.is_finite() => law.force(v),
             (FrictionLaw::Stribeck(curve), _) if v.is_finite() => curve.force(v),
-            _ => self.force,
+            _ => return self.force,
         };
-        self.force = force;
-        force
+        if v.is_finite() && h.is_finite() {
+            self.force = force + self.law.beside(v);
+        }
+        self.force
     }
 
     /// The force of the last sample; of the law at rest where there was none.
@@ -70,7 +120,7 @@ impl SteppedLaw {
 
     /// The deflection of a bristle, m (rad), or the spring forces of elements; empty for a law without memory.
     pub fn state(&self) -> Vec<f64> {
-        match (&self.law, &self.memory) {
+        match (&self.law.law, &self.memory) {
             (FrictionLaw::MaxwellSlip(law), Memory::Elements(state)) => {
                 state.elements.force[..law.elements().len()].to_vec()
             }
@@ -136,9 +186,9 @@ impl SteppedLaw {
 ///
 /// # Errors
 /// Where the two differ in length, time does not increase, or a number is not finite.
-pub fn forces_along(law: &FrictionLaw, time: &[f64], velocity: &[f64]) -> Result<Vec<f64>, Error> {
+pub fn forces_along(law: &Law, time: &[f64], velocity: &[f64]) -> Result<Vec<f64>, Error> {
     check(time, velocity)?;
-    Ok(match law {
+    let mut forces = match &law.law {
         FrictionLaw::CoulombViscous(law) => velocity.iter().map(|&v| law.force(v)).collect(),
         FrictionLaw::Stribeck(curve) => velocity.iter().map(|&v| curve.force(v)).collect(),
         FrictionLaw::LuGre(law) => along(
@@ -154,7 +204,11 @@ pub fn forces_along(law: &FrictionLaw, time: &[f64], velocity: &[f64]) -> Result
             |z, v| law.force(*z, v),
         ),
         FrictionLaw::MaxwellSlip(law) => of_elements(law, (time, velocity)),
-    })
+    };
+    for (force, &v) in forces.iter_mut().zip(velocity) {
+        *force += law.beside(v);
+    }
+    Ok(forces)
 }
 
 /// With as many elements as the law has.

@@ -1,7 +1,6 @@
 //! A law that is run by itself: in real time and along a record.
 
-use stiction_parameters::ParameterSet;
-use stiction_parameters::{FrictionLaw, LawKind};
+use stiction_parameters::{FrictionLaw, LawKind, ParameterSet, Quantity};
 use stiction_workflows::{SteppedLaw, forces_along};
 
 /// Every family with one set of numbers.
@@ -46,7 +45,7 @@ fn at_constant_velocity_both_end_at_the_steady_force() {
             stepped.force()
         );
         let time: Vec<f64> = (0..8000).map(|k| 250e-6 * f64::from(k)).collect();
-        let along = forces_along(&law, &time, &[0.1; 8000]).unwrap();
+        let along = forces_along(&law.clone().into(), &time, &[0.1; 8000]).unwrap();
         assert!(
             (along[7999] - steady).abs() < 1e-6,
             "{law:?}: {}",
@@ -63,7 +62,7 @@ fn at_constant_velocity_both_end_at_the_steady_force() {
 
 #[test]
 fn a_record_that_is_none_is_refused() {
-    let law = laws().pop().unwrap();
+    let law = laws().pop().unwrap().into();
     for (time, velocity) in [
         (vec![0.0, 1.0], vec![0.0]),
         (vec![0.0, 0.0], vec![0.0, 0.0]),
@@ -92,6 +91,52 @@ fn a_law_goes_on_from_what_it_remembers() {
         for k in 90..300 {
             let force = one.step(1e-3, velocity(k));
             assert_eq!(force, other.step(1e-3, velocity(k)), "{law:?}");
+        }
+    }
+}
+
+/// Force per squared speed, of each direction: 20 N + 60 N s/m v - 30 N s^2/m^2 v^2 forward, + 50 N s^2/m^2 back.
+#[test]
+fn quadratic_viscous_friction_is_part_of_a_law() {
+    let (fc, fs) = ((Quantity::Coulomb, 20.0), (Quantity::Static, 30.0));
+    let lugre = [
+        (Quantity::Sigma0, 1e5),
+        (Quantity::Sigma1, 0.0),
+        fs,
+        (Quantity::StribeckVelocity, 1e-3),
+    ];
+    let viscous = (Quantity::Sigma2, 60.0);
+    let both = [
+        ("quadratic_viscous_pos", -30.0),
+        ("quadratic_viscous_neg", 50.0),
+    ];
+    for (kind, more) in [(LawKind::LuGre, &lugre[..]), (LawKind::CoulombViscous, &[])] {
+        let always = [fc, viscous];
+        let own = always
+            .iter()
+            .chain(more)
+            .map(|&(quantity, value)| (stiction::Name::from(quantity), value));
+        let both = both.map(|(name, value)| (name.parse().unwrap(), value));
+        let law = stiction::Law::new(kind, own.chain(both)).unwrap();
+        for (v, force) in [(0.5, 20.0 + 30.0 - 7.5), (-0.5, -20.0 - 30.0 - 12.5)] {
+            assert!(
+                (law.steady(v) - force).abs() < 1e-9,
+                "{kind}: {}",
+                law.steady(v)
+            );
+            let mut stepped = law.stepped();
+            for _ in 0..400 {
+                stepped.step(1e-3, v);
+            }
+            assert!(
+                (stepped.force() - force).abs() < 1e-9,
+                "{kind}: {}",
+                stepped.force()
+            );
+            assert_eq!(stepped.step(1e-3, f64::NAN), stepped.force());
+            let time: Vec<f64> = (0..400).map(|k| 1e-3 * f64::from(k)).collect();
+            let along = law.along(&time, &[v; 400]).unwrap();
+            assert!((along[399] - force).abs() < 1e-9, "{kind}: {}", along[399]);
         }
     }
 }

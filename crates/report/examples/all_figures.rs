@@ -1,5 +1,5 @@
 //! Writes every building block of a report with synthetic friction data:
-//! `cargo run -p stiction-report --example gallery -- gallery.html`
+//! `cargo run -p stiction-report --example all_figures -- figures.html`
 
 use std::f64::consts::TAU;
 
