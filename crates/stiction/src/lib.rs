@@ -20,7 +20,7 @@
 //! assert!(fit.is_trustworthy(), "{:?}", fit.reasons());
 //!
 //! // Friction by velocity, whatever the law, with its 95 % interval for another day.
-//! let friction = fit.friction(0.02).expect("a speed that the log has seen");
+//! let friction = fit.friction(0.1).expect("a speed that the log has seen");
 //! println!("{:.1} ± {:.1} {}", friction.force, friction.repeat, fit.force_unit());
 //!
 //! // A parameter, where the log determines it; else why not, and what to record.
@@ -51,7 +51,7 @@
 //! # assert!((share - compensator.settings().gain).abs() < 1e-9, "{share}");
 //! # assert!((19.5..20.5).contains(&coulomb.value));
 //! # assert!(coulomb.interval.0 < 20.0 && 20.0 < coulomb.interval.1, "{coulomb:?}");
-//! # assert!((20.0..30.0).contains(&friction.force) && friction.repeat < 1.0, "{friction:?}");
+//! # assert!((25.0..27.0).contains(&friction.force) && friction.repeat < 2.0, "{friction:?}");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
