@@ -105,6 +105,8 @@
 //! SI throughout; a force that the log has in A or V stays in it. Results do not depend on the number of threads. A result
 //! that should not be trusted is no error: [`Fit::is_trustworthy`] says so, and [`Fit::reasons`] why.
 //!
+//! In a program of one's own: `cargo add stiction --no-default-features`; the feature `cli` is the command `stiction`.
+//!
 //! What a result has beyond these types is in [`Fit::result`], with the keys of `result.json`. The engine is no part of the interface;
 //! the laws for a drive without `std` are in `stiction-friction`.
 

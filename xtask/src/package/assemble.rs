@@ -188,7 +188,9 @@ fn text(package: &Package, workspace: &Manifest) -> Result<String, String> {
             features.push(format!("{feature} = []"));
             all_of.push(feature.into());
         }
-        features.push(format!("# The command `stiction`.\n{name} = {all_of:?}"));
+        features.push(format!(
+            "# The command `stiction`, which `cargo install stiction` is for.\ndefault = [\"{name}\"]\n{name} = {all_of:?}"
+        ));
         program = format!(
             "\n[[bin]]\nname = \"stiction\"\npath = \"crates/{name}/src/main.rs\"\nrequired-features = [\"{name}\"]\ndoc = false\ntest = false\n"
         );
