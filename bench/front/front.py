@@ -37,7 +37,7 @@ BAND = 10.0
 # s, at each end of the second half, where filters are not settled.
 EDGE = 0.5
 # Shares of the top speed at which the repeats are compared.
-SPEEDS = (0.05, 0.5, 0.9)
+SPEEDS = np.linspace(0.05, 0.95, 10)
 
 
 class Stiction:
@@ -88,9 +88,9 @@ def held(values, halves):
 
 
 def repeats():
-    """Friction of seven repeats at three speeds, with intervals: of scipy, and of stiction for the same test on another day."""
+    """Friction of seven repeats at ten speeds, with intervals: of scipy, and of stiction for the same test on another day."""
     logs = servo()
-    top = 0.9 * min(np.abs(peers.derivatives(log)[0]).max() for log in logs)
+    top = min(np.abs(peers.derivatives(log)[0]).max() for log in logs)
     speeds = [share * top for share in SPEEDS]
     scipys, ours = [], []
     for log in logs:
@@ -121,7 +121,7 @@ def main():
     cells = [f"{100.0 * hit / pairs:.0f} %" for hit, pairs in counts]
     # Both runs scatter: of normal ones a right interval of one holds the other so often.
     right = 100.0 * math.erf(0.5 * 1.96)
-    print(f"| servo, seven repeats: 95 % intervals that hold the friction of another run, right: {right:.0f} % | – | {cells[0]} | {cells[1]} |")
+    print(f"| servo, seven runs of one test, ten speeds: 95 % intervals that hold another run's friction (of a right one: {right:.0f} %) | – | {cells[0]} | {cells[1]} |")
     figure.draw(drawn, (theirs, joints), (speeds, scipys, ours), environment.ROOT / "docs/front.svg")
 
 

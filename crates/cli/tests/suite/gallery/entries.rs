@@ -76,7 +76,7 @@ const PANDA: Entry = Entry {
 const ROTATION: Entry = Entry {
     name: "so101-rotation",
     title: "SO-101, base rotation",
-    note: "A current in eleven steps: bristles stay open, the friction over speed does not.",
+    note: "A current in eleven steps: bristles stay open, the friction over speed does not. Its signs are those of the following error, from `control.csv` beside the log.",
     origin: &SO101,
     recordings: &[
         "robots/so101/single_joint_rotation/state_motor.csv",
@@ -145,7 +145,7 @@ pub const ENTRIES: [Entry; 10] = [
     Entry {
         name: "so101-elbow",
         title: "SO-101, elbow while two joints move: no",
-        note: "The current reads zero in 16 stretches of motion, and the shoulder moves too.",
+        note: "The current reads zero in 16 stretches of motion, and the shoulder moves too. Signs as above.",
         recordings: &[
             "robots/so101/coupled_joints/state_motor.csv",
             "robots/so101/coupled_joints/control.csv",
