@@ -3,9 +3,10 @@
 
     cargo xtask front        # or, with STICTION_WHEEL: python3 bench/front/front.py
 
-Every model is fitted to the first half of a recording and predicts the second. The three models of an axis get the same
-velocity and acceleration, so that only laws and constants differ; the residual is that of the force as logged, and of its
-part below 10 Hz. stiction runs without options, but for gravity where the axis has it. Prints the table and writes
+Every model is fitted to the first half of a recording, but for what was published, and predicts the second. The three models
+of an axis get the same velocity and acceleration, so that only laws, constants and a delay of the force differ, which stiction
+finds and the others have not; the residual is that of the force as logged, and of its part below 10 Hz. stiction runs without
+options, but for gravity where the axis has it. Prints the table and writes
 docs/front.svg.
 """
 

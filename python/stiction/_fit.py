@@ -97,8 +97,8 @@ class Fit:
     def friction(self, velocity: float | ArrayLike) -> Friction:
         """Friction in steady sliding at a velocity or an array of them, m/s (rad/s), whatever the law.
 
-        Linear between the speeds of `friction_curve`, of the direction of the velocity where both are known, else their mean; NaN
-        outside the speeds of the log.
+        Linear between the speeds of `friction_curve`, of the direction of the velocity; NaN outside the speeds of the log and for a
+        direction that it does not have.
         """
         entry = self.result.get("friction_curve")
         if entry is None:

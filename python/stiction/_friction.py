@@ -61,21 +61,25 @@ def mean_curve(entry: dict[str, Any]) -> FrictionCurve:
 
 
 def friction_at(entry: dict[str, Any], velocity: Any) -> Friction:
-    """Linear between the speeds of the curve; the curve of its direction where both are known, else the mean."""
+    """Linear between the speeds of the curve, of the direction of the velocity; NaN for one that the log does not have."""
     import numpy
 
     try:
         v = numpy.asarray(velocity, dtype=numpy.float64)
     except (TypeError, ValueError):
         raise argument("velocity", kind_of(velocity), "a number or an array of numbers, m/s (rad/s)") from None
-    mean = _mean(entry)
     forward, back = entry.get("forward"), entry.get("back")
-    if forward is None or back is None:
-        forward = back = mean
+    if forward is None and back is None:
+        forward = back = _mean(entry)
     speed = numpy.abs(v)
 
+    def one(side: dict[str, Any] | None, field: str) -> NDArray[numpy.float64]:
+        if side is None:
+            return numpy.full(speed.shape, numpy.nan)
+        return numpy.asarray(numpy.interp(speed, entry["speed"], side[field], left=numpy.nan, right=numpy.nan))
+
     def of(field: str) -> NDArray[numpy.float64]:
-        sides = [numpy.interp(speed, entry["speed"], side[field], left=numpy.nan, right=numpy.nan) for side in (forward, back)]
+        sides = [one(side, field) for side in (forward, back)]
         return numpy.asarray(numpy.where(v < 0.0, sides[1], sides[0]))
 
     columns = [v, numpy.copysign(1.0, v) * of("force"), *(of(field) for field in FIELDS[1:])]

@@ -24,6 +24,9 @@ const MACHINES: f64 = 4.0;
 const SIZE: (f64, f64) = (0.5, 6.0);
 /// Added to the diagonal of the scaled covariance of pieces before it is inverted: what they say of no direction is no ratio.
 const RIDGE: f64 = 0.05;
+/// Size of a column, in parts of what is known before the log, below which the log says nothing of it: its square is
+/// far from what an inverse of 16 digits loses.
+const NOTHING: f64 = 1e-4;
 /// Weight of one half of the motion over that of the other.
 const REWEIGHTED: f64 = 0.25;
 
@@ -90,12 +93,7 @@ impl Scatter {
         if p == 0 || n <= p {
             return None;
         }
-        // Columns of any unit to about one size.
-        let scale: Vec<f64> = fit
-            .jacobian
-            .iter()
-            .map(|column| 1.0 / size(column))
-            .collect();
+        let scale = scales(fit);
         let pulls = Pulls::of(fit, &scale, strokes);
         let all = gram(fit, &scale, None);
         let variance = pulls.variance(&all, fit.residual);
@@ -122,9 +120,7 @@ impl Scatter {
 
     /// The same with what another motion changes.
     pub fn with_transfer(mut self, fit: &Fitted, strokes: &Strokes) -> Self {
-        let scale: Vec<f64> = (fit.jacobian.iter())
-            .map(|column| 1.0 / size(column))
-            .collect();
+        let scale = scales(fit);
         let all = gram(fit, &scale, None);
         let pull = products(fit, &scale, fit.residual);
         let variance = Pulls::of(fit, &scale, strokes).variance(&all, fit.residual);
@@ -287,6 +283,17 @@ fn prior(fit: &Fitted, scale: &[f64], variance: f64) -> DMatrix<f64> {
     DMatrix::from_diagonal(&DVector::from_fn(scale.len(), |i, _| {
         variance * fit.prior[i] * scale[i] * scale[i]
     }))
+}
+
+/// Brings columns of any unit to about one size. One that the log says next to nothing of keeps to what is known before it, or that
+/// would outweigh all others once it is scaled.
+fn scales(fit: &Fitted) -> Vec<f64> {
+    let square: f64 = fit.residual.iter().map(|r| r * r).sum();
+    let rms = (square / fit.residual.len() as f64).sqrt();
+    let columns = fit.jacobian.iter().zip(&fit.prior);
+    let scale =
+        |(column, prior): (&&[f64], &f64)| 1.0 / size(column).max(NOTHING * rms * prior.sqrt());
+    columns.map(scale).collect()
 }
 
 /// Root of the sum of squares, or 1 where that is 0.

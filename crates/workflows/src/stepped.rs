@@ -1,7 +1,7 @@
 //! A law that is run: sample by sample in real time, or along a record.
 
 use crate::Error;
-use stiction_friction::{Elements, Gms, GmsState, MOST_ELEMENTS, MaxwellSlip, State};
+use stiction_friction::{Elements, Gms, GmsState, MOST_ELEMENTS, MaxwellSlip, ParamError, State};
 use stiction_parameters::{FrictionLaw, LawError, ParameterSet, Quantity, Side};
 
 /// A friction law, and the quadratic viscous friction that an identification found beside it.
@@ -20,9 +20,13 @@ impl Law {
     /// Where they make none.
     pub fn of(set: &ParameterSet) -> Result<Self, LawError> {
         let quadratic = |side| set.on(Quantity::QuadraticViscous, side).unwrap_or(0.0);
+        let quadratic = [Side::Positive, Side::Negative].map(quadratic);
+        if let Some(value) = quadratic.iter().find(|value| !value.is_finite()) {
+            return Err(ParamError::new("quadratic_viscous", *value, "a finite number").into());
+        }
         Ok(Self {
             law: set.law()?,
-            quadratic: [Side::Positive, Side::Negative].map(quadratic),
+            quadratic,
         })
     }
 

@@ -34,14 +34,13 @@ pub struct FrictionCurveEntry {
 impl FrictionCurveEntry {
     /// Friction in steady sliding at a velocity, m/s (rad/s), with the sign of the velocity; half widths as they are.
     ///
-    /// Linear between the speeds of the curve: that of the direction of the velocity where both are known, else the mean, and of a
-    /// log with one direction its own. `None` below the least and above the largest speed of the logs, so also at rest.
+    /// Linear between the speeds of the curve, of the direction of the velocity; the mean where no direction is kept. `None` for a direction that the logs do not have,
+    /// below their least and above their largest speed, so also at rest.
     pub fn at_velocity(&self, velocity: f64) -> Option<FrictionAtEntry> {
-        let mean = self.both.as_ref().or(self.forward.as_ref());
         let band = match (&self.forward, &self.back) {
-            (Some(_), Some(back)) if velocity < 0.0 => back,
-            (Some(forward), Some(_)) => forward,
-            _ => mean.or(self.back.as_ref())?,
+            (None, None) => self.both.as_ref()?,
+            (_, back) if velocity < 0.0 => back.as_ref()?,
+            (forward, _) => forward.as_ref()?,
         };
         let v = velocity.abs();
         let above = self.speed.partition_point(|speed| *speed <= v);

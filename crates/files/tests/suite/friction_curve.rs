@@ -44,18 +44,20 @@ fn is(found: Option<FrictionAtEntry>, v: f64, level: f64, rise: f64) {
 }
 
 #[test]
-fn a_direction_has_its_own_curve_where_both_are_known() {
+fn a_direction_has_its_own_curve_and_no_other() {
     for v in [0.01, 0.013, 0.05, 0.17, 0.2] {
         let two = curve(true, [true, true]);
         is(two.at_velocity(v), v, 22.0, 50.0);
         is(two.at_velocity(-v), -v, 18.0, 70.0);
-        let mean = curve(true, [true, false]);
+        let mean = curve(true, [false, false]);
         is(mean.at_velocity(v), v, 20.0, 60.0);
         is(mean.at_velocity(-v), -v, 20.0, 60.0);
         let forward = curve(false, [true, false]);
-        is(forward.at_velocity(-v), -v, 22.0, 50.0);
+        is(forward.at_velocity(v), v, 22.0, 50.0);
+        assert_eq!(forward.at_velocity(-v), None);
         let back = curve(false, [false, true]);
-        is(back.at_velocity(v), v, 18.0, 70.0);
+        is(back.at_velocity(-v), -v, 18.0, 70.0);
+        assert_eq!(back.at_velocity(v), None);
     }
 }
 

@@ -117,6 +117,8 @@ fn quadratic_viscous_friction_is_part_of_a_law() {
             .chain(more)
             .map(|&(quantity, value)| (stiction::Name::from(quantity), value));
         let both = both.map(|(name, value)| (name.parse().unwrap(), value));
+        let none = own.clone().chain(both.map(|(name, _)| (name, f64::NAN)));
+        assert!(stiction::Law::new(kind, none).is_err());
         let law = stiction::Law::new(kind, own.chain(both)).unwrap();
         for (v, force) in [(0.5, 20.0 + 30.0 - 7.5), (-0.5, -20.0 - 30.0 - 12.5)] {
             assert!(
