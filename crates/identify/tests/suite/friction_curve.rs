@@ -154,3 +154,18 @@ fn there_is_no_more_than_the_log_shows() {
     };
     assert_eq!(curve(&record(tiny, 0.0, 4), LawKind::LuGre), None);
 }
+
+/// From one day to the next friction changes by some 2 %: no noise makes less of the band of a log that never turns back, though
+/// its bristle says nothing after the start.
+#[test]
+fn a_log_of_one_direction_has_a_band() {
+    let w = TAU * 0.5;
+    let forward = |t: f64| [0.2 + 0.15 * (w * t).sin(), 0.15 * w * (w * t).cos()];
+    for seed in 0..24 {
+        let found = curve(&record(forward, 0.0, seed), LawKind::CoulombViscous).unwrap();
+        for level in &found.directions[0].level {
+            let part = level.half.repeat / level.force;
+            assert!((0.03..0.3).contains(&part), "seed {seed}: {level:?}");
+        }
+    }
+}
