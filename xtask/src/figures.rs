@@ -11,7 +11,7 @@ const END: &str = "<!-- end of figures -->";
 
 /// README's table and picture.
 pub fn front() -> Outcome {
-    let wheel = wheel::unpublished()?;
+    let wheel = wheel::debug()?;
     renew("README.md", &[("STICTION_WHEEL", &wheel)])
 }
 

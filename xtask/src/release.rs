@@ -95,16 +95,20 @@ fn version() -> Result<String, String> {
     ))
 }
 
-/// Refuses an address of the repository beside the one line that a person sets; everything else derives from it.
-fn named_once() -> Outcome {
+/// The address of the repository: the one line of Cargo.toml that a person sets.
+pub fn repository() -> Result<String, String> {
     let manifest =
         fs::read_to_string(shell::root().join("Cargo.toml")).map_err(|e| e.to_string())?;
     let begin = "repository = \"";
     let line = manifest.lines().find_map(|line| line.strip_prefix(begin));
-    let address = line
-        .ok_or("Cargo.toml names no repository")?
-        .trim_end_matches('"');
-    let search = ["grep", "-lF", address, "--", ":!*.snap"];
+    let address = line.ok_or("Cargo.toml names no repository")?;
+    Ok(address.trim_end_matches('"').into())
+}
+
+/// Refuses the address of the repository in any other file; everything derives from that line.
+fn named_once() -> Outcome {
+    let address = repository()?;
+    let search = ["grep", "-lF", &address, "--", ":!*.snap"];
     let found = shell::output(shell::command("git", &search))?;
     match found.trim() {
         "Cargo.toml" => Ok(()),

@@ -19,8 +19,6 @@ const PAGES: [(&str, &str); 5] = [
     ("CHANGELOG.md", "CHANGELOG.md"),
     ("crates/pages/src/glossary/terms.md", "glossary.md"),
 ];
-/// Other files are read in the repository.
-const REPOSITORY: &str = "https://github.com/stiction/stiction";
 const NOTEBOOK: &str = "examples/python/first_log.ipynb";
 /// What the tool has pages fetch so that the search works from files, and what stands in for it.
 const SHIM: &str = "https://unpkg.com/iframe-worker/shim";

@@ -43,8 +43,8 @@ pub fn built() -> Outcome {
     test()
 }
 
-/// Builds the wheel of the tests; gives its path.
-pub fn unpublished() -> Result<String, String> {
+/// Builds the wheel that the tests install; its path.
+pub fn debug() -> Result<String, String> {
     shell::run(shell::linted(cargo(BUILD)))?;
     let wheel = packed(&python::environment()?, &shell::target().join(FOLDER))?;
     Ok(text(&wheel))

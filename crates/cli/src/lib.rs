@@ -1,4 +1,4 @@
-//! The `stiction` command line: arguments, progress, exit codes. All work is done by the library of the same name.
+//! The `stiction` command line: arguments, progress, exit codes. The work is done by the crates below it.
 //!
 //! [`run`] is the whole program: `main` of the binary and the command of the Python package both call it.
 
@@ -23,7 +23,7 @@ use exit::Exit;
 use std::ffi::OsString;
 use std::io::Write;
 
-/// Runs a command as the program does: prints, writes files, listens for Ctrl-C. A process runs one.
+/// Runs a command as the program does: prints, writes files, listens for Ctrl-C.
 ///
 /// `words` are the arguments behind the name of the program. Returns the exit code: 0 done, 1 not trustworthy, 2 bad input or
 /// usage, 3 internal error, 130 interrupted; the second Ctrl-C, and the first while there is nothing to keep, end the process with

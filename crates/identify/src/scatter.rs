@@ -24,9 +24,9 @@ const MACHINES: f64 = 4.0;
 const SIZE: (f64, f64) = (0.5, 6.0);
 /// Added to the diagonal of the scaled covariance of pieces before it is inverted: what they say of no direction is no ratio.
 const RIDGE: f64 = 0.05;
-/// Size of a column, in parts of what is known before the log, below which the log says nothing of it: its square is
-/// far from what an inverse of 16 digits loses.
-const NOTHING: f64 = 1e-4;
+/// A column smaller than this part of its prior is scaled by the prior. It keeps the ratio of scaled information below 1e8, so that an
+/// inverse in double precision does not lose the other directions.
+const MIN_RELATIVE_SIZE: f64 = 1e-4;
 /// Weight of one half of the motion over that of the other.
 const REWEIGHTED: f64 = 0.25;
 
@@ -285,14 +285,15 @@ fn prior(fit: &Fitted, scale: &[f64], variance: f64) -> DMatrix<f64> {
     }))
 }
 
-/// Brings columns of any unit to about one size. One that the log says next to nothing of keeps to what is known before it, or that
-/// would outweigh all others once it is scaled.
+/// Scales columns of any unit to about one size. Scaled to one, a column that the log says next to nothing of would let its prior
+/// outweigh all other information.
 fn scales(fit: &Fitted) -> Vec<f64> {
     let square: f64 = fit.residual.iter().map(|r| r * r).sum();
     let rms = (square / fit.residual.len() as f64).sqrt();
     let columns = fit.jacobian.iter().zip(&fit.prior);
-    let scale =
-        |(column, prior): (&&[f64], &f64)| 1.0 / size(column).max(NOTHING * rms * prior.sqrt());
+    let scale = |(column, prior): (&&[f64], &f64)| {
+        1.0 / size(column).max(MIN_RELATIVE_SIZE * rms * prior.sqrt())
+    };
     columns.map(scale).collect()
 }
 

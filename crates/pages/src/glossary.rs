@@ -1,5 +1,5 @@
 //! The terms of reports and messages, explained: in a section of each report, since those are read without the rest of the
-//! documentation, and as a page of its own. Both come from the table `glossary/terms.md`.
+//! documentation. The table `glossary/terms.md` is a page of the documentation too.
 
 mod term;
 
@@ -7,11 +7,6 @@ use stiction_report::{Block, Document, Text};
 pub use term::Term;
 
 const PAGE: &str = include_str!("glossary/terms.md");
-
-/// The glossary as a page, in Markdown.
-pub fn page() -> &'static str {
-    PAGE
-}
 
 /// All terms.
 pub fn terms() -> impl Iterator<Item = Term> {
@@ -36,7 +31,7 @@ pub(crate) fn explained(document: Document) -> Document {
 
 #[cfg(test)]
 mod tests {
-    use super::{explained, page, terms};
+    use super::{PAGE, explained, terms};
     use std::collections::BTreeSet;
     use stiction_report::Document;
 
@@ -49,7 +44,7 @@ mod tests {
             }
             assert!(term.meaning.ends_with('.'), "{}", term.name);
         }
-        let rows = page().lines().filter(|line| line.starts_with("| **"));
+        let rows = PAGE.lines().filter(|line| line.starts_with("| **"));
         assert_eq!(rows.count(), terms().count());
     }
 

@@ -12,8 +12,8 @@
 //!     println!("{}", text::outcome(outcome)); // tables for a terminal
 //!     report::identification(outcome).to_html() // one file, without scripts
 //! }
-//! # let page = stiction_pages::glossary::page();
-//! # assert!(page.contains("Stribeck velocity"));
+//! # let mut terms = stiction_pages::glossary::terms();
+//! # assert!(terms.any(|term| term.name == "Stribeck velocity"));
 //! ```
 //!
 //! A page reads what a workflow found and calls neither a workflow nor an engine.

@@ -3,7 +3,7 @@
 use crate::{Error, Model, Notice};
 use serde_json::Value;
 use std::path::Path;
-use stiction_export::Draws;
+use stiction_export::{Draws, Width};
 use stiction_files::Warning;
 use stiction_friction::compensator::Compensator;
 use stiction_workflows::export::{self as workflow, ExportOptions, Target};
@@ -20,15 +20,6 @@ pub enum Feedforward {
     Cogging,
     /// Gravity, inertia and Coriolis forces of the rigid body of a robot.
     RigidBody,
-}
-
-/// Which intervals draws are from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Width {
-    /// The same motion on another day.
-    Repeatability,
-    /// Another motion.
-    Transfer,
 }
 
 /// An export to be made; what is not set follows from the law. docs/export.md says which target takes which setting.
@@ -118,10 +109,6 @@ impl Export {
     /// Writes so many draws of what a simulator takes, from intervals of this width; the same seed gives the same draws.
     #[must_use]
     pub fn draws(mut self, count: usize, seed: u64, width: Width) -> Self {
-        let width = match width {
-            Width::Repeatability => workflow::Width::Repeatability,
-            Width::Transfer => workflow::Width::Transfer,
-        };
         self.0.draws = Some(Draws { count, seed, width });
         self
     }

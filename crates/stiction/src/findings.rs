@@ -71,8 +71,8 @@ macro_rules! findings {
             /// Friction in steady sliding at a velocity, m/s (rad/s), whatever the law: with the sign of the velocity, and with the half
             /// widths of its 95 % interval.
             ///
-            /// It is linear between the speeds of the result's `friction_curve`, of the direction of the velocity where both are known,
-            /// else their mean; `None` outside the speeds of the logs, and where the axis does not slide.
+            /// It is linear between the speeds of the result's `friction_curve`, of the direction of the velocity; `None` outside the
+            /// speeds of the logs, for a direction that they do not have, and where the axis does not slide.
             pub fn friction(&self, velocity: f64) -> Option<crate::Friction> {
                 let curve = self.found().friction_curve.as_ref()?;
                 curve.at_velocity(velocity).map(crate::Friction::from)

@@ -1,7 +1,7 @@
 //! Links of the documentation as they are in the site: pages keep their relative links, other files lead to the repository.
 
-use super::{PAGES, REPOSITORY};
-use crate::shell;
+use super::PAGES;
+use crate::{release, shell};
 use std::path::{Component, Path, PathBuf};
 
 /// The text of a page with its links changed; `file` is its path in the tree. A link to nothing is an error.
@@ -49,8 +49,11 @@ fn link(file: &str, target: &str) -> Result<String, String> {
         return Ok(format!("{up}{page}{anchor}"));
     }
     match (on_disk.is_file(), on_disk.is_dir()) {
-        (true, _) => Ok(format!("{REPOSITORY}/blob/main/{path}{anchor}")),
-        (_, true) => Ok(format!("{REPOSITORY}/tree/main/{path}")),
+        (true, _) => Ok(format!(
+            "{}/blob/main/{path}{anchor}",
+            release::repository()?
+        )),
+        (_, true) => Ok(format!("{}/tree/main/{path}", release::repository()?)),
         _ => Err(format!("{file}: the link `{target}` leads to no file")),
     }
 }
