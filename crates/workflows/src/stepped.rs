@@ -56,20 +56,6 @@ impl From<FrictionLaw> for Law {
 
 /// A law with its state, one call a sample: the form for simulation and control, whose sigma1 is capped
 /// ([`FrictionLaw::capped`]).
-///
-/// ```
-/// use stiction::{FrictionLaw, SteppedLaw};
-/// # use stiction_friction::{Damping, Direction, LuGre, Shape, Stribeck};
-/// # let both = Direction { coulomb: 20.0, static_friction: 30.0, stribeck_velocity: 5e-3, viscous: 60.0 };
-/// # let curve = Stribeck::symmetric(Shape::Gaussian, both, 0.0)?;
-/// # let law = FrictionLaw::LuGre(LuGre::new(1.2e5, Damping::Capped(600.0), curve)?);
-/// let mut law = SteppedLaw::new(law); // of `Fit::law`
-/// for _ in 0..4000 {
-///     law.step(250e-6, 0.1); // 1 s at 0.1 m/s
-/// }
-/// assert!((law.force() - 26.0).abs() < 1e-9); // Fc + sigma2 v
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Debug)]
 pub struct SteppedLaw {
     law: Law,
