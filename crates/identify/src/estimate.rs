@@ -296,6 +296,29 @@ pub fn friction_along(record: &Record, fitted: &Estimate) -> FrictionAlong {
     FrictionAlong { force, slopes }
 }
 
+/// Whether the friction of a law that was fitted to a record outweighs the inertia, at the samples that count.
+pub(crate) fn outweighs_inertia(record: &Record, fitted: &Estimate) -> Vec<bool> {
+    let objective = Objective::new(record, fitted.law, &fitted.terms);
+    let n = objective.force().len();
+    let mut inertia = objective.inertia(&fitted.p);
+    inertia.resize(n, 0.0);
+    let mut friction = vec![0.0; n];
+    let columns = objective.columns_at(&fitted.p);
+    let parts = columns.iter().zip(&fitted.coefficients);
+    for (term, (column, c)) in objective.linear().iter().zip(parts) {
+        let sum = match term.column {
+            ColumnKind::Acceleration => &mut inertia,
+            own if is_friction(own) => &mut friction,
+            _ => continue,
+        };
+        sum.iter_mut()
+            .zip(column.iter())
+            .for_each(|(y, x)| *y += c * x);
+    }
+    let both = friction.iter().zip(&inertia);
+    both.map(|(f, i)| f.abs() > i.abs()).collect()
+}
+
 /// Whether a term of the force is friction: not inertia, weight or an offset.
 fn is_friction(column: ColumnKind) -> bool {
     matches!(

@@ -6,7 +6,7 @@
 
 use crate::conditioning::record::Record;
 use crate::error::Error;
-use crate::estimate::Estimate;
+use crate::estimate::{Estimate, outweighs_inertia};
 use crate::law::prior::Prior;
 use crate::law::terms::{ColumnKind, Delay, Side, Terms};
 use crate::law::{Law, LawKind};
@@ -21,9 +21,9 @@ use stiction_search::{Observer, Status};
 
 /// Most knots of the curve.
 const KNOTS: usize = 7;
-/// First knot, in parts of the top speed: below it the curve is constant.
+/// First knot, in parts of the top speed: below it the fitted curve is constant.
 const FIRST: f64 = 0.02;
-/// Fewest samples of a direction at the speeds of a knot, for each unknown of the curve.
+/// Fewest samples of a direction nearest to a knot, for each unknown of the curve.
 const SAMPLES: usize = 4;
 /// Speeds between two knots at which the curve is stated.
 const BETWEEN: usize = 4;
@@ -33,21 +33,22 @@ const BETWEEN: usize = 4;
 pub struct FrictionCurve {
     /// Top speed, m/s or rad/s: that which 3 % of the samples in motion are above.
     pub top: f64,
-    /// Speeds from the least to the top speed, m/s or rad/s.
+    /// Speeds from the least at which friction outweighs inertia to the top speed, m/s or rad/s.
     pub speed: Vec<f64>,
     /// Friction of the directions that the log has.
     pub directions: Vec<OfDirection>,
     /// Half of the sum of both directions, N (N m); empty for one direction.
     pub both: Vec<Level>,
     /// Coulomb and viscous friction, N and N s/m (N m and N m s/rad), of the straight line nearest to it from a tenth of the top speed
-    /// on; `None` for one direction.
+    /// on; `None` for one direction and for one speed.
     pub line: Option<[Level; 2]>,
     /// Correlations from day to day, -1 to 1: of the two, and of each with the mass, where it is fitted.
     pub correlation: Option<(f64, Option<[f64; 2]>)>,
     /// Half of their difference: a constant force, a weight, or friction that differs.
     pub constant: Vec<Level>,
-    /// Half of the sum at a twentieth, half and all of the top speed; of a single direction its own.
-    pub at: [Level; 3],
+    /// Half of the sum at a twentieth, half and all of the top speed, or at the ends of the curve where it does not reach there; of a
+    /// single direction its own.
+    pub at: Vec<Level>,
 }
 
 /// The curve of one direction, with the constant force.
@@ -70,7 +71,7 @@ pub struct Level {
     pub half: HalfWidths,
 }
 
-/// Parts of the top speed at which friction is stated in three numbers.
+/// Parts of the top speed at which friction is stated in three numbers, where the curve reaches there.
 const PARTS: [f64; 3] = [0.05, 0.5, 1.0];
 
 /// Part of the top speed from which on a line of Coulomb and viscous friction is taken: below it lies the Stribeck curve, which no
@@ -126,13 +127,13 @@ pub fn friction_curve(
     settings: &Settings,
     observer: &mut dyn Observer,
 ) -> Result<Option<FrictionCurve>, Error> {
-    let strokes = Strokes::of(record);
-    let Some((knots, sides)) = knots(&strokes) else {
-        return Ok(None);
-    };
     if fitted.stays_in_presliding() {
         return Ok(None);
     }
+    let strokes = Strokes::of(record);
+    let Some((knots, first, sides)) = knots(&strokes, &outweighs_inertia(record, fitted)) else {
+        return Ok(None);
+    };
     let hats = Hat::of(&knots);
     let terms = Terms {
         curve: Hats(
@@ -165,23 +166,28 @@ pub fn friction_curve(
     Ok(stated(
         record,
         &strokes,
-        (&hats, &sides),
+        (&hats, first, &sides),
         mass,
         &optimum.evaluation,
     ))
 }
 
-/// Knots that the speeds of every direction reach, and the directions; `None` where less than two are reached.
-fn knots(strokes: &Strokes) -> Option<(Vec<f64>, Vec<Side>)> {
-    let of = |sense: f64| {
-        let both = strokes.speed.iter().zip(&strokes.sense);
-        both.filter(move |(_, own)| **own == sense)
-            .map(|(speed, _)| *speed)
+/// Knots that the speeds of every direction reach, the first of them that is stated, and the directions; `None` where none is.
+///
+/// Where inertia outweighs friction, an error of some per cent in its size or timing is one of as many in friction or more, and comes
+/// again in every stroke, so that no scatter shows it. Speeds that are only passed so have no knot above the first that is stated; below
+/// it they keep theirs, which then takes up that error.
+fn knots(strokes: &Strokes, outweighs: &[bool]) -> Option<(Vec<f64>, usize, Vec<Side>)> {
+    let of = |sense: f64, known: bool| {
+        let each = strokes.speed.iter().zip(&strokes.sense).zip(outweighs);
+        each.filter(move |((_, own), outweighs)| **own == sense && (**outweighs || !known))
+            .map(|((speed, _), _)| *speed)
     };
     let sides: Vec<(Side, f64)> = [(Side::Positive, 1.0), (Side::Negative, -1.0)]
         .into_iter()
         .filter(|(_, sense)| {
-            of(*sense).filter(|v| *v > FIRST * strokes.top).count() > SAMPLES * KNOTS
+            let moving = of(*sense, false).filter(|v| *v > FIRST * strokes.top);
+            moving.count() > SAMPLES * KNOTS
         })
         .collect();
     let last = (KNOTS - 1) as f64;
@@ -190,26 +196,27 @@ fn knots(strokes: &Strokes) -> Option<(Vec<f64>, Vec<Side>)> {
         .map(|k| strokes.top * (root + (1.0 - root) * k as f64 / last).powi(2))
         .collect();
     let hats = Hat::of(&all);
-    let seen = |hat: &Hat| {
-        let weight = |sense: f64| of(sense).map(|speed| hat.value(speed)).sum::<f64>();
+    let seen = |hat: &Hat, known: bool| {
+        // Its own: two knots around a single speed are not told apart.
+        let own = |sense: f64| of(sense, known).filter(|speed| hat.value(*speed) > 0.5);
         sides
             .iter()
-            .all(|(_, sense)| weight(*sense) >= SAMPLES as f64)
+            .all(|(_, sense)| own(*sense).count() >= SAMPLES)
     };
-    let knots: Vec<f64> = hats
-        .iter()
-        .filter(|hat| seen(hat))
-        .map(|hat| hat.at)
-        .collect();
+    let first = hats.iter().find(|hat| seen(hat, true))?.at;
+    let used = hats.iter().filter(|hat| seen(hat, hat.at >= first));
+    let knots: Vec<f64> = used.map(|hat| hat.at).collect();
+    let below = knots.partition_point(|at| *at < first);
     let sides: Vec<Side> = sides.into_iter().map(|(side, _)| side).collect();
-    (knots.len() > 1 && !sides.is_empty() && strokes.top > 0.0).then_some((knots, sides))
+    (!sides.is_empty() && strokes.top > 0.0).then_some((knots, below, sides))
 }
 
-/// The curve of a fit whose first linear unknowns are the knots of each direction; the mass is at a place among all.
+/// The curve of a fit whose first linear unknowns are the knots of each direction, from the first that is stated on; the mass is at a
+/// place among all.
 fn stated(
     record: &Record,
     strokes: &Strokes,
-    (hats, sides): (&[Hat], &[Side]),
+    (hats, first, sides): (&[Hat], usize, &[Side]),
     mass: Option<usize>,
     at: &Evaluation,
 ) -> Option<FrictionCurve> {
@@ -222,7 +229,9 @@ fn stated(
     for (k, j) in active.enumerate() {
         place[j] = Some(nonlinear + k);
     }
-    if place[..knots].contains(&None) {
+    // Below the first that is stated an error in the inertia may be larger than friction, which is then held at zero.
+    let mut known = (0..knots).filter(|j| j % hats.len() >= first);
+    if known.any(|j| place[j].is_none()) {
         return None;
     }
     let mut friction = vec![0.0; at.residual().len()];
@@ -275,7 +284,7 @@ fn stated(
         stated(at, &weighed(speeds, directions))
     };
     let level = |speed: f64, directions: &[f64]| sum(speed, &[(speed, 1.0)], directions);
-    let speed: Vec<f64> = hats
+    let speed: Vec<f64> = hats[first..]
         .windows(2)
         .flat_map(|pair| {
             let step = (pair[1].at - pair[0].at) / BETWEEN as f64;
@@ -297,7 +306,7 @@ fn stated(
     let half = if two { vec![0.5; 2] } else { vec![1.0] };
     let both: Vec<Level> = if two { along(&half) } else { Vec::new() };
     // The line nearest to it, each speed counted as far as to its neighbours.
-    let line = two.then(|| {
+    let line = (two && speed.len() > 1).then(|| {
         let within = |v: &f64| if *v >= LINE * strokes.top { 1.0 } else { 0.0 };
         let weights = spacing(&speed).into_iter().zip(&speed);
         let weights: Vec<f64> = weights.map(|(w, v)| w * within(v)).collect();
@@ -317,6 +326,11 @@ fn stated(
             weighted(&|v| n * v - mean),
         ]
     });
+    let ends = [speed.first()?, speed.last()?];
+    let mut at: Vec<f64> = PARTS
+        .map(|part| (part * strokes.top).clamp(*ends[0], *ends[1]))
+        .into();
+    at.dedup();
     Some(FrictionCurve {
         top: strokes.top,
         directions: directions.collect(),
@@ -331,7 +345,7 @@ fn stated(
         }),
         line: line.map(|own| own.map(|own| stated(strokes.top, &own))),
         constant: if two { along(&[0.5, -0.5]) } else { Vec::new() },
-        at: PARTS.map(|part| level(part * strokes.top, &half)),
+        at: at.iter().map(|speed| level(*speed, &half)).collect(),
         speed,
     })
 }

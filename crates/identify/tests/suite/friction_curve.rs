@@ -169,3 +169,31 @@ fn a_log_of_one_direction_has_a_band() {
         }
     }
 }
+
+/// Speeds that are only passed, with an inertia that outweighs friction, are no part of the curve: half a sample of delay would be a third
+/// of the friction there, in every stroke the same.
+#[test]
+fn speeds_that_are_only_passed_are_not_stated() {
+    const RAMP: f64 = 8e-3;
+    // Back and forth, at one speed and then at another.
+    let motion = |speeds: [f64; 2], t: f64| {
+        let phase = t.rem_euclid(0.5);
+        let speed = speeds[usize::from(t.rem_euclid(2.0) > 1.0)];
+        let of = |since: f64| (since / RAMP).clamp(0.0, 1.0);
+        let turning = |since: f64| f64::from(u8::from((0.0..RAMP).contains(&since)));
+        let v = 2.0 * (of(phase) - of(phase - 0.25)) - 1.0;
+        let a = 2.0 * (turning(phase) - turning(phase - 0.25)) / RAMP;
+        [speed * v, speed * a]
+    };
+    for (speeds, line) in [([0.1, 0.06], true), ([0.1; 2], false)] {
+        let late = |t: f64| [motion(speeds, t - 0.5 * STEP)[0], motion(speeds, t)[1]];
+        let found = curve(&record(late, 0.0, 6), LawKind::CoulombViscous).unwrap();
+        assert!(found.speed[0] > 0.3 * speeds[0], "{:?}", found.speed);
+        assert_eq!(found.line.is_some(), line);
+        for level in found.both.iter().chain(&found.at) {
+            let truth = law().curve().force(level.speed) - OFFSET;
+            assert!((level.force - truth).abs() < level.half.repeat, "{level:?}");
+            assert!((found.speed[0]..=speeds[0]).contains(&level.speed));
+        }
+    }
+}

@@ -133,7 +133,8 @@ pub(super) fn steady_layers(outcome: &Outcome, velocity: &[f64]) -> [Layer; 2] {
 
 /// Friction by speed with its band.
 pub(super) fn friction_curve(outcome: &Outcome) -> Option<Figure> {
-    let curve = outcome.result.friction_curve.as_ref()?;
+    let curve = outcome.result.friction_curve.as_ref();
+    let curve = curve.filter(|curve| curve.speed.len() > 1)?;
     let all = [
         (
             &curve.both,
