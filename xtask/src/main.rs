@@ -2,13 +2,12 @@
 //! is built in a second on a fresh machine. To add a task, write a function and add it to `TASKS`.
 
 mod debian;
+mod examples;
 mod exports;
 mod figures;
 mod forms;
-mod gallery;
 mod instructions;
 mod interpreter;
-mod library;
 mod licences;
 mod package;
 mod python;
@@ -139,7 +138,7 @@ const TASKS: &[Task] = &[
     Task {
         name: "library",
         help: "identify the machines of the library anew from the recordings; URDFs from STICTION_URDFS or example-robot-data in .venv",
-        run: library::run,
+        run: || examples::run("library"),
     },
     Task {
         name: "site",
@@ -149,7 +148,7 @@ const TASKS: &[Task] = &[
     Task {
         name: "gallery",
         help: "identify the logs of docs/gallery.md anew from the recordings, and draw its pictures",
-        run: gallery::run,
+        run: || examples::run("gallery"),
     },
     Task {
         name: "searches",
