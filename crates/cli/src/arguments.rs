@@ -145,9 +145,7 @@ fn budget(text: &str) -> Result<f64, String> {
 
 /// A time to record.
 fn recording_time(text: &str) -> Result<f64, String> {
-    let allowed = "a time above 0 is allowed, such as 30s or 2min";
-    let time = time(text, allowed)?;
-    (time > 0.0).then_some(time).ok_or_else(|| allowed.into())
+    time(text, "a time above 0 is allowed, such as 30s or 2min")
 }
 
 /// A rate with or without its unit, in Hz.

@@ -78,13 +78,18 @@ const ATTEMPT: Duration = Duration::from_millis(500);
 /// second, and ends the recording where it returns `false`.
 ///
 /// # Errors
-/// Where the file cannot be begun or the device gives no first sample. What goes wrong later is an [`End`], and the log is kept.
+/// Where the time is none, the file cannot be begun or the device gives no first sample. What goes wrong later is an [`End`], and the log is kept.
 pub fn record(
     source: &mut dyn Source,
     out: &Path,
     options: &Options,
     observe: &mut dyn FnMut(f64) -> bool,
 ) -> Result<Recorded, Error> {
+    // Also where it is no number.
+    if options.time.is_nan() || options.time <= 0.0 {
+        let found = format!("a time of {} s to record", options.time);
+        return Err(Error::usage(found, "a time above 0, such as 30 s"));
+    }
     let mut log = LogFile::new(out, source.columns())?;
     let mut pace = Pace::new(source.rate());
     let (mut reconnects, mut repeated, mut taken) = (0, 0, 0);

@@ -28,6 +28,18 @@ fn device(words: &[&str]) -> String {
     }
 }
 
+/// Before anything is connected or written.
+#[test]
+fn a_time_that_is_none_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("log.csv");
+    for time in [0.0, -1.0, f64::NAN, f64::NEG_INFINITY] {
+        let refused = super::recorded(&["rtde://127.0.0.1:1".into()], 500.0, time, &out);
+        assert!(matches!(refused, Err(Error::Usage { .. })), "{refused:?}");
+    }
+    assert!(!out.exists());
+}
+
 #[test]
 fn an_address_names_host_ports_and_symbols() {
     for (words, read) in [
