@@ -177,7 +177,12 @@ pub fn export_file(file: impl AsRef<Path>, options: &ExportOptions) -> Result<Ex
 /// As [`export`].
 pub fn compensator(model: &ModelFile, options: &ExportOptions) -> Result<Compensator<f64>, Error> {
     check(options)?;
-    compensator_of(&ReadModel::of(model)?, options)
+    let read = ReadModel::of(model)?;
+    let (model, _) = resolve(&read, options)?;
+    // The code has ranges of its own, such as that of the cycle time, which are checked where it is written.
+    let written = stiction_export::export(&model, Target::Rust);
+    let made = written.and_then(|_| model.in_rust());
+    made.map_err(|e| place(e, &read, options))
 }
 
 /// The same of a model that was read.
