@@ -249,7 +249,12 @@ fn joints(
             .into_iter()
             .filter(|w| !(steady && w.code == Code::ExportSimplified));
         warnings.extend(told.map(|w| {
-            let message = format!("joint {}: {}", joint.name, w.message);
+            // What a robot has no option for.
+            let place = match w.code {
+                Code::ExportLimit => ". The limit of a joint is one of its parameters in the code",
+                _ => "",
+            };
+            let message = format!("joint {}: {}{place}", joint.name, w.message);
             Warning::new(w.code, message)
         }));
         if steady {
@@ -489,6 +494,15 @@ mod tests {
             let said = said(target, change);
             assert!(said.contains(due), "{said}");
         }
+        // What is advised is no option that is refused.
+        let options = ExportOptions::new(Target::C, 1e-3);
+        let exported = export_robot_file(&file, None, &options).unwrap();
+        let limit = |w: &&Warning| w.code == Code::ExportLimit;
+        let said = &exported.warnings.iter().find(limit).unwrap().message;
+        assert!(
+            said.ends_with("is one of its parameters in the code"),
+            "{said}"
+        );
         let typed = whole().replace("[joint.\"shoulder\".identified]", "");
         let typed = typed.replace("model = \"joints/shoulder/model.toml\"\narmature = 0.25\nfriction = 1.5\ndamping = 0.5\n", "");
         let (_dir, file) = folder(&typed);
