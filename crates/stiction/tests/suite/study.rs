@@ -700,6 +700,43 @@ fn drawn_axes_that_diverge() {
     ));
 }
 
+/// What the warnings call unstable is not promised first.
+#[test]
+fn a_loop_that_swings_promises_nothing() {
+    let desk = Desk::new();
+    let remaining = "[remaining]\nshapes = []\nlevel = 0.0\nplace = 0.1\nplace_length = 0.001\nwandering = 0.0\nmemory = 0.01\n";
+    desk.write("model.toml", &(model(0.12, 0.18) + remaining));
+    let axis = AXIS.replace("known        = \"motor\"", "model = \"model.toml\"");
+    let fast = CASCADE
+        .replace("60 Hz", "900 Hz")
+        .replace("cascade\"", "cascade\"\nname = \"fast\"");
+    let file = desk.run(&together(&[&axis, SHORT, CASCADE, &fast, WHOLE]));
+    assert!(
+        codes(&file).contains(&"unsteady-command"),
+        "{:?}",
+        file.warnings
+    );
+    let drawn = file
+        .results
+        .iter()
+        .filter(|row| row.parameters == "promised" && row.compensator == "whole");
+    let drawn: Vec<_> = drawn
+        .map(|row| {
+            (
+                row.controller.as_str(),
+                row.judged().unwrap().left90_percent.is_some(),
+            )
+        })
+        .collect();
+    assert!(drawn.contains(&("fast", true)), "{drawn:?}");
+    let promised: Vec<_> = file
+        .promise
+        .iter()
+        .map(|entry| entry.controller.as_str())
+        .collect();
+    assert_eq!(promised, ["cascade 60 Hz"], "{:?}", file.not_promised);
+}
+
 /// Between the passes of learning the work can be stopped; what was not finished is not kept.
 #[test]
 fn learning_stops_between_passes() {

@@ -62,17 +62,24 @@ fn at_limit(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
 }
 
 fn shaking(study: &Study, rows: &[ResultRow]) -> Option<Warning> {
+    let (row, share) = most_shaken(study, rows)?;
+    let notice = Notice::Shaking {
+        path: row.path.clone(),
+        controller: row.controller.clone(),
+        scheme: row.scheme().to_string(),
+        part: share,
+    };
+    Some(notice.into())
+}
+
+/// The row of a controller whose command shakes most, and by which part of the largest force; `None` where none shakes.
+pub(super) fn most_shaken<'r>(
+    study: &Study,
+    rows: &'r [ResultRow],
+) -> Option<(&'r ResultRow, f64)> {
     let limits = force_limits(study, &rows.first()?.controller)?;
-    let (row, share) = worst(rows, "command_change", &|axis| limits[axis])?;
-    (share > simulation::MAX_COMMAND_CHANGE).then(|| {
-        let notice = Notice::Shaking {
-            path: row.path.clone(),
-            controller: row.controller.clone(),
-            scheme: row.scheme().to_string(),
-            part: share,
-        };
-        notice.into()
-    })
+    let most = worst(rows, "command_change", &|axis| limits[axis]);
+    most.filter(|(_, share)| *share > simulation::MAX_COMMAND_CHANGE)
 }
 
 /// A load estimate that had less than its memory to learn in.

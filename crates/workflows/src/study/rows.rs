@@ -1,8 +1,10 @@
 //! Rows of results: the runs of a cell of the grid together.
 
 use super::done::Done;
+use super::doubt::most_shaken;
 use super::machine::unit;
 use super::metrics::metrics;
+use std::slice;
 use stiction_files::study::result::{MetricEntry, PromiseEntry, ResultRow};
 use stiction_files::study::{Job, PROMISE_DRAWS, Scheme, Study};
 
@@ -100,7 +102,7 @@ fn promise(row: &mut ResultRow, cell: &[Done], bare: &[Done], names: &[&str]) {
     }
 }
 
-/// What the rows promise of the largest error.
+/// What the rows promise of the largest error: nothing of a loop that is unstable with the compensator or without.
 pub(super) fn promises(study: &Study, rows: &[ResultRow]) -> Vec<PromiseEntry> {
     let gain = |name: &str| {
         let named = study.compensators.iter().find(|c| c.name == name)?;
@@ -108,6 +110,13 @@ pub(super) fn promises(study: &Study, rows: &[ResultRow]) -> Vec<PromiseEntry> {
             Scheme::Model(model) if model.adaptation.is_none() => Some(model.gain),
             _ => None,
         }
+    };
+    let steady = |row: &ResultRow| {
+        let mut compared = rows.iter().filter(|r| {
+            (&r.path, &r.controller) == (&row.path, &row.controller)
+                && (r.scheme() == row.scheme() || r.scheme() == "none")
+        });
+        compared.all(|r| most_shaken(study, slice::from_ref(r)).is_none())
     };
     let promised = rows.iter().filter_map(|row| {
         let metric = row.judged()?;
@@ -117,7 +126,7 @@ pub(super) fn promises(study: &Study, rows: &[ResultRow]) -> Vec<PromiseEntry> {
             compensator: row.compensator.clone(),
             coupled: row.coupled,
             metric: metric.name.clone(),
-            left90_percent: metric.left90_percent?,
+            left90_percent: metric.left90_percent.filter(|_| steady(row))?,
             draws: row.runs,
             gain: gain(&row.compensator),
         })
