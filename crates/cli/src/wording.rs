@@ -28,14 +28,6 @@ fn lines_of_file(error: &FileError) -> Vec<(Code, String)> {
 /// The message of an error.
 pub fn message(error: &Error) -> String {
     match error {
-        Error::Usage { found, allowed } => {
-            format!("{}; {}", found.named(typed), allowed.named(typed))
-        }
-        Error::Checkpoint {
-            file,
-            found,
-            allowed,
-        } => format!("{}: {found}; {}", file.display(), allowed.named(typed)),
         Error::File(FileError::Taken {
             path,
             found,
@@ -48,7 +40,7 @@ pub fn message(error: &Error) -> String {
             format!("{}: {found}; choose another --out{force}", path.display())
         }
         Error::Export(ExportError::RatedForce { .. }) => format!("{error}, with --rated-force"),
-        _ => error.to_string(),
+        _ => error.named(typed),
     }
 }
 

@@ -1,7 +1,7 @@
 //! An error in parts: where, what was found, what is allowed.
 
 use super::Error;
-use crate::wording::Setting;
+use crate::wording::{Setting, Wording};
 use stiction_files::Error as FileError;
 
 /// An error in parts, as a caller that shows them apart wants them.
@@ -16,6 +16,21 @@ pub struct Parts {
 }
 
 impl Error {
+    /// Its message, with options as `name` writes them.
+    pub fn named(&self, name: impl Fn(Setting, Option<&str>) -> String) -> String {
+        match self {
+            Error::Usage { found, allowed } => {
+                format!("{}; {}", found.named(&name), allowed.named(&name))
+            }
+            Error::Checkpoint {
+                file,
+                found,
+                allowed,
+            } => format!("{}: {found}; {}", file.display(), allowed.named(&name)),
+            _ => self.to_string(),
+        }
+    }
+
     /// Its parts, with options as `name` writes them.
     pub fn parts(&self, name: impl Fn(Setting, Option<&str>) -> String) -> Parts {
         let (place, found, allowed) = of(self, &name);
@@ -60,11 +75,22 @@ fn of(error: &Error, name: &dyn Fn(Setting, Option<&str>) -> String) -> (String,
             found.clone(),
             format!("it can feed forward: {}", instead.join(", ")),
         ),
-        Error::Usage { found, allowed } => (String::new(), found.named(name), allowed.named(name)),
+        Error::Usage { found, allowed } => {
+            (place(found, name), found.named(name), allowed.named(name))
+        }
         error => {
             let (found, allowed) = halves(&error.to_string());
             (String::new(), found, allowed)
         }
+    }
+}
+
+/// The option that is wrong by itself: of several that do not go together none is.
+fn place(found: &Wording, name: &dyn Fn(Setting, Option<&str>) -> String) -> String {
+    let mut settings = found.settings();
+    match (settings.next(), settings.next()) {
+        (Some(setting), None) => name(setting, None),
+        _ => String::new(),
     }
 }
 

@@ -36,7 +36,7 @@ pub(super) fn check(options: &Options) -> Result<(), Error> {
                 Setting::Method.is(Method::Static.name()),
                 " or ".into(),
                 Setting::Method.is(Method::StaticThenDynamic.name()),
-                ", whose steps it searches; over whole records the search is the method: ".into(),
+                ", whose steps it searches, or over whole records ".into(),
                 Setting::Method.is(search),
             ],
         ));
