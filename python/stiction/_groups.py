@@ -17,7 +17,7 @@ class Run(NamedTuple):
     seed: int = 0
     """Of whatever is drawn: searches, axes that a plan is made for. No effect where nothing is."""
     compare_laws: bool = True
-    """`identify`: whether simpler laws are fitted beside one that is named."""
+    """`identify`: whether simpler laws are fitted beside one that is named; `auto` has to compare."""
     threads: int | None = None
     """Threads of this call alone, 1 to 1024; None takes those of the process. No result depends on it."""
     progress: Watcher = None

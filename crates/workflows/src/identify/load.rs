@@ -67,6 +67,18 @@ pub(super) fn load(
             ],
         ));
     }
+    if chooses && !options.compare_laws {
+        return Err(Error::usage(
+            [
+                Setting::Law.is("auto"),
+                " without a comparison of laws, which is how it chooses".into(),
+            ],
+            [
+                "a comparison, or one law, such as ".into(),
+                Setting::Law.is("lugre"),
+            ],
+        ));
+    }
     let beside = Beside::load(options, axis, &held_out)?;
     // A simulated axis is fitted to ramps like to any commanded force; what they show of break-away is read beside that.
     let is_fitted = |ramp: &&Source| {
