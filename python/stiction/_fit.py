@@ -253,8 +253,7 @@ class Fit:
 
     @property
     def next(self) -> str:
-        """What to do next, as a line of Python: the command that `stiction identify` prints behind `next:`. Empty for a result of
-        another version."""
+        """What to do next, as a line of Python: the command that `stiction identify` prints behind `next:`."""
         told = self._native.next()
         return "" if told is None else call_of(json.loads(told), self.result, self._axis)
 

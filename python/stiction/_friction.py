@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from . import _native
 from ._errors import argument, kind_of
 from ._frames import frame
 from ._types import FrameName
@@ -56,7 +58,7 @@ def mean_curve(entry: dict[str, Any]) -> FrictionCurve:
     """The curve of both directions together."""
     import numpy
 
-    own = _mean(entry)
+    own = entry.get("both") or entry.get("forward") or entry["back"]
     return FrictionCurve(numpy.array(entry["speed"]), *(numpy.array(own[field]) for field in FIELDS))
 
 
@@ -68,24 +70,5 @@ def friction_at(entry: dict[str, Any], velocity: Any) -> Friction:
         v = numpy.asarray(velocity, dtype=numpy.float64)
     except (TypeError, ValueError):
         raise argument("velocity", kind_of(velocity), "a number or an array of numbers, m/s (rad/s)") from None
-    forward, back = entry.get("forward"), entry.get("back")
-    if forward is None and back is None:
-        forward = back = _mean(entry)
-    speed = numpy.abs(v)
-
-    def one(side: dict[str, Any] | None, field: str) -> NDArray[numpy.float64]:
-        if side is None:
-            return numpy.full(speed.shape, numpy.nan)
-        return numpy.asarray(numpy.interp(speed, entry["speed"], side[field], left=numpy.nan, right=numpy.nan))
-
-    def of(field: str) -> NDArray[numpy.float64]:
-        sides = [one(side, field) for side in (forward, back)]
-        return numpy.asarray(numpy.where(v < 0.0, sides[1], sides[0]))
-
-    columns = [v, numpy.copysign(1.0, v) * of("force"), *(of(field) for field in FIELDS[1:])]
-    return Friction(*(column.copy() if column.ndim else float(column) for column in columns))
-
-
-def _mean(entry: dict[str, Any]) -> dict[str, Any]:
-    found: dict[str, Any] = entry.get("both") or entry.get("forward") or entry["back"]
-    return found
+    columns = [v.copy(), *_native.friction_at(json.dumps(entry), v)]
+    return Friction(*(column if column.ndim else float(column) for column in columns))

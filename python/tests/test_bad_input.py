@@ -322,6 +322,7 @@ def test_an_axis_that_is_none_is_refused(axis: Any, code: str) -> None:
         ({"method": "static", "search": Search("x")}, "search.name"),
         ({"split": 0.5, "validate": GOOD}, "split"),
         ({"split": 2.0}, "split"),
+        ({"run": Run(compare_laws=False)}, "one law"),
         ({"law": "auto", "asymmetric": True}, "asymmetric"),
         ({"axis": "axis.toml"}, "axis"),
         ({"procedures": Procedures(model=3)}, "procedures.model"),
@@ -408,6 +409,32 @@ def test_a_folder_that_is_no_fit_is_refused(tmp_path: Path, fit: stiction.Fit) -
         with pytest.raises(StictionError) as caught:
             stiction.load(tmp_path / "fit")
         assert "result.json" in caught.value.place
+
+
+@pytest.mark.parametrize(("key", "value"), [("seed", "0"), ("seed", -1), ("law", "glue"), ("asymmetric", 3)])
+def test_a_result_that_was_changed_is_refused(fit: stiction.Fit, tmp_path: Path, key: str, value: Any) -> None:
+    import json
+
+    fit.save(tmp_path / "fit")
+    assert key in fit.result
+    (tmp_path / "fit" / "result.json").write_text(json.dumps({**fit.result, key: value}))
+    with pytest.raises(StictionError) as caught:
+        stiction.load(tmp_path / "fit")
+    assert "result.json: " in caught.value.place
+
+
+@pytest.mark.parametrize("split", [0.0, 2.0, float("nan")])
+def test_the_option_that_is_wrong_is_the_place(split: float) -> None:
+    with pytest.raises(StictionError) as caught:
+        quietly(stiction.identify, GOOD, split=split)
+    assert caught.value.place == "split"
+
+
+@pytest.mark.parametrize("time", [0.0, -1.0, float("nan")])
+def test_a_time_to_record_is_above_nothing(tmp_path: Path, time: float) -> None:
+    with pytest.raises(StictionError, match="above 0"):
+        stiction.record("rtde://127.0.0.1:1", tmp_path / "log.csv", time=time)
+    assert not (tmp_path / "log.csv").exists()
 
 
 def test_a_folder_that_holds_something_is_left_alone(tmp_path: Path, fit: stiction.Fit) -> None:

@@ -30,13 +30,15 @@ pub struct SavedFit {
     folder: PathBuf,
     files: Vec<(&'static str, Vec<u8>)>,
     model: ModelFile,
+    result: Box<ResultFile>,
 }
 
 impl SavedFit {
     /// Reads the files of a folder.
     ///
     /// # Errors
-    /// Where a file is missing, cannot be read, or is none of a fit.
+    /// Where a file is missing, cannot be read, or is none of a fit: `result.json` lacks a key, or holds something else in one, or its
+    /// law is none that this version knows.
     pub fn read(folder: impl AsRef<Path>) -> Result<Self, Error> {
         let folder = folder.as_ref();
         let mut files = Vec::new();
@@ -81,20 +83,26 @@ impl SavedFit {
         }
         let text = |name: &str| String::from_utf8_lossy(content(name).map_or(&[], Vec::as_slice));
         let path = folder.join(NAMES[0]);
-        let result: Value = serde_json::from_str(&text(NAMES[0])).map_err(|e| {
+        let own = text(NAMES[0]);
+        let no_result = |e: serde_json::Error| {
             let place = format!("line {}, column {}: ", e.line(), e.column());
-            refused(&path, &place, e.to_string(), "JSON that stiction wrote")
-        })?;
-        let schema = result.get("schema").and_then(Value::as_str);
+            refused(&path, &place, e.to_string(), "a result that stiction wrote")
+        };
+        let schema: Value = serde_json::from_str(&own).map_err(no_result)?;
+        let schema = schema.get("schema").and_then(Value::as_str);
         if schema != Some(SCHEMA) {
             let found = schema.map_or("no schema".into(), |s| format!("schema {s:?}"));
             return Err(refused(&path, "", found, SCHEMA));
         }
+        let result: Box<ResultFile> = serde_json::from_str(&own).map_err(no_result)?;
+        let known = result.law.parse::<LawKind>();
+        known.map_err(|e| refused(&path, "law: ", e.to_string(), "a law of this version"))?;
         let model = ModelFile::parse(&text(NAMES[1]))?;
         Ok(Self {
             folder: folder.to_path_buf(),
             files,
             model,
+            result,
         })
     }
 
@@ -109,16 +117,8 @@ impl SavedFit {
     }
 
     /// Everything that was found.
-    ///
-    /// # Errors
-    /// Where `result.json` lacks a key, or holds something else in one, or its law is none that this version knows.
-    pub fn result(&self) -> Result<ResultFile, Error> {
-        let path = self.folder.join(NAMES[0]);
-        let result: ResultFile = serde_json::from_str(&self.text(NAMES[0]))
-            .map_err(|e| refused(&path, "", e.to_string(), "a result that stiction wrote"))?;
-        let known = result.law.parse::<LawKind>();
-        known.map_err(|e| refused(&path, "law: ", e.to_string(), "a law of this version"))?;
-        Ok(result)
+    pub fn result(&self) -> &ResultFile {
+        &self.result
     }
 
     /// Text of a file; empty where there is none.

@@ -6,17 +6,17 @@ use crate::law::Law;
 use crate::log::Log;
 use crate::options::Asked;
 use crate::run::{How, Stopped, run};
-use numpy::{IntoPyArray, PyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArrayDyn, PyReadonlyArrayDyn};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use std::path::PathBuf;
 use stiction_files::ModelFile;
+use stiction_files::result::{FrictionCurveEntry, ResultFile};
 use stiction_files::{Bundle, check_folder, check_inputs};
 use stiction_log::Column;
 use stiction_pages::SavedFit;
 use stiction_pages::bundle::{self, beside_complete};
 use stiction_pages::{report, text};
-use stiction_workflows::Verdict;
 use stiction_workflows::identify::{self as workflow, Files, Outcome, predict};
 use stiction_workflows::source::Source;
 
@@ -51,6 +51,13 @@ impl Fit {
         Self {
             content: Content::Made(Box::new(fit)),
             stopped: false,
+        }
+    }
+
+    fn result(&self) -> &ResultFile {
+        match &self.content {
+            Content::Made(fit) => &fit.result,
+            Content::Saved(saved) => saved.result(),
         }
     }
 
@@ -101,9 +108,9 @@ impl Fit {
         }
     }
 
-    /// What to do next with it, as JSON; `None` for a result of another version.
+    /// What to do next with it, as JSON.
     fn next(&self) -> Option<String> {
-        crate::next::next(&self.result_json())
+        crate::next::next(self.result())
     }
 
     /// `model.toml`.
@@ -181,19 +188,6 @@ impl Fit {
         Law::of(&self.model()).map_err(|refusal| refusal.raise(py))
     }
 
-    /// `trustworthy`, `not-trustworthy` or `interrupted`; `None` where it is to be read from the result.
-    #[getter]
-    fn verdict(&self) -> Option<&'static str> {
-        match &self.content {
-            Content::Made(fit) => Some(match fit.verdict() {
-                Verdict::Trustworthy => "trustworthy",
-                Verdict::NotTrustworthy => "not-trustworthy",
-                Verdict::Interrupted => "interrupted",
-            }),
-            Content::Saved(_) => None,
-        }
-    }
-
     /// Writes the files of the command line; where they went.
     fn save(&self, py: Python<'_>, folder: PathBuf, force: bool) -> PyResult<Vec<PathBuf>> {
         let write = || -> Result<Vec<PathBuf>, stiction_workflows::Error> {
@@ -230,6 +224,25 @@ impl Fit {
         let content = Content::Made(Box::new(fit));
         Ok((Self { content, stopped }, stopped))
     }
+}
+
+/// Friction at velocities by the `friction_curve` of a result, as JSON: force and half widths, NaN where it is not known.
+#[pyfunction]
+pub fn friction_at<'py>(
+    py: Python<'py>,
+    curve: &str,
+    velocity: PyReadonlyArrayDyn<'py, f64>,
+) -> PyResult<[Bound<'py, PyArrayDyn<f64>>; 4]> {
+    let curve: FrictionCurveEntry = serde_json::from_str(curve).map_err(|e| {
+        Refusal::argument("friction_curve", e.to_string(), "that of a result").raise(py)
+    })?;
+    let at = velocity.as_array().mapv(|v| {
+        let at = curve.at_velocity(v);
+        at.map_or([f64::NAN; 4], |at| {
+            [at.force, at.at_once, at.repeat, at.transfer]
+        })
+    });
+    Ok([0, 1, 2, 3].map(|k| at.mapv(|own| own[k]).into_pyarray(py)))
 }
 
 /// Identifies from logs in memory; the fit, and whether it was told to stop.

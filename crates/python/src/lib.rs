@@ -38,7 +38,7 @@ mod _native {
     #[pymodule_export]
     use crate::export::export;
     #[pymodule_export]
-    use crate::fit::{Fit, identify, identify_files};
+    use crate::fit::{Fit, friction_at, identify, identify_files};
     #[pymodule_export]
     use crate::fleet::{
         find_logs, identify_row, keep_rows, read_rows, seconds_of, unread_row, write_rows,

@@ -4,11 +4,9 @@ use serde_json::{Map, Value};
 use stiction_files::result::{Action, ResultFile};
 use stiction_pages::text::next_action;
 
-/// The action on a result as JSON: its name, and what it has; a line of an axis file also as `key` and `value`. `None` of a
-/// result of another version.
-pub fn next(result: &str) -> Option<String> {
-    let result: ResultFile = serde_json::from_str(result).ok()?;
-    let action = next_action(&result);
+/// The action on a result as JSON: its name, and what it has; a line of an axis file also as `key` and `value`.
+pub fn next(result: &ResultFile) -> Option<String> {
+    let action = next_action(result);
     let (name, mut data) = match serde_json::to_value(&action).ok()? {
         Value::String(name) => (name, Map::new()),
         Value::Object(one) => match one.into_iter().next()? {

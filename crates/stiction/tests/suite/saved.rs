@@ -44,6 +44,7 @@ fn a_folder_that_is_none_is_refused_by_file() {
     let folder = bench.path("fit");
     fit.write(&folder).unwrap();
     let result = folder.join("result.json");
+    let whole = std::fs::read_to_string(&result).unwrap();
     for damaged in [
         "",
         "{}",
@@ -55,6 +56,18 @@ fn a_folder_that_is_none_is_refused_by_file() {
         let refused = SavedFit::read(&folder).unwrap_err();
         assert_eq!(refused.code().as_str(), "bad-config");
         assert!(refused.to_string().contains("result.json"), "{refused}");
+    }
+    // Changed by hand.
+    for (from, to) in [
+        ("\"seed\": 0", "\"seed\": \"0\""),
+        ("\"seed\": 0", "\"seed\": -1"),
+        ("\"law\": \"stribeck\"", "\"law\": \"glue\""),
+    ] {
+        let changed = whole.replacen(from, to, 1);
+        assert_ne!(changed, whole, "{from}");
+        std::fs::write(&result, changed).unwrap();
+        let refused = SavedFit::read(&folder).unwrap_err();
+        assert!(refused.place().contains("result.json: "), "{refused}");
     }
     std::fs::remove_file(&result).unwrap();
     assert!(SavedFit::read(&folder).is_err());
