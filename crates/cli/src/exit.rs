@@ -21,8 +21,8 @@ impl From<Verdict> for Exit {
     fn from(verdict: Verdict) -> Self {
         match verdict {
             Verdict::Trustworthy => Exit::Done,
-            Verdict::NotTrustworthy => Exit::NotTrustworthy,
             Verdict::Interrupted => Exit::Interrupted,
+            _ => Exit::NotTrustworthy,
         }
     }
 }

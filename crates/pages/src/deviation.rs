@@ -50,7 +50,7 @@ impl Deviation {
         let Some(half) = half.filter(|_| p.origin != Origin::Given) else {
             return match p.origin {
                 Origin::Given => Self::Given,
-                Origin::Identified => Self::Unknown,
+                _ => Self::Unknown,
             };
         };
         let size = p.value.abs();

@@ -40,12 +40,11 @@ impl Robot {
     /// `trustworthy`, `not-trustworthy` or `interrupted`.
     #[getter]
     fn verdict(&self) -> &'static str {
-        match self.outcome.verdict() {
-            _ if self.stopped => "interrupted",
-            Verdict::Trustworthy => "trustworthy",
-            Verdict::NotTrustworthy => "not-trustworthy",
-            Verdict::Interrupted => "interrupted",
-        }
+        let verdict = match self.stopped {
+            true => Verdict::Interrupted,
+            false => self.outcome.verdict(),
+        };
+        verdict.name()
     }
 
     /// The friction of a joint as that of an axis; `None` where it could not be fitted.

@@ -142,11 +142,7 @@ pub fn simulate(
             json: serde_json::to_string(&outcome.file).expect("plain data"),
             text: text::study(&outcome),
             inputs: study.inputs().map(PathBuf::from).collect(),
-            verdict: match outcome.verdict() {
-                stiction_workflows::Verdict::Trustworthy => "trustworthy",
-                stiction_workflows::Verdict::NotTrustworthy => "not-trustworthy",
-                stiction_workflows::Verdict::Interrupted => "interrupted",
-            },
+            verdict: outcome.verdict().name(),
         })
     })?;
     let study = found.map_err(|e: stiction_workflows::Error| raised(py, &e))?;

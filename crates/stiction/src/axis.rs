@@ -23,7 +23,9 @@ impl Axis {
     /// # Errors
     /// Where it cannot be read, or a value in it is refused: with line, column and key.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
-        Ok(Self(stiction_files::Axis::read(file)?))
+        stiction_files::Axis::read(file)
+            .map(Self)
+            .map_err(Error::of)
     }
 
     /// Reads the text of an axis file. Paths in it are from where the program runs.
@@ -31,7 +33,9 @@ impl Axis {
     /// # Errors
     /// As [`Axis::read`].
     pub fn parse(text: &str) -> Result<Self, Error> {
-        Ok(Self(stiction_files::Axis::parse(text)?))
+        stiction_files::Axis::parse(text)
+            .map(Self)
+            .map_err(Error::of)
     }
 
     /// Its name, where it has one.
@@ -41,7 +45,7 @@ impl Axis {
 
     /// Linear or rotary, where it is stated.
     pub fn motion(&self) -> Option<Motion> {
-        self.0.mapping.motion.map(Motion::from)
+        self.0.mapping.motion.map(Motion::of)
     }
 
     /// The file that it was read from.

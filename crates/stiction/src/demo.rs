@@ -10,7 +10,7 @@ use stiction_workflows::demo as workflow;
 /// # Errors
 /// Where the file cannot be written.
 pub fn write_log(file: impl AsRef<Path>, seed: u64) -> Result<(), Error> {
-    Ok(workflow::write_log(file, seed)?)
+    workflow::write_log(file, seed).map_err(Error::of)
 }
 
 /// Writes logs of the same axis for the other methods into a folder: constant speeds, motion, force steps, force ramps; their paths.
@@ -18,5 +18,6 @@ pub fn write_log(file: impl AsRef<Path>, seed: u64) -> Result<(), Error> {
 /// # Errors
 /// Where the folder cannot be written.
 pub fn write_procedure_logs(folder: impl AsRef<Path>, seed: u64) -> Result<Vec<PathBuf>, Error> {
-    Ok(workflow::procedures(folder, seed)?.0)
+    let written = workflow::procedures(folder, seed);
+    written.map(|(paths, ..)| paths).map_err(Error::of)
 }

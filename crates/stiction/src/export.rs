@@ -3,7 +3,7 @@
 use crate::{Error, Model, Notice};
 use serde_json::Value;
 use std::path::Path;
-use stiction_export::{Draws, Width};
+use stiction_export as engine;
 use stiction_files::Warning;
 use stiction_friction::compensator::Compensator;
 use stiction_workflows::export::{self as workflow, ExportOptions, Target};
@@ -20,6 +20,29 @@ pub enum Feedforward {
     Cogging,
     /// Gravity, inertia and Coriolis forces of the rigid body of a robot.
     RigidBody,
+}
+
+/// Which intervals draws are from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Width {
+    /// The same motion on another day.
+    Repeatability,
+    /// Another motion.
+    Transfer,
+}
+
+/// What a workflow exported, of an axis or a robot.
+macro_rules! exported {
+    ($made:expr) => {{
+        let own = $made.map_err(Error::of)?;
+        Ok(Exported {
+            result: serde_json::to_value(&own).expect("plain data"),
+            files: own.files,
+            warnings: own.warnings,
+            trustworthy: own.trustworthy,
+        })
+    }};
 }
 
 /// An export to be made; what is not set follows from the law. docs/export.md says which target takes which setting.
@@ -109,7 +132,11 @@ impl Export {
     /// Writes so many draws of what a simulator takes, from intervals of this width; the same seed gives the same draws.
     #[must_use]
     pub fn draws(mut self, count: usize, seed: u64, width: Width) -> Self {
-        self.0.draws = Some(Draws { count, seed, width });
+        let width = match width {
+            Width::Repeatability => engine::Width::Repeatability,
+            Width::Transfer => engine::Width::Transfer,
+        };
+        self.0.draws = Some(engine::Draws { count, seed, width });
         self
     }
 
@@ -131,7 +158,7 @@ impl Export {
     /// # Errors
     /// Where the model cannot be exported to this target, or a setting is out of range.
     pub fn model(&self, model: &Model) -> Result<Exported, Error> {
-        Ok(workflow::export(&model.0, &self.0)?.into())
+        exported!(workflow::export(&model.0, &self.0))
     }
 
     /// The code of a model file; an error in it is named by its line.
@@ -139,7 +166,7 @@ impl Export {
     /// # Errors
     /// As [`Export::model`], and where the file cannot be read.
     pub fn file(&self, file: impl AsRef<Path>) -> Result<Exported, Error> {
-        Ok(workflow::export_file(file, &self.0)?.into())
+        exported!(workflow::export_file(file, &self.0))
     }
 
     /// All joints of a `robot.toml` that an identification wrote; `urdf` stands for the URDF that it names.
@@ -151,7 +178,7 @@ impl Export {
         file: impl AsRef<Path>,
         urdf: Option<&Path>,
     ) -> Result<Exported, Error> {
-        Ok(workflow::export_robot_file(file, urdf, &self.0)?.into())
+        exported!(workflow::export_robot_file(file, urdf, &self.0))
     }
 
     /// The compensator as a value, to be stepped once a cycle: what is written for [`Target::Rust`], whatever the target.
@@ -159,7 +186,7 @@ impl Export {
     /// # Errors
     /// As [`Export::model`].
     pub fn compensator(&self, model: &Model) -> Result<Compensator<f64>, Error> {
-        Ok(workflow::compensator(&model.0, &self.0)?)
+        workflow::compensator(&model.0, &self.0).map_err(Error::of)
     }
 }
 
@@ -181,7 +208,7 @@ impl Exported {
 
     /// What to know before it runs.
     pub fn warnings(&self) -> impl Iterator<Item = Notice> {
-        self.warnings.iter().map(Notice::from)
+        self.warnings.iter().map(Notice::of)
     }
 
     /// Whether the identification found that each law may be used to compensate.
@@ -200,7 +227,7 @@ impl Exported {
     /// # Errors
     /// Where the folder holds something else, a file to be replaced was changed, or it cannot be written.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<(), Error> {
-        Ok(stiction_files::write_folder(folder, self.files(), false)?)
+        stiction_files::write_folder(folder, self.files(), false).map_err(Error::of)
     }
 
     /// The same over whatever files of these names are there.
@@ -208,24 +235,6 @@ impl Exported {
     /// # Errors
     /// Where it cannot be written.
     pub fn overwrite(&self, folder: impl AsRef<Path>) -> Result<(), Error> {
-        Ok(stiction_files::write_folder(folder, self.files(), true)?)
+        stiction_files::write_folder(folder, self.files(), true).map_err(Error::of)
     }
 }
-
-macro_rules! exported {
-    ($kind:ty) => {
-        impl From<$kind> for Exported {
-            fn from(own: $kind) -> Self {
-                Self {
-                    result: serde_json::to_value(&own).expect("plain data"),
-                    files: own.files,
-                    warnings: own.warnings,
-                    trustworthy: own.trustworthy,
-                }
-            }
-        }
-    };
-}
-
-exported!(workflow::Exported);
-exported!(workflow::ExportedRobot);

@@ -17,8 +17,8 @@ pub struct Friction {
     pub transfer: f64,
 }
 
-impl From<FrictionAtEntry> for Friction {
-    fn from(at: FrictionAtEntry) -> Self {
+impl Friction {
+    pub(crate) fn of(at: FrictionAtEntry) -> Self {
         Self {
             force: at.force,
             at_once: at.at_once,
@@ -29,7 +29,7 @@ impl From<FrictionAtEntry> for Friction {
 }
 
 pub(crate) fn warnings(result: &ResultFile) -> impl Iterator<Item = Notice> {
-    result.warnings.iter().map(Notice::from)
+    result.warnings.iter().map(Notice::of)
 }
 
 /// What [`Fit`](crate::Fit) and [`SavedFit`](crate::SavedFit) say alike, of the result that `$result` gives.
@@ -75,7 +75,7 @@ macro_rules! findings {
             /// speeds of the logs, for a direction that they do not have, and where the axis does not slide.
             pub fn friction(&self, velocity: f64) -> Option<crate::Friction> {
                 let curve = self.found().friction_curve.as_ref()?;
-                curve.at_velocity(velocity).map(crate::Friction::from)
+                curve.at_velocity(velocity).map(crate::Friction::of)
             }
 
             /// Least and largest speed at which [`friction`](Self::friction) is known, m/s (rad/s).
@@ -131,7 +131,7 @@ macro_rules! findings {
 
             /// How well the law fits the samples that it was fitted to.
             pub fn quality(&self) -> crate::Quality {
-                crate::Quality::from(&self.found().fit)
+                crate::Quality::of(&self.found().fit)
             }
 
             /// Everything that was found, as `result.json` has it (docs/result.md); its keys are only ever extended.

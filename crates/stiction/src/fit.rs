@@ -24,7 +24,7 @@ impl Fit {
 
     /// The signals at the samples that were fitted.
     pub fn series(&self) -> Series {
-        self.0.law().series.clone().into()
+        Series::of(self.0.law().series.clone())
     }
 
     /// What the law makes of another log, conditioned in the same way; nothing is fitted again.
@@ -33,10 +33,10 @@ impl Fit {
     /// Where the log is of another kind of axis, or lacks a channel that the law needs; and after a method that does not
     /// model the force sample by sample.
     pub fn predict(&self, log: &Log) -> Result<Prediction, Error> {
-        let found = predict(&self.0, &log.0)?;
+        let found = predict(&self.0, &log.0).map_err(Error::of)?;
         Ok(Prediction {
-            quality: Quality::from(&found.quality),
-            series: found.series.into(),
+            quality: Quality::of(&found.quality),
+            series: Series::of(found.series),
         })
     }
 
@@ -80,8 +80,9 @@ impl Fit {
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
         let folder = folder.as_ref();
         let inputs = self.0.sources.iter().map(|source| source.path.as_path());
-        stiction_files::check_folder(folder, false)?;
-        stiction_files::check_inputs(folder, inputs)?;
-        Ok(bundle::identification_in(&self.0, folder).write(folder)?)
+        let written = stiction_files::check_folder(folder, false)
+            .and_then(|()| stiction_files::check_inputs(folder, inputs))
+            .and_then(|()| bundle::identification_in(&self.0, folder).write(folder));
+        written.map_err(Error::of)
     }
 }

@@ -59,10 +59,10 @@ impl Recording<'_> {
     }
 
     fn source(&self, axis: &Axis) -> Result<Source, Error> {
-        Ok(match self {
-            Recording::Log(log) => log.0.clone(),
-            Recording::File(path) => source::load(path, &axis.0)?,
-        })
+        match self {
+            Recording::Log(log) => Ok(log.0.clone()),
+            Recording::File(path) => source::load(path, &axis.0).map_err(Error::of),
+        }
     }
 }
 
@@ -83,15 +83,9 @@ pub enum Method {
     PreslidingStep,
 }
 
-impl From<Method> for workflow::Method {
-    fn from(method: Method) -> Self {
-        match method {
-            Method::Separable => Self::Separable,
-            Method::OutputError => Self::OutputError,
-            Method::Static => Self::Static,
-            Method::StaticThenDynamic => Self::StaticThenDynamic,
-            Method::PreslidingStep => Self::PreslidingStep,
-        }
+impl Method {
+    fn of_workflow(self) -> workflow::Method {
+        workflow::Method::ALL[self as usize]
     }
 }
 
@@ -173,21 +167,22 @@ impl<'a> Identification<'a> {
         self
     }
 
-    /// Gives each direction of the named law parameters of its own.
+    /// Gives each direction of the named law parameters of its own; takes back [`symmetric`](Self::symmetric).
     #[must_use]
     pub fn asymmetric(mut self) -> Self {
-        self.options.asymmetric = true;
+        (self.options.asymmetric, self.options.symmetric) = (true, false);
         self
     }
 
-    /// Lets the data choose only among laws with the same parameters in both directions.
+    /// Lets the data choose only among laws with the same parameters in both directions; takes back [`asymmetric`](Self::asymmetric).
     #[must_use]
     pub fn symmetric(mut self) -> Self {
-        self.options.symmetric = true;
+        (self.options.asymmetric, self.options.symmetric) = (false, true);
         self
     }
 
-    /// Fits no simpler laws beside a law that is named: about half the time, and nothing is said of whether it is needed.
+    /// Fits no simpler laws beside a law that is named: about half the time, and nothing is said of whether it is needed. Refused where
+    /// the data choose the law.
     #[must_use]
     pub fn without_comparison(mut self) -> Self {
         self.options.compare_laws = false;
@@ -197,7 +192,7 @@ impl<'a> Identification<'a> {
     /// How the parameters are found. Default: [`Method::Separable`].
     #[must_use]
     pub fn method(mut self, method: Method) -> Self {
-        self.options.procedures.method = method.into();
+        self.options.procedures.method = method.of_workflow();
         self
     }
 
@@ -270,13 +265,13 @@ impl<'a> Identification<'a> {
         let (axis, observer) = (&self.axis.0, &mut self.observer);
         let files = (files(&self.logs), files(&self.validate));
         let outcome = if let (Some(logs), Some(validate)) = files {
-            workflow::identify_files(&self.options, axis, &logs, &validate, observer)?
+            workflow::identify_files(&self.options, axis, &logs, &validate, observer)
         } else {
             let logs = sources(&self.logs, &self.axis)?;
             let validate = sources(&self.validate, &self.axis)?;
-            workflow::identify_logs(&self.options, axis, logs, validate, observer)?
+            workflow::identify_logs(&self.options, axis, logs, validate, observer)
         };
-        Ok(Fit(outcome))
+        outcome.map(Fit).map_err(Error::of)
     }
 
     /// Says what was read of the logs, and what they can and cannot determine, without an identification in full: of what is set here it
@@ -286,10 +281,11 @@ impl<'a> Identification<'a> {
     /// Where a file cannot be read, or the axis does not go with a log.
     pub fn check(mut self) -> Result<Check, Error> {
         let (axis, observer) = (&self.axis.0, &mut self.observer);
-        Ok(Check(match files(&self.logs) {
-            Some(logs) => check::check_files(&logs, axis, observer)?,
-            None => check::check_logs(&sources(&self.logs, &self.axis)?, axis, observer)?,
-        }))
+        let found = match files(&self.logs) {
+            Some(logs) => check::check_files(&logs, axis, observer),
+            None => check::check_logs(&sources(&self.logs, &self.axis)?, axis, observer),
+        };
+        found.map(Check).map_err(Error::of)
     }
 }
 

@@ -46,7 +46,7 @@ impl Law {
     }
 
     pub(crate) fn of(values: &ParameterSet) -> Result<Self, Error> {
-        let law = workflows::Law::of(values)?;
+        let law = workflows::Law::of(values).map_err(Error::of_law)?;
         let kind = values.kind();
         Ok(Self { kind, law })
     }
@@ -72,10 +72,10 @@ impl Law {
     /// # Errors
     /// Where the two differ in length, time does not increase, or a number is not finite.
     pub fn along(&self, time: &[f64], velocity: &[f64]) -> Result<Vec<f64>, Error> {
-        Ok(forces_along(&self.law, time, velocity)?)
+        forces_along(&self.law, time, velocity).map_err(Error::of)
     }
 
-    /// The law as `stiction-friction` has it, for a drive without `std`; `None` for another law than LuGre and Dahl. Its sigma1 is
+    /// The law for a drive without `std`, as [`friction`](crate::friction) has it; `None` for another law than LuGre and Dahl. Its sigma1 is
     /// constant, as it was identified; quadratic viscous friction is not in it.
     pub fn lugre(&self) -> Option<LuGre<f64>> {
         self.law.law.lugre()

@@ -108,7 +108,7 @@
 //! In a program of one's own: `cargo add stiction --no-default-features`; the feature `cli` is the command `stiction`.
 //!
 //! What a result has beyond these types is in [`Fit::result`], with the keys of `result.json`. The engine is no part of the interface;
-//! the laws for a drive without `std` are in `stiction-friction`.
+//! the laws for a drive without `std` are in [`friction`].
 
 mod axis;
 mod check;
@@ -133,7 +133,7 @@ mod study;
 pub use axis::Axis;
 pub use check::Check;
 pub use error::Error;
-pub use export::{Export, Exported, Feedforward};
+pub use export::{Export, Exported, Feedforward, Width};
 pub use findings::Friction;
 pub use fit::Fit;
 pub use identification::{Identification, Method, Recording};
@@ -146,9 +146,9 @@ pub use progress::Progress;
 pub use saved::SavedFit;
 pub use search::{Search, SearchCost, SearchMethod};
 pub use stiction_codes::Code;
-pub use stiction_export::Width;
 pub use stiction_files::result::{Origin, Status};
 pub use stiction_formats::allow_memory;
+pub use stiction_friction as friction;
 pub use stiction_friction::compensator::{Compensator, Input};
 pub use stiction_identify::Stage;
 pub use stiction_parameters::{LawKind, Name, Quantity, Side, Wave};

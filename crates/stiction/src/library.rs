@@ -45,7 +45,9 @@ pub fn machines() -> impl ExactSizeIterator<Item = Machine> {
 /// # Errors
 /// Where there is none, with the names that there are.
 pub fn machine(name: &str) -> Result<Machine, Error> {
-    Ok(Machine(workflow::Library::new().machine(name)?.clone()))
+    let library = workflow::Library::new();
+    let machine = library.machine(name).map_err(Error::of)?;
+    Ok(Machine(machine.clone()))
 }
 
 impl Machine {
@@ -105,7 +107,6 @@ impl Machine {
     /// # Errors
     /// Where the folder holds something else, or cannot be written.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<(), Error> {
-        self.0.write(folder, false)?;
-        Ok(())
+        self.0.write(folder, false).map(drop).map_err(Error::of)
     }
 }

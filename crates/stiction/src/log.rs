@@ -7,6 +7,7 @@ use stiction_formats::Column;
 use stiction_workflows::source::{self, Source};
 
 /// Whether an axis moves along a line or turns.
+// There is no third kind: a match may be exhaustive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Motion {
     /// Position in m, velocity in m/s, force in N.
@@ -15,8 +16,8 @@ pub enum Motion {
     Rotary,
 }
 
-impl From<stiction_log::Motion> for Motion {
-    fn from(motion: stiction_log::Motion) -> Self {
+impl Motion {
+    pub(crate) fn of(motion: stiction_log::Motion) -> Self {
         match motion {
             stiction_log::Motion::Linear => Motion::Linear,
             stiction_log::Motion::Rotary => Motion::Rotary,
@@ -52,7 +53,7 @@ impl Log {
     /// # Errors
     /// As [`Log::open`].
     pub fn open_with(path: impl AsRef<Path>, axis: &Axis) -> Result<Self, Error> {
-        Ok(Self(source::load(path, &axis.0)?))
+        source::load(path, &axis.0).map(Self).map_err(Error::of)
     }
 
     /// Takes columns that are in memory under their headers, as a file with these columns would be read: `Position [mm]` is the
@@ -83,7 +84,8 @@ impl Log {
     ) -> Result<Self, Error> {
         let columns = columns.into_iter();
         let columns = columns.map(|(header, values)| Column::headed(header.as_ref(), values));
-        Ok(Self(source::in_memory(name, columns.collect(), &axis.0)?))
+        let source = source::in_memory(name, columns.collect(), &axis.0);
+        source.map(Self).map_err(Error::of)
     }
 
     /// Path or name as given.
@@ -108,7 +110,7 @@ impl Log {
 
     /// Linear (m, m/s) or rotary (rad, rad/s).
     pub fn motion(&self) -> Motion {
-        self.0.log.motion.into()
+        Motion::of(self.0.log.motion)
     }
 
     /// Time from the first sample, s.
@@ -143,7 +145,7 @@ impl Log {
 
     /// What is wrong with the recording or worth knowing.
     pub fn findings(&self) -> impl Iterator<Item = Notice> {
-        self.0.log.findings.iter().map(Notice::from)
+        self.0.log.findings.iter().map(Notice::of_finding)
     }
 
     /// How file and columns were understood, for people.

@@ -16,7 +16,7 @@ impl Model {
     /// # Errors
     /// Where it cannot be read, or contradicts itself: with line and key.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
-        Ok(Self(ModelFile::read(file)?))
+        ModelFile::read(file).map(Self).map_err(Error::of)
     }
 
     /// Reads the text of a model file.
@@ -24,7 +24,7 @@ impl Model {
     /// # Errors
     /// As [`Model::read`].
     pub fn parse(text: &str) -> Result<Self, Error> {
-        Ok(Self(ModelFile::parse(text)?))
+        ModelFile::parse(text).map(Self).map_err(Error::of)
     }
 
     /// The text of its model file.
@@ -55,13 +55,12 @@ impl Model {
         match self.0.values() {
             Some(values) => Law::of(&values),
             // Refused with the laws that there are.
-            None => Err(stiction_files::Error::Config {
+            None => Err(Error::of(stiction_files::Error::Config {
                 file: "model".into(),
                 place: "law: ".into(),
                 found: format!("{:?}", self.0.law),
                 allowed: LawKind::ALL.map(LawKind::name).join(", "),
-            }
-            .into()),
+            })),
         }
     }
 

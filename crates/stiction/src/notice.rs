@@ -7,6 +7,7 @@ use stiction_identify as engine;
 
 /// How much a notice matters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Severity {
     /// Worth knowing: what was done or assumed.
     Note,
@@ -26,8 +27,8 @@ pub struct Notice {
     pub message: String,
 }
 
-impl From<&Warning> for Notice {
-    fn from(warning: &Warning) -> Self {
+impl Notice {
+    pub(crate) fn of(warning: &Warning) -> Self {
         let severity = match warning.is_note() {
             true => Severity::Note,
             false => Severity::Warning,
@@ -38,10 +39,8 @@ impl From<&Warning> for Notice {
             message: warning.message.clone(),
         }
     }
-}
 
-impl From<&stiction_log::Finding> for Notice {
-    fn from(finding: &stiction_log::Finding) -> Self {
+    pub(crate) fn of_finding(finding: &stiction_log::Finding) -> Self {
         let severity = match finding.severity {
             stiction_log::Severity::Note => Severity::Note,
             stiction_log::Severity::Warning => Severity::Warning,
@@ -70,8 +69,8 @@ pub struct Quality {
     pub effective_samples: f64,
 }
 
-impl From<&FitEntry> for Quality {
-    fn from(entry: &FitEntry) -> Self {
+impl Quality {
+    pub(crate) fn of(entry: &FitEntry) -> Self {
         Self {
             rmse: entry.rmse,
             relative_error_percent: entry.relative_error_percent,
@@ -108,10 +107,8 @@ impl Series {
         let both = self.measured.iter().zip(&self.model);
         both.map(|(measured, model)| measured - model).collect()
     }
-}
 
-impl From<engine::Series> for Series {
-    fn from(own: engine::Series) -> Self {
+    pub(crate) fn of(own: engine::Series) -> Self {
         Self {
             log: own.log,
             time: own.time,

@@ -65,7 +65,7 @@ impl<'a> Parameter<'a> {
         let interval = match self.entry.origin {
             _ if !self.entry.identifiable => None,
             Origin::Given => Some((value, value)),
-            Origin::Identified => self.interval(),
+            _ => self.interval(),
         };
         interval.map(|interval| Determined { value, interval })
     }

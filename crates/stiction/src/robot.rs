@@ -91,8 +91,8 @@ impl<'a> Identification<'a> {
     /// # Errors
     /// Where a file cannot be read, the logs do not go with the URDF, or nothing can be identified.
     pub fn run(mut self) -> Result<RobotFit, Error> {
-        let found = workflow::robot(&self.files, &self.options, &mut self.observer)?;
-        Ok(RobotFit(found))
+        let found = workflow::robot(&self.files, &self.options, &mut self.observer);
+        found.map(RobotFit).map_err(Error::of)
     }
 }
 
@@ -123,7 +123,7 @@ impl RobotFit {
 
     /// What to know although the identification went on.
     pub fn warnings(&self) -> impl Iterator<Item = Notice> {
-        self.0.result.warnings.iter().map(Notice::from)
+        self.0.result.warnings.iter().map(Notice::of)
     }
 
     /// Everything that was found, as `robot.json` has it (docs/robot.md): inertias, base parameters, joints.
@@ -147,9 +147,10 @@ impl RobotFit {
     /// Where the folder cannot be written, or holds something that stiction did not write.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
         let folder = folder.as_ref();
-        stiction_files::check_folder_of(folder, SCHEMA, false)?;
-        stiction_files::check_inputs(folder, self.0.inputs())?;
-        Ok(bundle::robot(&self.0, folder).write(folder)?)
+        let written = stiction_files::check_folder_of(folder, SCHEMA, false)
+            .and_then(|()| stiction_files::check_inputs(folder, self.0.inputs()))
+            .and_then(|()| bundle::robot(&self.0, folder).write(folder));
+        written.map_err(Error::of)
     }
 }
 

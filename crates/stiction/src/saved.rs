@@ -17,7 +17,8 @@ impl SavedFit {
     /// # Errors
     /// Where a file is missing, cannot be read, or is none of a fit.
     pub fn read(folder: impl AsRef<Path>) -> Result<Self, Error> {
-        Ok(Self(stiction_pages::SavedFit::read(folder)?))
+        let saved = stiction_pages::SavedFit::read(folder);
+        saved.map(Self).map_err(Error::of)
     }
 
     /// The law as `model.toml` has it.
@@ -38,6 +39,6 @@ impl SavedFit {
     /// # Errors
     /// Where the folder cannot be written, or holds something that stiction did not write.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
-        Ok(self.0.write(folder)?)
+        self.0.write(folder).map_err(Error::of)
     }
 }

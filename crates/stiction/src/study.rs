@@ -31,7 +31,7 @@ impl Study {
     /// # Errors
     /// Where it, or a file that it names, cannot be read or is refused, or more would be simulated than is allowed at once.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, Error> {
-        Ok(Self(form::Study::read(file)?))
+        form::Study::read(file).map(Self).map_err(Error::of)
     }
 
     /// The same with at most so many samples to simulate, in all runs together.
@@ -39,7 +39,8 @@ impl Study {
     /// # Errors
     /// As [`Study::read`].
     pub fn read_within(file: impl AsRef<Path>, samples: u64) -> Result<Self, Error> {
-        Ok(Self(form::Study::read_within(file, samples)?))
+        let study = form::Study::read_within(file, samples);
+        study.map(Self).map_err(Error::of)
     }
 
     /// Runs all of it on all threads; the result does not depend on their number.
@@ -77,7 +78,7 @@ impl Simulation {
 
     /// What to beware of.
     pub fn warnings(&self) -> impl Iterator<Item = Notice> {
-        self.outcome.file.warnings.iter().map(Notice::from)
+        self.outcome.file.warnings.iter().map(Notice::of)
     }
 
     /// Everything that came out, as `study.json` has it (docs/study.md).
@@ -101,9 +102,10 @@ impl Simulation {
     /// Where the folder cannot be written, or holds something that stiction did not write.
     pub fn write(&self, folder: impl AsRef<Path>) -> Result<Vec<PathBuf>, Error> {
         let folder = folder.as_ref();
-        stiction_files::check_folder_of(folder, SCHEMA, false)?;
-        stiction_files::check_inputs(folder, &self.inputs)?;
-        Ok(bundle::study(&self.outcome).write(folder)?)
+        let written = stiction_files::check_folder_of(folder, SCHEMA, false)
+            .and_then(|()| stiction_files::check_inputs(folder, &self.inputs))
+            .and_then(|()| bundle::study(&self.outcome).write(folder));
+        written.map_err(Error::of)
     }
 }
 

@@ -16,6 +16,7 @@ use stiction_files::result::Status;
 /// Whether an outcome may be used. What a process exits with follows from it, and from nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Verdict {
     /// It may be used.
     Trustworthy,
@@ -26,6 +27,16 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Name as files and Python have it.
+    #[doc(hidden)]
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Trustworthy => "trustworthy",
+            Verdict::NotTrustworthy => "not-trustworthy",
+            Verdict::Interrupted => "interrupted",
+        }
+    }
+
     fn new(interrupted: bool, trustworthy: bool) -> Self {
         match (interrupted, trustworthy) {
             (true, _) => Verdict::Interrupted,

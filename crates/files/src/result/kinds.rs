@@ -6,6 +6,7 @@ use std::fmt;
 /// Where the value of a parameter comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Origin {
     /// From the logs.
     #[default]

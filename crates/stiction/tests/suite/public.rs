@@ -3,8 +3,8 @@
 use crate::common::{Bench, both_ways, friction, noise};
 use std::ops::ControlFlow;
 use stiction::{
-    Axis, Code, Identification, LawKind, Log, Method, Name, Origin, Quantity, Search, SearchMethod,
-    Side, Stage, Status, Target, Verdict,
+    Axis, Code, Export, Identification, LawKind, Log, Method, Name, Origin, Quantity, Search,
+    SearchMethod, Side, Stage, Status, Target, Verdict,
 };
 
 #[test]
@@ -171,6 +171,79 @@ fn errors_have_parts() {
     assert!(
         short.place().ends_with("b.csv") && !short.found().is_empty(),
         "{short}"
+    );
+}
+
+/// Options are told as the builders have them, and one that is wrong by itself is the place.
+#[test]
+fn errors_advise_what_a_builder_has() {
+    let bench = Bench::new();
+    let file = bench.good("a.csv", 1);
+    let asked = || Identification::of([&file]);
+    let search = || Search::new(SearchMethod::Genetic);
+    let refused = [
+        asked().method(Method::OutputError).search(search()),
+        asked().search(search().evaluations(0)),
+        asked().search(search()).law(LawKind::CoulombViscous),
+        asked().search(search().without_least_squares().target(-1.0)),
+        asked()
+            .method(Method::Static)
+            .search(search().checkpoint("x")),
+        asked().without_comparison(),
+        asked().split(f64::NAN),
+    ];
+    let said = refused.map(|asked| {
+        let error = asked.run().unwrap_err();
+        assert_eq!(error.code(), Code::Usage);
+        format!("{}: {error}", error.place())
+    });
+    insta::assert_snapshot!(said.join("\n"));
+}
+
+#[test]
+fn the_last_word_on_the_directions_counts() {
+    let bench = Bench::new();
+    let file = bench.good("a.csv", 1);
+    let asked = || {
+        let asked = Identification::of([&file]).law(LawKind::CoulombViscous);
+        asked.without_comparison()
+    };
+    let is_asymmetric = |asked: Identification| asked.run().unwrap().is_asymmetric();
+    assert!(!is_asymmetric(asked().asymmetric().symmetric()));
+    assert!(is_asymmetric(asked().symmetric().asymmetric()));
+}
+
+/// What no export takes is no compensator either.
+#[test]
+fn a_cycle_time_is_refused_alike() {
+    let text = stiction::library::machine("xl330")
+        .unwrap()
+        .model()
+        .unwrap();
+    for cycle_time in [1e9, 0.2, 1e-7, 0.0, f64::NAN] {
+        let export = Export::new(Target::Rust, cycle_time).model(&text);
+        let (export, own) = (
+            export.unwrap_err(),
+            text.compensator(cycle_time).unwrap_err(),
+        );
+        assert_eq!(own.code(), Code::NotExported);
+        assert_eq!(own.to_string(), export.to_string());
+    }
+    assert!(text.compensator(1e-3).is_ok());
+}
+
+#[test]
+fn the_law_of_a_drive_has_its_types_here() {
+    let law = stiction::library::machine("xl330")
+        .unwrap()
+        .model()
+        .unwrap()
+        .law()
+        .unwrap();
+    let lugre: Option<stiction::friction::LuGre<f64>> = law.lugre();
+    assert_eq!(
+        lugre.is_some(),
+        matches!(law.kind(), LawKind::LuGre | LawKind::Dahl)
     );
 }
 
