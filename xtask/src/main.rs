@@ -33,8 +33,8 @@ struct Task {
 impl Task {
     /// Whether this was typed. A last word in capitals stands for any.
     fn is(&self, typed: &str) -> bool {
-        let begin = self.name.strip_suffix("TARGET");
-        let last = begin.and_then(|begin| typed.strip_prefix(begin));
+        let begin = self.name.trim_end_matches(|c: char| c.is_ascii_uppercase());
+        let last = typed.strip_prefix(begin).filter(|_| begin != self.name);
         typed == self.name || last.is_some_and(|last| !last.is_empty() && !last.contains(' '))
     }
 }
@@ -163,6 +163,11 @@ const TASKS: &[Task] = &[
     Task {
         name: "performance",
         help: "measure everything in docs/performance.md anew, beside its peers: on a quiet machine, an hour",
+        run: figures::performance,
+    },
+    Task {
+        name: "performance SCRIPT",
+        help: "the same of one script of bench/ or of a folder, such as peers/identify or formats",
         run: figures::performance,
     },
     Task {

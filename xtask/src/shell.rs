@@ -2,7 +2,7 @@
 
 use std::env;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
@@ -127,13 +127,28 @@ pub fn output(mut command: Command) -> Result<String, String> {
     let output = command
         .output()
         .map_err(|error| format!("cannot start `{line}`: {error}"))?;
+    succeeded(&line, output)
+}
+
+/// As [`output`], with the command and the time it took shown, and its errors as they come.
+pub fn timed_output(mut command: Command) -> Result<String, String> {
+    let line = describe(&command);
+    println!("==> {line}");
+    let start = Instant::now();
+    let output = command
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| format!("cannot start `{line}`: {error}"))?;
+    ended(&line, start);
+    succeeded(&line, output)
+}
+
+/// What a command that must succeed has written to standard output.
+fn succeeded(line: &str, output: Output) -> Result<String, String> {
     if !output.status.success() {
         let detail = String::from_utf8_lossy(&output.stderr);
-        return Err(format!(
-            "`{line}` failed ({}): {}",
-            output.status,
-            detail.trim()
-        ));
+        let said = format!("`{line}` failed ({}): {}", output.status, detail.trim());
+        return Err(said.trim_end_matches(": ").into());
     }
     String::from_utf8(output.stdout).map_err(|error| format!("`{line}`: {error}"))
 }

@@ -99,6 +99,13 @@ pub fn release() -> Outcome {
     measured(&wheel, &python::bare()?)
 }
 
+/// Builds and installs that wheel, and builds what `bench/python` compares it with.
+pub fn measurable() -> Outcome {
+    let wheel = uploads(&Target::host()?)?;
+    shell::run(cargo(COMPARED))?;
+    install(&wheel, &python::bare()?)
+}
+
 /// Only builds that wheel and the source distribution.
 pub fn only() -> Outcome {
     uploads(&Target::host()?).map(drop)
