@@ -43,6 +43,12 @@ def enter(home=HOME, requirements=REQUIREMENTS):
     os.execv(home / "bin/python", [str(home / "bin/python"), *sys.argv])
 
 
+def program():
+    """Builds the command line and gives its path."""
+    subprocess.check_call(["cargo", "build", "--quiet", "--release", "--bin", "stiction"], cwd=ROOT)
+    return target() / "release/stiction"
+
+
 def example(name):
     """Builds an example of the workspace and gives its path."""
     subprocess.check_call(["cargo", "build", "--quiet", "--release", "--workspace", "--example", name], cwd=ROOT)

@@ -155,4 +155,4 @@ if __name__ == "__main__":
         try:
             make(folder)
         except ModuleNotFoundError as error:
-            print(f"{make.__name__}: left out, {error}")
+            print(f"{make.__name__}: left out, {error}", file=sys.stderr)

@@ -3,11 +3,12 @@
 
     python3 bench/hostile/measure.py [MILLION_ROWS]
 
-Makes the files in target/bench/hostile, and removes the long ones. `--max-memory 200MB` for the hostile ones; a long text may
+Makes the files in target/bench/hostile afresh, and removes the long ones. `--max-memory 200MB` for the hostile ones; a long text may
 take what it needs.
 """
 
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -36,9 +37,9 @@ def run(command):
 
 def main():
     rows = int(1e6 * float(sys.argv[1] if len(sys.argv) > 1 else 14))
-    build = ["cargo", "build", "--quiet", "--release", "--bin", "stiction"]
-    subprocess.check_call(build, cwd=environment.ROOT)
-    check = [environment.target() / "release/stiction", "check", "--threads", "1"]
+    check = [environment.program(), "check", "--threads", "1"]
+    # Whatever a run that was ended left there would count as hostile.
+    shutil.rmtree(FILES, ignore_errors=True)
     FILES.mkdir(parents=True, exist_ok=True)
     subprocess.check_call([sys.executable, HERE / "make.py", FILES])
     ends = [(file.name, *run([*check, file.name, "--max-memory", "200MB"])) for file in sorted(FILES.iterdir())]

@@ -32,19 +32,20 @@ def section(log, ours, file, theirs, optimum, minutes):
     remarks = [
         f"Optima of both models: the same to {off:.0e}.",
         f"annealing-ga without its least squares: {sum(run['alone'] for run in annealing)} of {len(annealing)}.",
-        f"separable: {number(expected(ours['separable'], 'thinned'))} evaluations of a thinned record besides.",
     ]
-    cut = [f"{name} {len(theirs[name])} of {wanted}" for name, _, wanted in METHODS if len(theirs[name]) < wanted]
-    if cut:
-        remarks.append(f"Seeds that were begun within {minutes:.0f} minutes: {', '.join(cut)}.")
+    thinned = expected(ours["separable"], "thinned")
+    if thinned:
+        remarks.append(f"separable: {number(thinned)} evaluations of a thinned record besides.")
+    if any(len(theirs[name]) < wanted for name, _, wanted in METHODS):
+        remarks.append(f"No run of a peer was begun after {minutes:g} minutes.")
     return f"{log}, {file['samples']} samples:\n\n{table(ours, theirs)}\n\n{' '.join(remarks)}"
 
 
 def main():
     most = int(sys.argv[1]) if len(sys.argv) > 1 else MOST
     minutes = float(sys.argv[2]) if len(sys.argv) > 2 else MINUTES
-    maker = stiction.build()
-    logs = {name: stiction.Log(name, RATE, maker) for name in AXES}
+    programs = stiction.build()
+    logs = {name: stiction.Log(name, RATE, programs) for name in AXES}
     ours, files = {}, {}
     for name, log in logs.items():
         ours[name], files[name] = log.searches(most)

@@ -1,6 +1,7 @@
 """Runs of the peers, two at a time, each in a process of its own."""
 
 import os
+import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
@@ -79,5 +80,5 @@ def work(logs, most, minutes):
             if result is not None:
                 found[log][METHODS[index][0]].append(result)
             if done % 20 == 19:
-                print(f"    {done + 1} of {len(futures)} runs", flush=True)
+                print(f"    {done + 1} of {len(futures)} runs", file=sys.stderr)
     return {log: future.result() for log, future in least.items()}, found

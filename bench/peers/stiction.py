@@ -17,20 +17,18 @@ delay = "none"
 SEARCHES = (("lm", 30), ("niched-ga", 30), ("annealing-ga", 10))
 # The whole command is repeated, to take the middle.
 COMMANDS = 9
-BINARY = machine.environment.target() / "release/stiction"
 
 
 def build():
-    """Builds the command and what writes the logs; gives the latter."""
-    command = ["cargo", "build", "--quiet", "--release", "--workspace", "--bin", "stiction"]
-    subprocess.check_call(command, cwd=machine.ROOT)
-    return machine.environment.example("known_log")
+    """Builds the command and what writes the logs; gives both."""
+    return machine.environment.program(), machine.environment.example("known_log")
 
 
 class Log:
     """A log whose parameters are known, with the axis file that says what it holds."""
 
-    def __init__(self, name, rate, maker):
+    def __init__(self, name, rate, programs):
+        self.program, maker = programs
         folder = machine.WORK / name
         folder.mkdir(parents=True, exist_ok=True)
         self.name, self.folder = name, folder
@@ -48,9 +46,9 @@ class Log:
     def _stiction(self, command, out, *options):
         """Runs it; gives the file it wrote, its processor time and the share of a core it had."""
         out = self.folder / out
-        words = [BINARY, command, self.file, "--axis", self.axis, "--threads", "1", "--quiet", "--force"]
+        words = [self.program, command, self.file, "--axis", self.axis, "--threads", "1", "--quiet", "--force"]
         start, before = time.perf_counter(), os.times()
-        subprocess.check_call([*words, "--out", out, *options])
+        subprocess.check_call([*words, "--out", out, *options], stdout=subprocess.DEVNULL)
         after, wall = os.times(), time.perf_counter() - start
         used = after.children_user + after.children_system - before.children_user - before.children_system
         name = {"identify": "result.json", "compare": "compare.json"}[command]

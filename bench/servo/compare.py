@@ -10,9 +10,9 @@ motion, of first order; stiction's step is implicit and of second order. Both co
 loop; with `-shared` in the name stiction reads it from samples, as the runs of a study do. Prints the least time of each
 in ns per control step, on one core, and what 1000 runs of a study take.
 
-Then both take more and more plant steps in a control step of the first loop, and their tracking
-errors are compared with those that very many steps give, of each its own: ns per control step and the rms of the difference in
-parts of that of the tracking error, then the time to equal accuracy; the curve goes to `docs/servo-accuracy.svg`.
+Then both take more and more plant steps in a control step of the first loop: ns per control step, and the rms of the difference
+of the tracking error from that with very many steps, of each its own, in parts of it; the curve goes to
+`docs/servo-accuracy.svg`.
 """
 
 import math
@@ -33,6 +33,11 @@ import numpy
 matplotlib.use("svg")
 import matplotlib.pyplot as plt
 
+LOOPS = {
+    "cascade": "cascade, 10 kHz",
+    "compensated": "with compensator",
+    "everything": "4 kHz, three plant steps, with encoder, delay, current loop and compensator",
+}
 RATE, SECONDS, MASS = 10_000, 3, 10.0
 STEPS = RATE * SECONDS
 # sigma0, sigma1, sigma2, Fc, Fs, vs
@@ -131,26 +136,15 @@ def numba_accuracy(rounds):
     return points
 
 
-def time_to(points, off):
-    """ns to this accuracy, between the points on a line in logarithms; infinite where none gets there."""
-    for (_, before, worse), (_, after, better) in zip(points, points[1:]):
-        if better <= off <= worse:
-            share = math.log(worse / off) / math.log(worse / better)
-            return before * (after / before) ** share
-    return points[0][1] if off >= points[0][2] else math.inf
-
-
 def accuracy(rounds):
     command = [environment.example("loops"), str(rounds), "accuracy"]
     lines = subprocess.check_output(command, text=True).splitlines()
     ours = [(int(n), float(ns), float(off)) for n, ns, off in map(str.split, lines)]
     numbas = numba_accuracy(rounds)
-    print("| error of the tracking error | stiction, ns | numba, ns | times as long |\n|---:|---:|---:|---:|")
-    for _, ns, off in ours:
-        other = time_to(numbas, off)
-        over = ">" if math.isinf(other) else ""
-        other = min(other, numbas[-1][1])
-        print(f"| {off:.1e} | {ns:.1f} | {over} {other:.0f} | {over} {other / ns:.1f} |")
+    print("| plant steps | stiction, ns | error | numba, ns | error |\n|---:|---:|---:|---:|---:|")
+    known = {n: f"{ns:.1f} | {off:.1e}" for n, ns, off in ours}
+    for n, ns, off in numbas:
+        print(f"| {n} | {known.get(n, ' | ')} | {ns:.1f} | {off:.1e} |")
     figure([("stiction, implicit, second order", "#0072B2", ours), ("numba, semi-implicit Euler", "#D55E00", numbas)])
 
 
@@ -185,12 +179,12 @@ def main():
             name, value = line.split()
             least[name] = min(least.get(name, math.inf), float(value))
     print(environment.described("numba") + ".\n")
-    print("| loop, one plant step a control step | ns per control step |\n|---|---:|")
-    for name, value in least.items():
-        if not name.startswith("study"):
-            print(f"| {name} | {value:.1f} |")
+    print("| ns per control step | stiction | the sine read from samples | numba |\n|---|---:|---:|---:|")
+    for name, words in LOOPS.items():
+        times = [least.get(column) for column in (name, f"{name}-shared", f"numba-{name}")]
+        print(f"| {words} | " + " | ".join("" if time is None else f"{time:.1f}" for time in times) + " |")
     one, two = least["study-1"], least["study-2"]
-    print(f"\n1000 runs of a study, 3 s at 4 kHz with encoder, delay, current loop and compensator: {one:.2f} s on one thread, {two:.2f} s on two.\n")
+    print(f"\n1000 runs of a study, 3 s each of the last: {one:.2f} s on one thread, {two:.2f} s on two.\n")
     accuracy(rounds)
 
 
