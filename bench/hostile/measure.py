@@ -46,7 +46,7 @@ def main():
     print(environment.described("numpy", "pyarrow", "h5py") + ".\n\n| log | file, MB | time, s | peak of memory, MB | ends with |\n|---|---:|---:|---:|---|")
     slowest, largest = (max(ends, key=lambda end: end[k]) for k in (1, 2))
     codes = sorted({f"`{end[4]}`" if end[3] else "exit code 0" for end in ends})
-    print(f"| {len(ends)} hostile files, the worst of each | {sum(f.stat().st_size for f in FILES.iterdir()) / 1e6:.1f} in all | {slowest[1]:.1f} ({slowest[0]}) | {largest[2]:.0f} ({largest[0]}) | {', '.join(codes)} |")
+    print(f"| {len(ends)} hostile files with `--max-memory 200MB`, the worst of each | {sum(f.stat().st_size for f in FILES.iterdir()) / 1e6:.1f} in all | {slowest[1]:.1f} ({slowest[0]}) | {largest[2]:.0f} ({largest[0]}) | {', '.join(codes)} |")
     for name, script, arguments, words in [
         ("text, 4 of 8 columns used", "long_text.py", [FILES / "long.csv", str(rows)], ["long.csv"]),
         ("text, 3 of 12 columns used", "wide_text.py", [FILES, str(rows // 4)], ["wide.csv", "--axis", "axis.toml"]),

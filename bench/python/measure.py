@@ -3,12 +3,14 @@
 Prints import time, identification of 30 001 samples against the same call in Rust (in turn, the least of all), two threads
 against one, in Rust and in Python, the memory of many calls and the size of the wheel, and ends with exit code 1 where one
 misses its bar.
-Run it with the Python that the wheel is installed in, on a machine that does nothing else: `cargo xtask wheel` does.
+Run it with the Python that the wheel is installed in, on a machine that does nothing else: `cargo xtask wheel` does, and
+`cargo xtask performance python` without its tests.
 """
 
 from __future__ import annotations
 
 import os
+import platform
 import resource
 import subprocess
 import sys
@@ -25,8 +27,10 @@ import environment
 
 BUILT = environment.target() / "python"
 if len(sys.argv) == 1:
-    # What `cargo xtask wheel` has built and installed.
-    wheel = next((BUILT / "release").glob("*.whl"))
+    # What `cargo xtask performance` has built and installed; a wheel for another machine may stand beside it.
+    wheel = next((BUILT / "release").glob(f"*{platform.machine()}.whl"), None)
+    if wheel is None:
+        sys.exit("no wheel is built: `cargo xtask performance python`")
     python = BUILT / "venv/bin/python"
     os.execv(python, [str(python), __file__, str(environment.target() / "dist/examples/timed"), str(wheel)])
 
