@@ -103,7 +103,7 @@ def main():
     ]
     print("| what | ms | times the search |\n|---|---:|---:|")
     for name, ms in rows:
-        print(f"| {name} | {ms:.4g} | {ms / ours['search']:.1f} |")
+        print(f"| {name} | {ms:.{0 if ms >= 1000 else 2}f} | {ms / ours['search']:.1f} |")
     print(f"\nTwo threads on a batch: {ours['batch-1'] / ours['batch-2']:.2f} times the throughput of one.", end=" ")
     found = 2 * peer.results[hits[0]].cost
     print(f"Least cost: scipy {found:.6g}, stiction {ours['cost']:.6g}, MuJoCo {cost:.6g}.")
