@@ -1,6 +1,7 @@
 //! Writes `docs/validation.md`: every measured recording, its recipe, what was found and what must
 //! hold. Run by `cargo xtask validation`.
 
+mod made;
 #[path = "../tests/suite/measure/mod.rs"]
 mod measure;
 
@@ -13,13 +14,15 @@ fn main() -> std::io::Result<()> {
     let Some(data) = recordings() else {
         std::process::exit(2)
     };
-    let mut out = String::from(
+    let mut out = format!(
         "# Validation on measured recordings\n\n\
+         {}.\n\n\
          Written by `cargo xtask validation`; do not edit. The recordings are not part of the project \
          ([decision 0010](decisions/0010-recordings-are-not-committed.md)); their axis files are in `validation/`.\n\n\
          Relative error = 100 rms(residual) / rms(measured force). Unless the axis file says otherwise, cut-offs are \
          chosen by the data and the delay is fitted ([identification](identification.md#conditioning)). Fits by \
          simulation (`--method output-error`) compare the position as measured.\n",
+        made::described()
     );
     defaults(&data, &mut out);
     let mut last = "";

@@ -19,13 +19,13 @@ mod asked;
 mod claims;
 #[path = "../tests/suite/common/identified.rs"]
 mod identified;
+mod made;
 
 use asked::{Asked, all, cell};
 use claims::{Claim, Figures, Run};
 use identified::identified;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::time::{SystemTime, UNIX_EPOCH};
 use stiction_files::Axis;
 use stiction_parameters::LawKind;
 use stiction_testkit::worlds::{Case, Motion, World, record};
@@ -94,18 +94,10 @@ const LATER: u64 = 1_000_000;
 /// By what, when and where these figures were written.
 fn written() -> String {
     let words: Vec<String> = std::env::args().skip(1).collect();
-    let now = SystemTime::now().duration_since(UNIX_EPOCH).unwrap();
-    let date = stiction_files::batch::date_of(now.as_secs_f64());
-    let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let cpu = cpu.lines().find_map(|line| line.strip_prefix("model name"));
-    let cpu = cpu.map_or(std::env::consts::ARCH, |cpu| {
-        cpu.trim_matches([' ', '\t', ':'])
-    });
     format!(
-        "Written by `cargo run --release -p stiction --example worlds -- {}` on {} ({cores} cores of {cpu}).",
+        "Written by `cargo run --release -p stiction --example worlds -- {}`: {}.",
         words.join(" "),
-        &date[..10]
+        made::described()
     )
 }
 
