@@ -17,6 +17,7 @@ use crate::separable::logs::Logs;
 use crate::separable::objective::Evaluation;
 use crate::separable::settings::Settings;
 use nalgebra::DVector;
+use std::ops::Range;
 use stiction_search::{Observer, Status};
 
 /// Most knots of the curve.
@@ -31,9 +32,9 @@ const BETWEEN: usize = 4;
 /// Friction by speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrictionCurve {
-    /// Top speed, m/s or rad/s: that which 3 % of the samples in motion are above.
+    /// Largest speed of the curve, m/s or rad/s; 3 % of the samples in motion are above the top speed of the log.
     pub top: f64,
-    /// Speeds from the least at which friction outweighs inertia to the top speed, m/s or rad/s.
+    /// Speeds from the least to the largest at which friction outweighs inertia, m/s or rad/s.
     pub speed: Vec<f64>,
     /// Friction of the directions that the log has.
     pub directions: Vec<OfDirection>,
@@ -46,8 +47,7 @@ pub struct FrictionCurve {
     pub correlation: Option<(f64, Option<[f64; 2]>)>,
     /// Half of their difference: a constant force, a weight, or friction that differs.
     pub constant: Vec<Level>,
-    /// Half of the sum at a twentieth, half and all of the top speed, or at the ends of the curve where it does not reach there; of a
-    /// single direction its own.
+    /// Half of the sum at a twentieth, half and all of the largest speed, none below the least; of a single direction its own.
     pub at: Vec<Level>,
 }
 
@@ -71,7 +71,7 @@ pub struct Level {
     pub half: HalfWidths,
 }
 
-/// Parts of the top speed at which friction is stated in three numbers, where the curve reaches there.
+/// Parts of the top speed of the curve at which friction is stated in three numbers.
 const PARTS: [f64; 3] = [0.05, 0.5, 1.0];
 
 /// Part of the top speed from which on a line of Coulomb and viscous friction is taken: below it lies the Stribeck curve, which no
@@ -131,7 +131,7 @@ pub fn friction_curve(
         return Ok(None);
     }
     let strokes = Strokes::of(record);
-    let Some((knots, first, sides)) = knots(&strokes, &outweighs_inertia(record, fitted)) else {
+    let Some((knots, told, sides)) = knots(&strokes, &outweighs_inertia(record, fitted)) else {
         return Ok(None);
     };
     let hats = Hat::of(&knots);
@@ -166,18 +166,18 @@ pub fn friction_curve(
     Ok(stated(
         record,
         &strokes,
-        (&hats, first, &sides),
+        (&hats, told, &sides),
         mass,
         &optimum.evaluation,
     ))
 }
 
-/// Knots that the speeds of every direction reach, the first of them that is stated, and the directions; `None` where none is.
+/// Knots that the speeds of every direction reach, which of them are stated, and the directions; `None` where none is.
 ///
 /// Where inertia outweighs friction, an error of some per cent in its size or timing is one of as many in friction or more, and comes
-/// again in every stroke, so that no scatter shows it. Speeds that are only passed so have no knot above the first that is stated; below
-/// it they keep theirs, which then takes up that error.
-fn knots(strokes: &Strokes, outweighs: &[bool]) -> Option<(Vec<f64>, usize, Vec<Side>)> {
+/// again in every stroke, so that no scatter shows it. Speeds that are only passed so have no knot between those that are stated; beyond
+/// they keep theirs, which then take up that error.
+fn knots(strokes: &Strokes, outweighs: &[bool]) -> Option<(Vec<f64>, Range<usize>, Vec<Side>)> {
     let of = |sense: f64, known: bool| {
         let each = strokes.speed.iter().zip(&strokes.sense).zip(outweighs);
         each.filter(move |((_, own), outweighs)| **own == sense && (**outweighs || !known))
@@ -203,20 +203,24 @@ fn knots(strokes: &Strokes, outweighs: &[bool]) -> Option<(Vec<f64>, usize, Vec<
             .iter()
             .all(|(_, sense)| own(*sense).count() >= SAMPLES)
     };
-    let first = hats.iter().find(|hat| seen(hat, true))?.at;
-    let used = hats.iter().filter(|hat| seen(hat, hat.at >= first));
+    let known = |hat: &&Hat| seen(hat, true);
+    let first = hats.iter().find(known)?.at;
+    let last = hats.iter().rfind(known)?.at;
+    let used = hats
+        .iter()
+        .filter(|hat| seen(hat, (first..=last).contains(&hat.at)));
     let knots: Vec<f64> = used.map(|hat| hat.at).collect();
-    let below = knots.partition_point(|at| *at < first);
+    let told = knots.partition_point(|at| *at < first)..knots.partition_point(|at| *at <= last);
     let sides: Vec<Side> = sides.into_iter().map(|(side, _)| side).collect();
-    (!sides.is_empty() && strokes.top > 0.0).then_some((knots, below, sides))
+    (!sides.is_empty() && strokes.top > 0.0).then_some((knots, told, sides))
 }
 
-/// The curve of a fit whose first linear unknowns are the knots of each direction, from the first that is stated on; the mass is at a
-/// place among all.
+/// The curve of a fit whose first linear unknowns are the knots of each direction, at those that are stated; the mass is at a place among
+/// all.
 fn stated(
     record: &Record,
     strokes: &Strokes,
-    (hats, first, sides): (&[Hat], usize, &[Side]),
+    (hats, told, sides): (&[Hat], Range<usize>, &[Side]),
     mass: Option<usize>,
     at: &Evaluation,
 ) -> Option<FrictionCurve> {
@@ -229,8 +233,8 @@ fn stated(
     for (k, j) in active.enumerate() {
         place[j] = Some(nonlinear + k);
     }
-    // Below the first that is stated an error in the inertia may be larger than friction, which is then held at zero.
-    let mut known = (0..knots).filter(|j| j % hats.len() >= first);
+    // Elsewhere an error in the inertia may be larger than friction, which is then held at zero.
+    let mut known = (0..knots).filter(|j| told.contains(&(j % hats.len())));
     if known.any(|j| place[j].is_none()) {
         return None;
     }
@@ -280,18 +284,17 @@ fn stated(
         force: *force,
         half: scatter.variances(gradient).half_widths(),
     };
-    let sum = |at: f64, speeds: &[(f64, f64)], directions: &[f64]| {
-        stated(at, &weighed(speeds, directions))
-    };
-    let level = |speed: f64, directions: &[f64]| sum(speed, &[(speed, 1.0)], directions);
-    let speed: Vec<f64> = hats[first..]
+    let level =
+        |speed: f64, directions: &[f64]| stated(speed, &weighed(&[(speed, 1.0)], directions));
+    let speed: Vec<f64> = hats[told.clone()]
         .windows(2)
         .flat_map(|pair| {
             let step = (pair[1].at - pair[0].at) / BETWEEN as f64;
             (0..BETWEEN).map(move |i| pair[0].at + i as f64 * step)
         })
-        .chain(hats.last().map(|hat| hat.at))
+        .chain(hats[told].last().map(|hat| hat.at))
         .collect();
+    let (least, top) = (*speed.first()?, *speed.last()?);
     let along = |weights: &[f64]| speed.iter().map(|v| level(*v, weights)).collect();
     let two = sides.len() == 2;
     let alone = |s: usize| {
@@ -307,7 +310,7 @@ fn stated(
     let both: Vec<Level> = if two { along(&half) } else { Vec::new() };
     // The line nearest to it, each speed counted as far as to its neighbours.
     let line = (two && speed.len() > 1).then(|| {
-        let within = |v: &f64| if *v >= LINE * strokes.top { 1.0 } else { 0.0 };
+        let within = |v: &f64| if *v >= LINE * top { 1.0 } else { 0.0 };
         let weights = spacing(&speed).into_iter().zip(&speed);
         let weights: Vec<f64> = weights.map(|(w, v)| w * within(v)).collect();
         let moment = |power: i32| -> f64 {
@@ -326,13 +329,10 @@ fn stated(
             weighted(&|v| n * v - mean),
         ]
     });
-    let ends = [speed.first()?, speed.last()?];
-    let mut at: Vec<f64> = PARTS
-        .map(|part| (part * strokes.top).clamp(*ends[0], *ends[1]))
-        .into();
+    let mut at: Vec<f64> = PARTS.map(|part| (part * top).max(least)).into();
     at.dedup();
     Some(FrictionCurve {
-        top: strokes.top,
+        top,
         directions: directions.collect(),
         both,
         correlation: line.as_ref().map(|[coulomb, viscous]| {
@@ -343,7 +343,7 @@ fn stated(
             });
             (scatter.correlation(&coulomb.1, &viscous.1), with_mass)
         }),
-        line: line.map(|own| own.map(|own| stated(strokes.top, &own))),
+        line: line.map(|own| own.map(|own| stated(top, &own))),
         constant: if two { along(&[0.5, -0.5]) } else { Vec::new() },
         at: at.iter().map(|speed| level(*speed, &half)).collect(),
         speed,

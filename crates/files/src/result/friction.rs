@@ -9,14 +9,14 @@ pub struct FrictionCurveEntry {
     pub speed_unit: String,
     /// Unit of the force.
     pub unit: String,
-    /// Half of the sum of both directions at a twentieth, half and all of the top speed, or at the ends of the curve where it does not
-    /// reach there; of a log with one direction its own.
+    /// Half of the sum of both directions at a twentieth, half and all of the largest speed of the curve, none below its least; of a log
+    /// with one direction its own.
     pub at: Vec<FrictionAtEntry>,
     /// Coulomb and viscous friction of the straight line nearest to half of the sum of both directions from a tenth of the top speed
     /// on, as simulators take it; absent for one direction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<FrictionLineEntry>,
-    /// Speeds from the least at which friction outweighs inertia to the top speed.
+    /// Speeds from the least to the largest at which friction outweighs inertia.
     pub speed: Vec<f64>,
     /// Half of the sum of both directions; absent for one direction.
     #[serde(default, skip_serializing_if = "Option::is_none")]
