@@ -42,7 +42,8 @@ def main(library: Path, folder: Path) -> Path:
     sources = sorted(path for path in PACKAGE.rglob("*") if path.suffix in {".py", ".pyi"} or path.name == "py.typed")
     files = {f"stiction/{path.relative_to(PACKAGE).as_posix()}": path.read_bytes() for path in sources}
     files[f"stiction/_native{native}"] = library.read_bytes()
-    files |= {f"{about}/licenses/{name}": (ROOT / name).read_bytes() for name in project["license-files"]}
+    licences = sorted(path for pattern in project["license-files"] for path in ROOT.glob(pattern))
+    files |= {f"{about}/licenses/{path.name}": path.read_bytes() for path in licences}
     scripts = "".join(f"{name} = {function}\n" for name, function in project["scripts"].items())
     files[f"{about}/entry_points.txt"] = f"[console_scripts]\n{scripts}".encode()
     files[f"{about}/METADATA"] = ("\n".join(metadata) + "\n").encode()

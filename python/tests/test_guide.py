@@ -1,4 +1,4 @@
-"""The blocks of docs/python.md and docs/python-from.md and the cells of the notebook run as they stand, one after the other."""
+"""The blocks of docs/python.md, docs/python-from.md and the page on PyPI and the cells of the notebook run as they stand, one after the other."""
 
 from __future__ import annotations
 
@@ -34,6 +34,14 @@ def test_every_block_of_the_guide_runs(tmp_path: Path, monkeypatch: pytest.Monke
     assert (tmp_path / "result" / "model.toml").is_file()
     assert (tmp_path / "study" / "study.json").is_file()
     assert any(path.suffix == ".c" for path in (tmp_path / "controller").iterdir())
+
+
+def test_the_page_on_pypi_runs_and_stands_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    run_blocks("../python/README.md", 1)
+    assert any(path.suffix == ".c" for path in (tmp_path / "controller").iterdir())
+    # A path of the repository is none there.
+    assert "](" not in (DOCS.parent / "python" / "README.md").read_text(encoding="utf-8")
 
 
 def test_what_others_write_now_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -66,6 +66,11 @@ const TASKS: &[Task] = &[
         run: package::run,
     },
     Task {
+        name: "package --verify",
+        help: "the same, then build each on its own and hold its command and example beside those of the workspace",
+        run: package::verified,
+    },
+    Task {
         name: "release",
         help: "everything up to the upload: checks, then an archive with checksums in target/release-archives",
         run: release::run,

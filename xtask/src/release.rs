@@ -2,7 +2,7 @@
 //! commands that are left to give. Nothing is uploaded.
 
 mod archive;
-mod notices;
+pub mod notices;
 mod sbom;
 mod semver;
 pub mod target;

@@ -160,7 +160,12 @@ fn released(folder: &Path, target: &Target, python: Option<&str>) -> Result<Path
     arguments.extend(python.iter().flat_map(|python| ["--interpreter", *python]));
     let mut build = python::release("maturin", &arguments)?;
     release::target::reproducible(&mut build)?;
-    shell::run(build)?;
+    // Not in the tree: it follows the target and the lock file.
+    let notices = shell::root().join(release::notices::FILE);
+    release::notices::write(target, "stiction-python", &notices)?;
+    let built = shell::run(build);
+    fs::remove_file(&notices).map_err(|e| format!("{}: {e}", notices.display()))?;
+    built?;
     let failed = |e: std::io::Error| format!("{}: {e}", alone.display());
     let made = fs::read_dir(&alone).map_err(failed)?.next();
     let made = made.ok_or("maturin built no wheel")?.map_err(failed)?;

@@ -41,7 +41,7 @@ pub fn make(version: &str, target: &Target) -> Result<Vec<String>, String> {
         let name = file.rsplit('/').next().unwrap_or(file);
         copy(&shell::root().join(file), &folder.join(name))?;
     }
-    notices::write(target, &folder.join("THIRD-PARTY.txt"))?;
+    notices::write(target, "stiction-cli", &folder.join(notices::FILE))?;
     sbom::write(target, version, &folder.join("stiction.cdx.json"))?;
     for (shell, file) in SHELLS {
         let text = shell::output(target.command(&all, &built, &["completions", shell])?)?;

@@ -74,7 +74,7 @@ fn packages(target: &Target) -> Result<BTreeMap<String, Package>, String> {
     let mut packages: BTreeMap<String, Package> = BTreeMap::new();
     // Those above the line that is read, from the program down.
     let mut above: Vec<String> = Vec::new();
-    let tree = tree(target, "depth", "{p}|{l}")?;
+    let tree = tree(target, "stiction-cli", "depth", "{p}|{l}")?;
     for line in tree.lines() {
         let digits = line.chars().take_while(char::is_ascii_digit).count();
         let (depth, rest) = line.split_at(digits);
@@ -98,10 +98,10 @@ fn packages(target: &Target) -> Result<BTreeMap<String, Package>, String> {
     Ok(packages)
 }
 
-/// What is linked into the program for a target, a line for each package.
-pub fn tree(target: &Target, prefix: &str, format: &str) -> Result<String, String> {
+/// What is linked into a crate for a target, a line for each package.
+pub fn tree(target: &Target, crate_: &str, prefix: &str, format: &str) -> Result<String, String> {
     shell::output(shell::cargo(&format!(
-        "tree --locked --package stiction-cli --edges normal --target {} --prefix {prefix} --format {format}",
+        "tree --locked --package {crate_} --edges normal --target {} --prefix {prefix} --format {format}",
         target.0
     )))
 }
