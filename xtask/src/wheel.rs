@@ -13,7 +13,7 @@ const LIBRARY: &str = "debug/libstiction_native.so";
 const FOLDER: &str = "python";
 const TESTS: &str = "python/tests";
 /// Builds that library and the command line to compare with.
-const BUILD: &str = "build --workspace --lib --bins --example record";
+pub const BUILD: &str = "build --workspace --lib --bins --example record";
 
 /// Where wheel and source distribution are for users, in the target folder.
 pub const UPLOADS: &str = "python/release";

@@ -4,6 +4,7 @@
 use super::assemble::{copy, packed, read, write};
 use super::{PACKAGES, folder, name, names};
 use crate::shell::{self, Outcome, cargo};
+use crate::wheel;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -11,7 +12,7 @@ use std::process::Command;
 /// Unpacks, builds, runs, compares.
 pub fn all() -> Outcome {
     // Before the packed program, which cargo puts at the same place.
-    shell::run(cargo("build --quiet --package stiction-cli"))?;
+    shell::run(shell::linted(cargo(wheel::BUILD)))?;
     let (own, theirs) = (folder().join("workspace"), folder().join("packed"));
     let program = shell::target().join("debug/stiction");
     demo(&program, &own)?;
