@@ -37,8 +37,8 @@ from recordings import AXES, servo
 BAND = 10.0
 # s, at each end of the second half, where filters are not settled.
 EDGE = 0.5
-# Shares of the top speed at which the repeats are compared.
-SPEEDS = np.linspace(0.05, 0.95, 10)
+# Speeds at which the repeats are compared, from the least to the largest that stiction states for all.
+SPEEDS = 10
 
 
 class Stiction:
@@ -91,16 +91,16 @@ def held(values, halves):
 def repeats():
     """Friction of seven repeats at ten speeds, with intervals: of scipy, and of stiction for the same test on another day."""
     logs = servo()
-    top = min(np.abs(peers.derivatives(log)[0]).max() for log in logs)
-    speeds = [share * top for share in SPEEDS]
+    curves = [stiction.identify(log.columns()).result["friction_curve"] for log in logs]
+    ends = [max(curve["speed"][0] for curve in curves), min(curve["speed"][-1] for curve in curves)]
+    speeds = np.linspace(*ends, SPEEDS)
     scipys, ours = [], []
-    for log in logs:
+    for log, curve in zip(logs, curves):
         law = peers.Stribeck(log)
         scipys.append([law.friction(v) for v in speeds])
-        curve = stiction.identify(log.columns()).result["friction_curve"]
         both = curve["both"]
         ours.append([[np.interp(v, curve["speed"], both[k]) for k in ("force", "repeat")] for v in speeds])
-    return np.array(speeds), np.array(scipys), np.array(ours)
+    return speeds, np.array(scipys), np.array(ours)
 
 
 def main():
