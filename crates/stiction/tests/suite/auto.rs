@@ -284,7 +284,7 @@ fn validation_data_do_not_choose() {
         log(&bench, LawKind::Dahl, false, 5, 50e-9),
     );
     let mut options = options(&[&a], LawKind::LuGre);
-    options.law = None;
+    (options.law, options.compare_laws) = (None, true);
     let alone = options.identify(&mut Silent).unwrap().result;
     options.files.validate = vec![b];
     let result = options.identify(&mut Silent).unwrap().result;

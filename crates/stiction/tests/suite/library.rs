@@ -94,7 +94,7 @@ fn a_model_in_memory_has_keys_and_no_lines() {
         );
     }
     let refused = compensator(&good, -1.0);
-    assert_eq!(refused, "cycle_time = -1; allowed: finite and > 0");
+    assert_eq!(refused, "cycle time -1 s; allowed: 0.000001 s to 0.1 s");
 }
 
 fn compensator(model: &ModelFile, cycle_time: f64) -> String {

@@ -260,7 +260,7 @@ fn the_counts_show_a_static_friction_that_the_force_does_not() {
         );
         let log = bench.write("moves.csv", &text);
         let mut asked = options(&[&log], LawKind::LuGre);
-        asked.law = None;
+        (asked.law, asked.compare_laws) = (None, true);
         let found = asked.identify(&mut Silent).unwrap();
         let laws = &found.result.laws;
         let reported = laws.iter().find(|law| law.reported).unwrap();
