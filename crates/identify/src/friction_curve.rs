@@ -6,6 +6,7 @@
 
 use crate::conditioning::record::Record;
 use crate::error::Error;
+use crate::estimate::sliding::slides;
 use crate::estimate::{Estimate, outweighs_inertia};
 use crate::law::prior::Prior;
 use crate::law::terms::{ColumnKind, Delay, Side, Terms};
@@ -22,7 +23,8 @@ use stiction_search::{Observer, Status};
 
 /// Most knots of the curve.
 const KNOTS: usize = 7;
-/// First knot, in parts of the top speed: below it the fitted curve is constant.
+/// First knot, in parts of the top speed: below it the fitted curve is constant, so that it takes up rests and break-away and is not
+/// stated.
 const FIRST: f64 = 0.02;
 /// Fewest samples of a direction nearest to a knot, for each unknown of the curve.
 const SAMPLES: usize = 4;
@@ -130,6 +132,7 @@ pub fn friction_curve(
     if fitted.stays_in_presliding() {
         return Ok(None);
     }
+    let record = &sliding(record, fitted);
     let strokes = Strokes::of(record);
     let Some((knots, told, sides)) = knots(&strokes, &outweighs_inertia(record, fitted)) else {
         return Ok(None);
@@ -172,15 +175,27 @@ pub fn friction_curve(
     ))
 }
 
+/// The record without what lies between a reversal and the turn of the bristles, where friction is not that of steady sliding.
+fn sliding(record: &Record, fitted: &Estimate) -> Record {
+    let strokes = Strokes::of(record);
+    let slides = |travel: &f64| slides(*travel, &fitted.parameters);
+    let mut slides = strokes.travel.iter().map(slides);
+    let all = record.segments.iter().flat_map(|segment| &segment.keep);
+    let counts: Vec<bool> = all
+        .map(|keep| *keep && slides.next() == Some(true))
+        .collect();
+    record.masked(|i| counts[i])
+}
+
 /// Knots that the speeds of every direction reach, which of them are stated, and the directions; `None` where none is.
 ///
 /// Where inertia outweighs friction, an error of some per cent in its size or timing is one of as many in friction or more, and comes
 /// again in every stroke, so that no scatter shows it. Speeds that are only passed so have no knot between those that are stated; beyond
 /// they keep theirs, which then take up that error.
-fn knots(strokes: &Strokes, outweighs: &[bool]) -> Option<(Vec<f64>, Range<usize>, Vec<Side>)> {
+fn knots(strokes: &Strokes, is_known: &[bool]) -> Option<(Vec<f64>, Range<usize>, Vec<Side>)> {
     let of = |sense: f64, known: bool| {
-        let each = strokes.speed.iter().zip(&strokes.sense).zip(outweighs);
-        each.filter(move |((_, own), outweighs)| **own == sense && (**outweighs || !known))
+        let each = strokes.speed.iter().zip(&strokes.sense).zip(is_known);
+        each.filter(move |((_, own), is_known)| **own == sense && (**is_known || !known))
             .map(|((speed, _), _)| *speed)
     };
     let sides: Vec<(Side, f64)> = [(Side::Positive, 1.0), (Side::Negative, -1.0)]
@@ -192,9 +207,10 @@ fn knots(strokes: &Strokes, outweighs: &[bool]) -> Option<(Vec<f64>, Range<usize
         .collect();
     let last = (KNOTS - 1) as f64;
     let root = FIRST.sqrt();
-    let all: Vec<f64> = (0..KNOTS)
-        .map(|k| strokes.top * (root + (1.0 - root) * k as f64 / last).powi(2))
-        .collect();
+    let knot = |k: usize| strokes.top * (root + (1.0 - root) * k as f64 / last).powi(2);
+    let fastest = strokes.speed.iter().copied().fold(0.0, f64::max);
+    let mut all: Vec<f64> = (0..KNOTS).map(knot).collect();
+    all.extend(Some(fastest).filter(|fastest| *fastest > knot(KNOTS)));
     let hats = Hat::of(&all);
     let seen = |hat: &Hat, known: bool| {
         // Its own: two knots around a single speed are not told apart.
@@ -203,9 +219,10 @@ fn knots(strokes: &Strokes, outweighs: &[bool]) -> Option<(Vec<f64>, Range<usize
             .iter()
             .all(|(_, sense)| own(*sense).count() >= SAMPLES)
     };
-    let known = |hat: &&Hat| seen(hat, true);
-    let first = hats.iter().find(known)?.at;
-    let last = hats.iter().rfind(known)?.at;
+    // The outer ones hold what is slower and faster too: rests, break-away, a few samples beyond the top speed.
+    let mut known = hats[1..KNOTS].iter().filter(|hat| seen(hat, true));
+    let first = known.next()?.at;
+    let last = known.next_back().map_or(first, |hat| hat.at);
     let used = hats
         .iter()
         .filter(|hat| seen(hat, (first..=last).contains(&hat.at)));
@@ -233,9 +250,7 @@ fn stated(
     for (k, j) in active.enumerate() {
         place[j] = Some(nonlinear + k);
     }
-    // Elsewhere an error in the inertia may be larger than friction, which is then held at zero.
-    let mut known = (0..knots).filter(|j| told.contains(&(j % hats.len())));
-    if known.any(|j| place[j].is_none()) {
+    if place[..knots].contains(&None) {
         return None;
     }
     let mut friction = vec![0.0; at.residual().len()];

@@ -178,6 +178,12 @@ pub(crate) fn is_presliding(stroke: f64, parameters: &[Parameter]) -> bool {
     ways(stroke, parameters).is_some_and(|ways| ways < 1.0)
 }
 
+/// Whether a way (m or rad) after a reversal is long enough for bristles to come within a twentieth of their level; so for a law
+/// without them.
+pub(crate) fn slides(way: f64, parameters: &[Parameter]) -> bool {
+    ways(way, parameters).is_none_or(|ways| ways >= interval::MIN_TRAVELS)
+}
+
 /// The stroke in such travels; `None` for a law without a bristle.
 fn ways(stroke: f64, parameters: &[Parameter]) -> Option<f64> {
     let of = |quantity: Quantity, side| {

@@ -159,9 +159,10 @@ pub(crate) struct LinearTerm {
 }
 
 impl LinearTerm {
-    /// Whether its coefficient must not be negative.
+    /// Whether its coefficient must not be negative. The curve of one direction may: a weight beside friction is in it.
     pub fn is_never_negative(&self) -> bool {
-        self.name.quantity.allowed().is_never_negative()
+        let of_curve = matches!(self.column, ColumnKind::LevelTimes(Factor::Hat(_), _));
+        !of_curve && self.name.quantity.allowed().is_never_negative()
     }
 }
 

@@ -17,6 +17,8 @@ pub(crate) struct Strokes {
     pub speed: Vec<f64>,
     /// Direction of its stroke: 1 or -1.
     pub sense: Vec<f64>,
+    /// Way of each kept sample from the first of its stroke, m or rad.
+    pub travel: Vec<f64>,
     /// Kind of each stroke: same direction, and nearly the same length and peak speed.
     pub kind: Vec<usize>,
     /// Length of each stroke, m or rad.
@@ -83,6 +85,7 @@ impl Strokes {
             of: Vec::with_capacity(samples.len()),
             piece: Vec::with_capacity(samples.len()),
             sense: Vec::with_capacity(samples.len()),
+            travel: Vec::with_capacity(samples.len()),
             kind: Vec::new(),
             length: Vec::with_capacity(runs.len()),
             halves: Vec::new(),
@@ -102,10 +105,11 @@ impl Strokes {
             above(&travel, &mut far);
             let ends = run.last().map_or(0.0, |last| last.way - run[0].way);
             let sense = if ends < 0.0 { -1.0 } else { 1.0 };
-            for i in 0..run.len() {
+            for (i, sample) in run.iter().enumerate() {
                 out.of.push(k);
                 out.piece.push(i * PIECES / run.len());
                 out.sense.push(sense);
+                out.travel.push(travel(sample));
             }
             let most = |of: &dyn Fn(&Sample) -> f64| run.iter().map(of).fold(0.0, f64::max);
             out.length.push(most(&travel));
