@@ -193,6 +193,29 @@ impl RigidFit {
         (0..joints.len()).map(on).collect()
     }
 
+    /// By how much the force on each joint may be wrong by the covariance, its armature with it: root mean square over the samples of its
+    /// record that count, N or N m. What inertia of a body and armature share does not count.
+    pub fn deviations(&self, machine: Machine, joints: &[RobotJoint]) -> Vec<f64> {
+        let on = |own: usize| {
+            let columns = Columns::one(machine, joints, own);
+            let force = self.errors(&columns, columns.rigid + 1);
+            (force.norm_squared() / force.nrows().max(1) as f64).sqrt()
+        };
+        (0..joints.len()).map(on).collect()
+    }
+
+    /// Errors of the force by the first columns of a joint: a column for each independent direction of their covariance.
+    fn errors(&self, columns: &Columns, count: usize) -> DMatrix<f64> {
+        columns.matrix.columns(0, count) * self.root(&columns.places[..count])
+    }
+
+    /// Root of the covariance of some unknowns.
+    fn root(&self, places: &[usize]) -> DMatrix<f64> {
+        let n = places.len();
+        let of = |i: usize, j: usize| self.covariance[(places[i], places[j])];
+        solve::root(DMatrix::from_fn(n, n, of))
+    }
+
     /// Directions of the parameters, one standard deviation each, that together give nearly all of the variance of the force on a
     /// joint along its record.
     fn directions(&self, machine: Machine, joints: &[RobotJoint], joint: usize) -> Vec<Vec<f64>> {
@@ -206,10 +229,8 @@ impl RigidFit {
         let count = columns.rigid;
         // The covariance of the parameters that act on this joint, and their force at all samples.
         let places = &columns.places[..count];
-        let covariance =
-            DMatrix::from_fn(count, count, |i, j| self.covariance[(places[i], places[j])]);
-        let root = solve::root(covariance);
-        let force = columns.matrix.columns(0, count).transpose().tr_mul(&root);
+        let root = self.root(places);
+        let force = self.errors(&columns, count);
         let gram = force.tr_mul(&force);
         let total = gram.trace();
         let eigen = gram.symmetric_eigen();

@@ -4,13 +4,15 @@ use super::Prior;
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use std::ops::Range;
 
-/// Eigenvalues of scaled normal equations, as a part of the largest, below which a direction is not determined: it stays at 0.
+/// Eigenvalues of scaled normal equations, as a part of the largest, below which a direction is not determined: there the prior stays.
 const LEAST_EIGENVALUE: f64 = 1e-11;
 
 /// Normal equations.
 pub(super) struct Normal {
     matrix: DMatrix<f64>,
     right: DVector<f64>,
+    /// What the prior has; 0 of what it does not know.
+    prior: DVector<f64>,
 }
 
 impl Normal {
@@ -25,7 +27,13 @@ impl Normal {
         right
             .rows_mut(0, known)
             .copy_from(&(part * &prior.information * &prior.parameters));
-        Self { matrix, right }
+        let mut mean = DVector::zeros(unknowns);
+        mean.rows_mut(0, known).copy_from(&prior.parameters);
+        Self {
+            matrix,
+            right,
+            prior: mean,
+        }
     }
 
     /// Adds rows whose columns are these unknowns, each of this variance.
@@ -51,8 +59,9 @@ impl Normal {
         let mut free: Vec<usize> = (0..self.right.len()).collect();
         loop {
             let matrix = self.matrix.select_rows(&free).select_columns(&free);
-            let right = self.right.select_rows(&free);
-            let own = inverse(matrix) * right;
+            let prior = self.prior.select_rows(&free);
+            let right = self.right.select_rows(&free) - matrix.tr_mul(&prior);
+            let own = prior + inverse(matrix) * right;
             let mut out = DVector::zeros(self.right.len());
             for (place, x) in free.iter().zip(own.iter()) {
                 out[*place] = *x;

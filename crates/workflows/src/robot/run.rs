@@ -94,7 +94,11 @@ pub fn robot(
     let fitted = left(&loaded, &records, &rigid, &joints);
     let unseen = held_out.as_ref();
     let unseen = unseen.map(|records| left(&loaded, records, &rigid, &joints));
+    let deviations = rigid.deviations(loaded.machine(), &records.joints(&loaded, &[]));
     for joint in &mut joints {
+        let mut all = loaded.joints.iter().zip(&deviations);
+        let own = all.find(|(own, _)| loaded.robot.joints()[own.joint].name == joint.name);
+        joint.rigid_deviation = own.map_or(0.0, |(_, deviation)| *deviation);
         for (place, all) in [Some(&fitted), unseen.as_ref()].into_iter().enumerate() {
             let own = all.and_then(|all| all.iter().find(|(name, _)| *name == joint.name));
             joint.left[place] = own.map_or(Vec::new(), |(_, left)| left.clone());

@@ -521,3 +521,78 @@ fn what_was_interrupted_is_not_trusted() {
         assert_says(&said(&found), &["trustworthy: false", "ended early"]);
     }
 }
+
+/// The inertia of the first body about its joint and an armature act alike: the URDF decides, and what the two share is no error of the
+/// torque, however exact the log.
+#[test]
+fn what_inertia_and_armature_share_is_no_error() {
+    const HEAVY: f64 = 50.0;
+    const LIGHT: f64 = 0.01;
+    let body = |name: &str, mass: f64, inertia: f64| {
+        format!(
+            "<link name=\"{name}\"><inertial><mass value=\"{mass}\"/><inertia ixx=\"{inertia}\" iyy=\"{inertia}\" \
+             izz=\"{inertia}\" ixy=\"0\" ixz=\"0\" iyz=\"0\"/></inertial></link>"
+        )
+    };
+    let joint = |name: &str, parent: &str, child: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/><child link=\"{child}\"/>\
+             <axis xyz=\"0 0 1\"/></joint>"
+        )
+    };
+    let urdf = format!(
+        "<robot name=\"two\"><link name=\"base\"/>{}{}{}{}</robot>",
+        body("heavy", 10.0, HEAVY),
+        body("light", 0.1, LIGHT),
+        joint("first", "base", "heavy"),
+        joint("second", "heavy", "light"),
+    );
+    // A sine of some amplitude and frequency, Hz: position, velocity, acceleration.
+    let sine = |amplitude: f64, hertz: f64, t: f64| {
+        let w = std::f64::consts::TAU * hertz;
+        let (sin, cos) = (w * t).sin_cos();
+        [sin, w * cos, -w * w * sin].map(|x| amplitude * x)
+    };
+    // Uniform, of a deviation of 0.02 N m.
+    let noise = |k: i32| {
+        let x = (12.9898 * f64::from(k)).sin() * 43_758.545_3;
+        0.069 * (x - x.floor() - 0.5)
+    };
+    let mut log = String::from("t [s],q1 [rad],q2 [rad],tau1 [N*m],tau2 [N*m]\n");
+    for i in 0..10_000 {
+        let t = f64::from(i) / 250.0;
+        let [a, b, c] = [(0.5, 0.5), (0.8, 0.31), (0.3, 0.837)].map(|(a, hertz)| sine(a, hertz, t));
+        let second = [b[0] + c[0], b[1] + c[1], b[2] + c[2]];
+        let friction =
+            |v: f64, coulomb: f64, viscous: f64| coulomb * (v / 1e-3).tanh() + viscous * v;
+        let shared = LIGHT * (a[2] + second[2]);
+        let tau1 = HEAVY * a[2] + shared + friction(a[1], 5.0, 3.0) + noise(2 * i);
+        let tau2 = shared + friction(second[1], 2.0, 0.5) + noise(2 * i + 1);
+        log += &format!("{t},{:.9},{:.9},{tau1:.6},{tau2:.6}\n", a[0], second[0]);
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let written = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let files = Files {
+        urdf: Some(written("two.urdf", &urdf)),
+        logs: vec![written("fit.csv", &log)],
+        ..Files::default()
+    };
+    let found = robot(&files, &Options::default(), &mut Silent).unwrap();
+    let inertia = found.rigid.parameters[9];
+    assert!((inertia / HEAVY - 1.0).abs() < 0.01, "{inertia}");
+    assert!(found.rigid.armature[0] < 0.01 * HEAVY);
+    for joint in &found.result.joints {
+        let fit = joint.fit.as_ref().unwrap();
+        assert!(
+            fit.held_out_rms < 0.1,
+            "{}: {}",
+            joint.name,
+            fit.held_out_rms
+        );
+        assert!(fit.trustworthy);
+    }
+}
