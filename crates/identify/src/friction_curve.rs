@@ -43,7 +43,7 @@ pub struct FrictionCurve {
     /// Half of the sum of both directions, N (N m); empty for one direction.
     pub both: Vec<Level>,
     /// Coulomb and viscous friction, N and N s/m (N m and N m s/rad), of the straight line nearest to it from a tenth of the top speed
-    /// on; `None` for one direction and for one speed.
+    /// on; `None` for one direction, for one speed, and where the curve ends below half of the top speed of the log.
     pub line: Option<[Level; 2]>,
     /// Correlations from day to day, -1 to 1: of the two, and of each with the mass, where it is fitted.
     pub correlation: Option<(f64, Option<[f64; 2]>)>,
@@ -79,6 +79,8 @@ const PARTS: [f64; 3] = [0.05, 0.5, 1.0];
 /// Part of the top speed from which on a line of Coulomb and viscous friction is taken: below it lies the Stribeck curve, which no
 /// line describes.
 const LINE: f64 = 0.1;
+/// Part of the top speed of the log that the curve reaches at least, for a line to stand for all of it. Source: choice.
+const REACH: f64 = 0.5;
 
 /// A piecewise linear function of the speed that is 1 at a knot and 0 at its neighbours, constant beyond the outer ones.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -324,7 +326,7 @@ fn stated(
     let half = if two { vec![0.5; 2] } else { vec![1.0] };
     let both: Vec<Level> = if two { along(&half) } else { Vec::new() };
     // The line nearest to it, each speed counted as far as to its neighbours.
-    let line = (two && speed.len() > 1).then(|| {
+    let line = (two && speed.len() > 1 && top >= REACH * strokes.top).then(|| {
         let within = |v: &f64| if *v >= LINE * top { 1.0 } else { 0.0 };
         let weights = spacing(&speed).into_iter().zip(&speed);
         let weights: Vec<f64> = weights.map(|(w, v)| w * within(v)).collect();
