@@ -223,7 +223,7 @@ fn speeds_that_are_only_passed_are_not_stated() {
 fn break_away_and_a_short_fast_move_bend_no_curve() {
     let of = |way: i32| [0.025, 0.05, 0.1][way.rem_euclid(12) as usize / 4];
     let slow = |t: f64| moves(of, 0.04, t);
-    let fast = |t: f64| moves(|way| if way < 2 { 0.3 } else { of(way) }, 0.04, t);
+    let fast = |t: f64| moves(|way| if way < 1 { 0.3 } else { of(way) }, 0.04, t);
     for (seed, motion) in [(7, &slow as &dyn Fn(f64) -> [f64; 2]), (8, &fast)] {
         let found = curve(&record(motion, 0.0, seed), LawKind::LuGre).unwrap();
         assert_true(&found, &law(), OFFSET);
