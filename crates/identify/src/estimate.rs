@@ -299,6 +299,10 @@ pub fn friction_along(record: &Record, fitted: &Estimate) -> FrictionAlong {
 /// Whether the friction of a law that was fitted to a record outweighs the inertia, at the samples that count. Of a joint whose rigid body
 /// acts from outside the armature alone says nothing of the inertia: there it counts as outweighed.
 pub(crate) fn outweighs_inertia(record: &Record, fitted: &Estimate) -> Vec<bool> {
+    let mut segments = record.segments.iter();
+    if segments.any(|segment| !segment.channels.external.is_empty()) {
+        return vec![true; record.kept()];
+    }
     let objective = Objective::new(record, fitted.law, &fitted.terms);
     let n = objective.force().len();
     let mut inertia = objective.inertia(&fitted.p);
@@ -316,10 +320,8 @@ pub(crate) fn outweighs_inertia(record: &Record, fitted: &Estimate) -> Vec<bool>
             .zip(column.iter())
             .for_each(|(y, x)| *y += c * x);
     }
-    let mut segments = record.segments.iter();
-    let is_carried = segments.any(|segment| !segment.channels.external.is_empty());
     let both = friction.iter().zip(&inertia);
-    both.map(|(f, i)| is_carried || f.abs() > i.abs()).collect()
+    both.map(|(f, i)| f.abs() > i.abs()).collect()
 }
 
 /// Whether a term of the force is friction: not inertia, weight or an offset.

@@ -34,8 +34,6 @@ const BETWEEN: usize = 4;
 /// Friction by speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrictionCurve {
-    /// Largest speed of the curve, m/s or rad/s; 3 % of the samples in motion are above the top speed of the log.
-    pub top: f64,
     /// Speeds from the least to the largest at which friction outweighs inertia, m/s or rad/s.
     pub speed: Vec<f64>,
     /// Friction of the directions that the log has.
@@ -349,7 +347,6 @@ fn stated(
     let mut at: Vec<f64> = PARTS.map(|part| (part * top).max(least)).into();
     at.dedup();
     Some(FrictionCurve {
-        top,
         directions: directions.collect(),
         both,
         correlation: line.as_ref().map(|[coulomb, viscous]| {

@@ -198,15 +198,11 @@ impl RigidFit {
     pub fn deviations(&self, machine: Machine, joints: &[RobotJoint]) -> Vec<f64> {
         let on = |own: usize| {
             let columns = Columns::one(machine, joints, own);
-            let force = self.errors(&columns, columns.rigid + 1);
+            let count = columns.rigid + 1;
+            let force = columns.forces(&self.root(&columns.places[..count]));
             (force.norm_squared() / force.nrows().max(1) as f64).sqrt()
         };
         (0..joints.len()).map(on).collect()
-    }
-
-    /// Errors of the force by the first columns of a joint: a column for each independent direction of their covariance.
-    fn errors(&self, columns: &Columns, count: usize) -> DMatrix<f64> {
-        columns.matrix.columns(0, count) * self.root(&columns.places[..count])
     }
 
     /// Root of the covariance of some unknowns.
@@ -230,7 +226,7 @@ impl RigidFit {
         // The covariance of the parameters that act on this joint, and their force at all samples.
         let places = &columns.places[..count];
         let root = self.root(places);
-        let force = self.errors(&columns, count);
+        let force = columns.forces(&root);
         let gram = force.tr_mul(&force);
         let total = gram.trace();
         let eigen = gram.symmetric_eigen();

@@ -85,7 +85,13 @@ pub enum Method {
 
 impl Method {
     fn of_workflow(self) -> workflow::Method {
-        workflow::Method::ALL[self as usize]
+        match self {
+            Method::Separable => workflow::Method::Separable,
+            Method::OutputError => workflow::Method::OutputError,
+            Method::Static => workflow::Method::Static,
+            Method::StaticThenDynamic => workflow::Method::StaticThenDynamic,
+            Method::PreslidingStep => workflow::Method::PreslidingStep,
+        }
     }
 }
 

@@ -13,7 +13,7 @@ pub struct FrictionCurveEntry {
     /// with one direction its own.
     pub at: Vec<FrictionAtEntry>,
     /// Coulomb and viscous friction of the straight line nearest to half of the sum of both directions from a tenth of the top speed
-    /// on, as simulators take it; absent for one direction.
+    /// on, as simulators take it; absent for one direction, for one speed, and where the curve ends below half of the top speed.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<FrictionLineEntry>,
     /// Speeds from the least to the largest at which friction outweighs inertia.

@@ -94,6 +94,12 @@ impl Columns {
         }
     }
 
+    /// Forces of some values of the first unknowns, a column for each: a product with a transpose, as in `solve`.
+    pub fn forces(&self, values: &DMatrix<f64>) -> DMatrix<f64> {
+        let columns = self.matrix.columns(0, values.nrows());
+        columns.transpose().tr_mul(values)
+    }
+
     /// What a solution leaves of the force.
     pub fn left(&self, solution: &DVector<f64>) -> DVector<f64> {
         let own = DVector::from_iterator(
