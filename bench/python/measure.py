@@ -1,8 +1,8 @@
-"""What the Python package costs over the library: measure.py TIMED [WHEEL], the built example `timed` of crates/stiction.
+"""What the Python package costs over the library: measure.py TIMED WHEEL, the built example `timed` of crates/stiction.
 
 Prints import time, identification of 30 001 samples against the same call in Rust (in turn, the least of all), two threads
-against one, in Rust and in Python, the memory of many calls and the size of the wheel, and ends with exit code 1 where one
-misses its bar.
+against one, in Rust and in Python, the memory of many calls and the size of the wheel, and what misses its bar. It ends with
+exit code 1 where one does, but not for the page of figures, `--page`.
 Run it with the Python that the wheel is installed in, on a machine that does nothing else: `cargo xtask wheel` does, and
 `cargo xtask performance python` without its tests.
 """
@@ -32,7 +32,8 @@ if len(sys.argv) == 1:
     if wheel is None:
         sys.exit("no wheel is built: `cargo xtask performance python`")
     python = BUILT / "venv/bin/python"
-    os.execv(python, [str(python), __file__, str(environment.target() / "dist/examples/timed"), str(wheel)])
+    words = [__file__, environment.target() / "dist/examples/timed", wheel, "--page"]
+    os.execv(python, [str(word) for word in [python, *words]])
 
 import stiction
 
@@ -100,28 +101,29 @@ def kept(calls: int) -> float:
     return (run(calls) - first) / 1e6
 
 
-class Bars:
-    """What is measured against what is allowed."""
+class Rows:
+    """The table of what is measured, and of what is allowed."""
 
     def __init__(self) -> None:
         self.missed: list[str] = []
+        print("\n| what | measured | bar |\n|---|---|---|")
 
-    def hold(self, name: str, is_held: bool) -> None:
+    def add(self, what: str, measured: str, bar: str = "", is_held: bool = True) -> None:
         if not is_held:
-            self.missed.append(name)
+            self.missed.append(f"{what}: {measured}, bar {bar}")
+            bar += ", **missed**"
+        print(f"| {what} | {measured} | {bar} |")
 
 
-def main(timed: str, wheel: str | None) -> list[str]:
+def main(timed: str, wheel: str) -> list[str]:
     """The bars that are missed."""
-    bars = Bars()
-    print(environment.described("numpy") + ".\n\n| what | measured |\n|---|---|")
-    if wheel:
-        size = Path(wheel).stat().st_size / 1e6
-        print(f"| size of the wheel | {size:.2f} MB |")
-        bars.hold("a wheel of at most 8 MB", size <= 8.0)
+    print(environment.described("numpy") + ".")
+    rows = Rows()
+    size = Path(wheel).stat().st_size / 1e6
+    rows.add("size of the wheel", f"{size:.2f} MB", "8 MB", size <= 8.0)
     own = importing("stiction")
-    print(f"| `import stiction`; of that numpy | {1e3 * own:.0f}; {1e3 * importing('numpy'):.0f} ms |")
-    bars.hold("an import within 60 ms", own < 0.06)
+    of_numpy = f"{1e3 * own:.0f}; {1e3 * importing('numpy'):.0f} ms"
+    rows.add("`import stiction`; of that numpy", of_numpy, "60 ms", own < 0.06)
     with tempfile.TemporaryDirectory() as folder:
         whole = stiction.write_demo_log(Path(folder) / "whole.csv", seed=1)
         path = Path(folder) / "run.csv"
@@ -132,28 +134,29 @@ def main(timed: str, wheel: str | None) -> list[str]:
             ours += [identified(log) for _ in range(3)]
             theirs.append(float(subprocess.run([timed, path, "3"], capture_output=True, text=True, check=True).stdout))
         python, rust = min(ours), min(theirs)
-        print(f"| `identify`, {SAMPLES} samples; the same in Rust | {python:.4f}; {rust:.4f} s |")
-        bars.hold("identify at most 5 % over Rust", python <= 1.05 * rust)
+        both = f"{python:.4f}; {rust:.4f} s"
+        rows.add(f"`identify`, {SAMPLES} samples; the same in Rust", both, "5 % over Rust", python <= 1.05 * rust)
         held = min(with_the_interpreter(log) for _ in range(ROUNDS))
-        print(f"| processor time of the calling thread | {100 * held:.2f} % of that of the search |")
+        rows.add("processor time of the calling thread", f"{100 * held:.2f} % of that of the search")
         one = min(at_once(lambda: identified(log), 1) for _ in range(ROUNDS))
         two = min(at_once(lambda: identified(log), 2) for _ in range(ROUNDS))
-        print(f"| two threads with a search each | {2 * one / two:.2f} times the work of one |")
-        bars.hold("two threads 1.8 times one", 2 * one >= 1.8 * two)
+        times = f"{2 * one / two:.2f} times the work of one"
+        rows.add("two threads with a search each", times, "1.8 times", 2 * one >= 1.8 * two)
         fit = stiction.identify(log, law="lugre", run=stiction.Run(compare_laws=False))
         one = min(at_once(lambda: stepped(fit), 1) for _ in range(ROUNDS))
         two = min(at_once(lambda: stepped(fit), 2) for _ in range(ROUNDS))
-        print(f"| two threads that call a law | {2 * one / two:.2f} times the work of one |")
         is_free = not getattr(sys, "_is_gil_enabled", lambda: True)()
-        bars.hold("without a lock of the interpreter they do 1.6 times", not is_free or 2 * one >= 1.6 * two)
+        times = f"{2 * one / two:.2f} times the work of one"
+        bar = "1.6 times" if is_free else ""
+        rows.add("two threads that call a law", times, bar, not is_free or 2 * one >= 1.6 * two)
     growth = kept(10_000)
-    print(f"| memory after 10 000 identifications | {growth:+.1f} MB |")
-    bars.hold("no growth over 10 000 calls", growth < 10.0)
-    return bars.missed
+    rows.add("memory after 10 000 identifications", f"{growth:+.1f} MB", "10 MB", growth < 10.0)
+    return rows.missed
 
 
 if __name__ == "__main__":
     warnings.simplefilter("ignore")
-    missed = main(sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None)
-    if missed:
+    missed = main(*sys.argv[1:3])
+    # The page says what is missed; whoever builds a wheel is stopped by it.
+    if missed and "--page" not in sys.argv:
         sys.exit("missed: " + "; ".join(missed))
