@@ -3,7 +3,7 @@
 
 mod archive;
 pub mod notices;
-mod sbom;
+pub mod sbom;
 mod semver;
 pub mod target;
 mod twice;
@@ -74,7 +74,7 @@ pub fn outdated(folder: &Path) -> Outcome {
 }
 
 /// The version of the workspace. The crates depend on each other at this version and no other.
-fn version() -> Result<String, String> {
+pub fn version() -> Result<String, String> {
     let manifest = shell::root().join("Cargo.toml");
     let text = fs::read_to_string(&manifest).map_err(|e| format!("{}: {e}", manifest.display()))?;
     let version = text

@@ -12,6 +12,8 @@ const LIBRARY: &str = "debug/libstiction_native.so";
 /// Where its wheels are made, in the target folder.
 const FOLDER: &str = "python";
 const TESTS: &str = "python/tests";
+/// The crate of the native half.
+const CRATE: &str = "stiction-python";
 /// Builds that library and the command line to compare with.
 pub const BUILD: &str = "build --workspace --lib --bins --example record";
 
@@ -158,13 +160,20 @@ fn released(folder: &Path, target: &Target, python: Option<&str>) -> Result<Path
         arguments.extend(["--zig", "--compatibility", "manylinux2014"]);
     }
     arguments.extend(python.iter().flat_map(|python| ["--interpreter", *python]));
+    let materials = folder.join(release::sbom::FILE);
+    let included = text(&materials);
+    arguments.extend(["--sbom-include", &included]);
     let mut build = python::release("maturin", &arguments)?;
     release::target::reproducible(&mut build)?;
     // Not in the tree: it follows the target and the lock file.
     let notices = shell::root().join(release::notices::FILE);
-    release::notices::write(target, "stiction-python", &notices)?;
+    release::notices::write(target, CRATE, &notices)?;
+    fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
+    release::sbom::write(target, CRATE, &release::version()?, &materials)?;
     let built = shell::run(build);
-    fs::remove_file(&notices).map_err(|e| format!("{}: {e}", notices.display()))?;
+    for made in [&notices, &materials] {
+        fs::remove_file(made).map_err(|e| format!("{}: {e}", made.display()))?;
+    }
     built?;
     let failed = |e: std::io::Error| format!("{}: {e}", alone.display());
     let made = fs::read_dir(&alone).map_err(failed)?.next();

@@ -42,7 +42,7 @@ pub fn make(version: &str, target: &Target) -> Result<Vec<String>, String> {
         copy(&shell::root().join(file), &folder.join(name))?;
     }
     notices::write(target, "stiction-cli", &folder.join(notices::FILE))?;
-    sbom::write(target, version, &folder.join("stiction.cdx.json"))?;
+    sbom::write(target, "stiction-cli", version, &folder.join(sbom::FILE))?;
     for (shell, file) in SHELLS {
         let text = shell::output(target.command(&all, &built, &["completions", shell])?)?;
         write(&folder.join("completions").join(file), &text)?;

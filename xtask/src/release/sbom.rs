@@ -1,4 +1,4 @@
-//! What the program is made of, for those who ask: a bill of materials, CycloneDX 1.6 as JSON. Wheels have one from maturin.
+//! What program and wheel are made of, for those who ask: a bill of materials, CycloneDX 1.6 as JSON, the same from any folder.
 
 use super::target::Target;
 use crate::shell::{self, Outcome};
@@ -6,17 +6,20 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::Path;
 
+/// Its name in an archive and in a wheel.
+pub const FILE: &str = "stiction.cdx.json";
+
 /// A package that is linked in.
 struct Package {
     licence: String,
     needs: BTreeSet<String>,
 }
 
-/// Writes every package with its version, licence and checksum, and which needs which.
-pub fn write(target: &Target, version: &str, to: &Path) -> Outcome {
-    let packages = packages(target)?;
+/// Writes every package that is linked into a crate with its version, licence and checksum, and which needs which.
+pub fn write(target: &Target, crate_: &str, version: &str, to: &Path) -> Outcome {
+    let packages = packages(target, crate_)?;
     let sums = checksums()?;
-    let main = purl("stiction-cli", version);
+    let main = purl(crate_, version);
     let component = |name: &str, package: &Package| {
         let sum = sums.get(name).map_or_else(String::new, |sum| {
             format!(r#","hashes":[{{"alg":"SHA-256","content":"{sum}"}}]"#)
@@ -34,7 +37,7 @@ pub fn write(target: &Target, version: &str, to: &Path) -> Outcome {
     };
     let about = packages
         .get(&main)
-        .ok_or("cargo tree has no stiction-cli")?;
+        .ok_or_else(|| format!("cargo tree has no {crate_}"))?;
     let about = component(&main, about);
     let others = packages.iter().filter(|(name, _)| **name != main);
     let others: Vec<String> = others
@@ -69,12 +72,12 @@ pub fn write(target: &Target, version: &str, to: &Path) -> Outcome {
     fs::write(to, text).map_err(|e| format!("{}: {e}", to.display()))
 }
 
-/// Every package below the program, by its package URL.
-fn packages(target: &Target) -> Result<BTreeMap<String, Package>, String> {
+/// Every package below a crate, by its package URL.
+fn packages(target: &Target, crate_: &str) -> Result<BTreeMap<String, Package>, String> {
     let mut packages: BTreeMap<String, Package> = BTreeMap::new();
-    // Those above the line that is read, from the program down.
+    // Those above the line that is read, from the crate down.
     let mut above: Vec<String> = Vec::new();
-    let tree = tree(target, "stiction-cli", "depth", "{p}|{l}")?;
+    let tree = tree(target, crate_, "depth", "{p}|{l}")?;
     for line in tree.lines() {
         let digits = line.chars().take_while(char::is_ascii_digit).count();
         let (depth, rest) = line.split_at(digits);
